@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Everything: #include <alpenglow/alpenglow.h>
+#ifndef ALPENGLOW_ALPENGLOW_H
+#define ALPENGLOW_ALPENGLOW_H
+
+#include <alpenglow/atlas.h>
+#include <alpenglow/bake.h>
+#include <alpenglow/context.h>
+#include <alpenglow/image.h>
+#include <alpenglow/occlusion.h>
+#include <alpenglow/render.h>
+#include <alpenglow/result.h>
+#include <alpenglow/scene.h>
+#include <alpenglow/version.h>
+
+#endif

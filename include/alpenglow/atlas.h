@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// An atlas: which texel of which page belongs to which point of which triangle.
+#ifndef ALPENGLOW_ATLAS_H
+#define ALPENGLOW_ATLAS_H
+
+#include <alpenglow/image.h>
+#include <alpenglow/scene.h>
+
+ALP_BEGIN_DECLS
+
+typedef struct alp_atlas alp_atlas;
+
+typedef enum alp_atlas_mode {
+    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else charts
+    ALP_ATLAS_KEEP =
+        1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
+    ALP_ATLAS_CHARTS = 2 ///< new charts, packed into pages
+} alp_atlas_mode;
+
+typedef struct alp_atlas_options {
+    size_t struct_size;
+    alp_atlas_mode mode;
+    uint32_t size; ///< side of a page in texels, [1, 16384]; default 1024
+    double
+        texels_per_metre; ///< texel density; 0 (default) = the highest at which all fits one page
+    uint32_t padding;     ///< free texels between neighbouring charts, [0, 64]; default 2
+    float max_angle; ///< radians between a triangle and its chart's plane, (0, 1.2]; default π/4
+    alp_progress_fn *progress;
+    void *progress_user;
+} alp_atlas_options;
+ALP_API alp_atlas_options alp_atlas_options_default(void);
+
+/// Makes an atlas: adjacency by position → clusters grown breadth-first while the normal stays
+/// within max_angle of the cluster's plane → planar projection, turned to its tightest box → packed
+/// pages. The same scene and options give the same atlas on any number of workers.
+/// @param scene must outlive the atlas
+/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
+///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
+///         4096 pages); OUT_OF_MEMORY; CANCELLED
+/// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
+/// 2007.
+ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
+                                                  const alp_atlas_options *options,
+                                                  alp_atlas **atlas);
+ALP_API void alp_atlas_destroy(alp_atlas *atlas); ///< NULL does nothing
+
+typedef struct alp_atlas_info {
+    alp_atlas_mode mode; ///< what was done: KEEP or CHARTS
+    uint32_t pages, width, height;
+    uint32_t charts;
+    uint64_t texels; ///< covered: with area of a chart inside
+    double
+        utilisation; ///< (chart and padding texels) / page texels; covered / page texels for KEEP
+    double texels_per_metre;   ///< mean over the area, √(texel area / world area)
+    uint32_t shared_triangles; ///< smaller than a texel or a sliver: they own no texel alone
+} alp_atlas_info;
+ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
+
+/// Texture coordinates [triangles][3][2] of every triangle's corners, v = 0 at row 0; and page
+/// [triangles]. Unusable triangles have coordinates too (one point inside a chart). Owned by the
+/// atlas.
+ALP_API const float *alp_atlas_corner_uvs(const alp_atlas *atlas);
+ALP_API const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas);
+
+/// A picture of one page: every chart in a colour of its own on black.
+ALP_API ALP_NODISCARD alp_result alp_atlas_picture(const alp_atlas *atlas, uint32_t page,
+                                                   alp_image **image);
+
+ALP_END_DECLS
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The whole job in one call: atlas, light, maps, files.
+#ifndef ALPENGLOW_BAKE_H
+#define ALPENGLOW_BAKE_H
+
+#include <alpenglow/atlas.h>
+#include <alpenglow/image.h>
+#include <alpenglow/occlusion.h>
+
+ALP_BEGIN_DECLS
+
+/// What happens to an occlusion map that a material has already.
+typedef enum alp_existing_ao {
+    ALP_EXISTING_AO_REPLACE = 0,  ///< ours takes its place (default)
+    ALP_EXISTING_AO_MULTIPLY = 1, ///< ours times the old one, read at each texel, takes its place
+    ALP_EXISTING_AO_KEEP = 2      ///< the material keeps its own
+} alp_existing_ao;
+
+typedef struct alp_bake_options {
+    size_t struct_size;
+    alp_atlas_options atlas;         ///< its progress is ignored
+    alp_occlusion_options occlusion; ///< its progress is ignored
+    alp_existing_ao existing_ao;
+    const char *output;        ///< .glb or .gltf, or NULL: no asset
+    const char *maps_folder;   ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
+    bool overwrite;            ///< default false: an existing file stops the job before it starts
+    alp_progress_fn *progress; ///< stages "atlas", "build", "occlusion", "write"
+    void *progress_user;
+} alp_bake_options;
+ALP_API alp_bake_options alp_bake_options_default(void);
+
+/// What was done. Strings and arrays are owned by the lightmap.
+typedef struct alp_bake_report {
+    alp_scene_info scene;
+    alp_atlas_info atlas;
+    float ao_distance; ///< metres, as used
+    double ao_mean;    ///< area-weighted mean accessibility
+    double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
+    uint64_t rays;
+    uint32_t threads;
+    uint64_t seed;
+    uint64_t input_hash;
+    uint64_t peak_memory_bytes; ///< of our own allocations
+} alp_bake_report;
+
+/// Maps over the pages of an atlas.
+typedef struct alp_lightmap alp_lightmap;
+
+/// Bakes occlusion of a scene and writes what the options ask for. Every output is written beside
+/// its place and renamed, after everything has succeeded.
+/// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
+/// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
+/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake); LIMIT; IO; OUT_OF_MEMORY;
+/// CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
+                                          alp_lightmap **lightmap, alp_bake_report *report);
+
+ALP_API void alp_lightmap_destroy(alp_lightmap *lightmap); ///< NULL does nothing
+ALP_API uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap);
+/// A page as floats [height][width][4]: accessibility in R = G = B, coverage in A (1 where a texel
+/// is covered, 0 elsewhere; uncovered texels near a chart hold its nearest value). Owned by the
+/// lightmap.
+ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
+                                       uint32_t *height);
+/// The atlas the maps are laid out on. Owned by the lightmap.
+ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
+
+ALP_END_DECLS
+
+#endif

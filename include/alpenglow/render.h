@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Pictures of a scene, to see what a bake looks like.
+#ifndef ALPENGLOW_RENDER_H
+#define ALPENGLOW_RENDER_H
+
+#include <alpenglow/bake.h>
+#include <alpenglow/image.h>
+#include <alpenglow/scene.h>
+
+ALP_BEGIN_DECLS
+
+typedef enum alp_render_method {
+    ALP_RENDER_AO = 0, ///< accessibility, from the scene's occlusion maps; surfaces without one,
+                       ///< and scenes without any, by rays at each pixel
+    ALP_RENDER_CONSTANT = 1 ///< constant ambient light of radiance 1: the albedo
+} alp_render_method;
+
+typedef struct alp_render_options {
+    size_t struct_size;
+    alp_render_method method;
+    uint32_t width, height; ///< pixels, [1, 16384]; default 960 × 540
+    uint32_t samples;       ///< camera rays per pixel, [1, 4096]; default 16
+    alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
+    uint32_t camera_index;  ///< default 0; past the last: the automatic camera
+    alp_occlusion_options occlusion; ///< for AO by rays; its progress is ignored
+    const alp_lightmap
+        *lightmap; ///< NULL, or maps of this scene that are read instead of its textures
+    alp_progress_fn *progress;
+    void *progress_user;
+} alp_render_options;
+ALP_API alp_render_options alp_render_options_default(void);
+
+/// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen.
+/// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
+                                            const alp_render_options *options, alp_image **image);
+
+/// 8-bit sRGB picture of a linear float image (values clamped to [0,1]), over a grey background
+/// where alpha is 0.
+ALP_API ALP_NODISCARD alp_result alp_image_to_display(const alp_image *linear, alp_image **display);
+
+ALP_END_DECLS
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A scene: triangles in world space with materials, lights and cameras. Immutable once made.
+#ifndef ALPENGLOW_SCENE_H
+#define ALPENGLOW_SCENE_H
+
+#include <alpenglow/context.h>
+
+ALP_BEGIN_DECLS
+
+/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. A scene is only
+/// read by the calls that take it, so threads with contexts of their own may share one.
+typedef struct alp_scene alp_scene;
+
+/// Reads a scene file (.gltf, .glb) or makes a built-in one ("builtin:cornell", "builtin:furnace",
+/// "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane", "builtin:teapot-room").
+/// What is odd but readable is told through the context's log.
+/// @return ALP_OK; IO; INVALID_DATA (malformed: names file, object and fault); UNSUPPORTED (a
+///         required extension, a file kind that is not read yet); LIMIT; OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char *path,
+                                                alp_scene **scene);
+
+/// A mesh handed over as arrays, already in world space.
+typedef struct alp_mesh {
+    const char *name; ///< NULL = "mesh N"
+    uint32_t vertex_count;
+    const float *positions; ///< [vertex_count][3] metres
+    const float *normals;   ///< [vertex_count][3] unit, or NULL: flat, from the triangles
+    const float *uvs;       ///< [vertex_count][2] lightmap coordinates in [0,1], or NULL
+    uint32_t triangle_count;
+    const uint32_t *indices; ///< [triangle_count][3], each < vertex_count
+    float base_color[3];     ///< linear diffuse colour, [0, 1] (clamped with a warning)
+    bool double_sided;
+} alp_mesh;
+
+/// Makes a scene from arrays (copied). `uvs` become the scene's second UV set, so that
+/// ALP_ATLAS_KEEP can use them.
+/// @return ALP_OK; INVALID_ARGUMENT (NULL array); INVALID_DATA (index out of range); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *context,
+                                                              const alp_mesh *meshes,
+                                                              uint32_t mesh_count,
+                                                              alp_scene **scene);
+
+ALP_API void alp_scene_destroy(alp_scene *scene); ///< NULL does nothing
+
+/// What is in a scene.
+typedef struct alp_scene_info {
+    uint32_t triangles;        ///< all, degenerate ones included
+    uint32_t usable_triangles; ///< with area and finite coordinates
+    uint32_t surfaces;         ///< one per node × primitive
+    uint32_t vertices;         ///< in world space, after flat normals were made
+    uint32_t materials, images, cameras, lights;
+    float bounds_min[3], bounds_max[3]; ///< metres, over usable triangles; zeros if there are none
+    double area;                        ///< square metres, one side, over usable triangles
+} alp_scene_info;
+ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
+
+/// One surface: a primitive placed in the world by a node.
+typedef struct alp_surface_info {
+    const char *name;     ///< of its node, else its mesh; owned by the scene
+    const char *material; ///< name, "" when the primitive has none
+    uint32_t first_triangle, triangle_count;
+    uint32_t uv_sets; ///< how many texture coordinate sets it has
+    bool double_sided, mirrored, normals_generated;
+} alp_surface_info;
+/// @param index < surfaces, else a zeroed struct with empty names
+ALP_API alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index);
+
+/// A pinhole camera.
+typedef struct alp_camera {
+    float position[3];  ///< metres
+    float target[3];    ///< a point on the view axis, not the position
+    float up[3];        ///< not parallel to the view axis
+    float vertical_fov; ///< full angle in radians, (0, π)
+} alp_camera;
+/// Camera `index` of the scene; with index ≥ cameras the automatic one: from a corner of the
+/// bounding box towards its centre, or from inside where the box is closed around it.
+ALP_API alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index);
+
+ALP_END_DECLS
+
+#endif

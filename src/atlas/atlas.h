@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Private side of alp_atlas: what the maps room reads. Pure geometry; no light here.
+#ifndef ALPI_ATLAS_ATLAS_H
+#define ALPI_ATLAS_ATLAS_H
+
+#include "scene/receivers.h"
+#include "scene/scene.h"
+
+#include <alpenglow/atlas.h>
+
+struct alp_atlas {
+    const alp_scene *scene;
+    alp_context *context;
+    alp_atlas_options options;
+    alp_atlas_info info;
+    float (*corner_uvs)[3][2]; // [triangle_count]
+    uint32_t *triangle_pages;  // [triangle_count]
+    uint32_t *triangle_charts; // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
+                               // KEEP: chart = connected island in uv
+};
+
+/// The covered texels of an atlas, page by page, row by row: index i is receiver i.
+typedef struct alpi_texels {
+    uint32_t count;
+    uint32_t *pages;          // [count]
+    uint16_t (*pixels)[2];    // [count] x, y
+    uint32_t *triangles;      // [count] the triangle the receiver lies on
+    float (*barycentrics)[2]; // [count] weights of its corners 1 and 2
+    float *areas;             // [count] world area of the chart inside the texel, m²
+    float *coverages;         // [count] share of the texel inside its chart(s), (0, 1]
+    uint32_t *charts;         // [count]
+    uint32_t *page_first;     // [pages + 1] first texel of each page
+    alpi_receivers receivers; // positions, geometric and shading normals
+} alpi_texels;
+
+/// A texel is covered when a usable triangle has area inside it. Its receiver lies at its centre
+/// where the centre is inside a triangle, else at the centroid of the largest piece of a triangle
+/// inside it.
+alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
+void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
+
+// --- the stages, each alone in its file ----------------------------------------------------------
+
+/// neighbours[t][k] = triangle across edge (corner k, corner k+1), or ALPI_NONE: border, unusable,
+/// or an edge that more than two triangles share. Vertices are equal where their positions are
+/// (−0 equals +0). Linear in triangles: hashed. [triangle_count][3], released by the caller.
+alp_result alpi_adjacency_create(const alp_scene *scene, uint32_t (**neighbours)[3]);
+
+/// clusters[t] = cluster of each usable triangle, else ALPI_NONE. Grown breadth-first from the
+/// largest free triangle while the normal stays within max_angle of the seed's plane and the
+/// projection does not fold over itself. Triangles of one cluster belong to one mesh instance
+/// (node).
+alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
+                                float max_angle, uint32_t **clusters, uint32_t *cluster_count);
+
+/// A rectangle to be packed and where it went, in texels.
+typedef struct alpi_pack_item {
+    uint32_t width, height; // ≥ 1
+    uint32_t x, y, page;    // out
+    bool turned;            // out: width and height were exchanged
+} alpi_pack_item;
+/// Skyline packing into pages of side `size` with `padding` free texels between neighbours (none at
+/// the page border). Items larger than a page fail with LIMIT. Deterministic.
+alp_result alpi_pack(alp_context *context, alpi_pack_item *items, uint32_t count, uint32_t size,
+                     uint32_t padding, uint32_t page_limit, uint32_t *page_count);
+
+#endif

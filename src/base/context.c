@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// The context: allocator with counting, error message, log, lazily started thread pool.
+#include "base/context.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <alpenglow/version.h>
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MESSAGE_SIZE = 1024, WORKER_LIMIT = 1024, ISA_SIZE = 16 };
+
+/// Stands before every block, so that a release knows its size. 16 bytes keep the alignment.
+typedef struct block_header {
+    size_t size;
+    size_t padding;
+} block_header;
+
+struct alp_context {
+    alp_context_options options;
+    char max_isa[ISA_SIZE];
+    uint32_t worker_count;
+    struct alpi_pool *pool;
+    pthread_mutex_t message_lock; // workers may fail too
+    char message[MESSAGE_SIZE];
+    _Atomic uint64_t memory_now;
+    _Atomic uint64_t memory_peak;
+};
+
+static void *default_allocate(void *user, size_t size)
+{
+    (void)user;
+    return malloc(size);
+}
+
+static void default_release(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+alp_context_options alp_context_options_default(void)
+{
+    return (alp_context_options){.struct_size = sizeof(alp_context_options)};
+}
+
+static uint32_t online_cores(void)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : cores > WORKER_LIMIT ? WORKER_LIMIT : (uint32_t)cores;
+}
+
+static bool options_are_valid(const alp_context_options *o)
+{
+    static const char *const levels[] = {"sse2", "sse4.2", "avx", "avx2"};
+    bool isa_known = o->max_isa == NULL;
+    for (size_t i = 0; i < sizeof levels / sizeof *levels && !isa_known; i++) {
+        isa_known = strcmp(o->max_isa, levels[i]) == 0;
+    }
+    return o->struct_size == sizeof *o && (o->allocate == NULL) == (o->release == NULL) &&
+           o->worker_count <= WORKER_LIMIT && (o->parallel_for == NULL || o->worker_count > 0) &&
+           isa_known;
+}
+
+alp_result alp_context_create(const alp_context_options *options, alp_context **context)
+{
+    if (context == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    *context = NULL;
+    alp_context_options o = options ? *options : alp_context_options_default();
+    if (!options_are_valid(&o)) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    if (o.allocate == NULL) {
+        o.allocate = default_allocate;
+        o.release = default_release;
+    }
+    alp_context *c = o.allocate(o.allocator_user, sizeof *c);
+    if (c == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    memset(c, 0, sizeof *c);
+    c->options = o;
+    if (o.max_isa != NULL) {
+        snprintf(c->max_isa, sizeof c->max_isa, "%s", o.max_isa);
+        c->options.max_isa = c->max_isa;
+    }
+    c->worker_count = o.worker_count > 0 ? o.worker_count : online_cores();
+    pthread_mutex_init(&c->message_lock, NULL);
+    *context = c;
+    return ALP_OK;
+}
+
+void alp_context_destroy(alp_context *context)
+{
+    if (context == NULL) {
+        return;
+    }
+    alpi_pool_destroy(context->pool);
+    pthread_mutex_destroy(&context->message_lock);
+    context->options.release(context->options.allocator_user, context);
+}
+
+const char *alp_context_message(const alp_context *context)
+{
+    return context ? context->message : "";
+}
+
+uint32_t alp_context_worker_count(const alp_context *context)
+{
+    return context ? context->worker_count : 1;
+}
+
+uint64_t alp_context_peak_memory(const alp_context *context)
+{
+    return context ? atomic_load_explicit(&context->memory_peak, memory_order_relaxed) : 0;
+}
+
+const char *alp_version(void)
+{
+    return ALP_VERSION_STRING;
+}
+
+const char *alp_result_name(alp_result result)
+{
+    switch (result) {
+    case ALP_OK:
+        return "OK";
+    case ALP_ERROR_INVALID_ARGUMENT:
+        return "INVALID_ARGUMENT";
+    case ALP_ERROR_INVALID_DATA:
+        return "INVALID_DATA";
+    case ALP_ERROR_UNSUPPORTED:
+        return "UNSUPPORTED";
+    case ALP_ERROR_LIMIT:
+        return "LIMIT";
+    case ALP_ERROR_IO:
+        return "IO";
+    case ALP_ERROR_OUT_OF_MEMORY:
+        return "OUT_OF_MEMORY";
+    case ALP_ERROR_CANCELLED:
+        return "CANCELLED";
+    default:
+        return "UNKNOWN";
+    }
+}
+
+alp_result alpi_fail(alp_context *context, alp_result code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    pthread_mutex_lock(&context->message_lock);
+    vsnprintf(context->message, sizeof context->message, format, arguments);
+    pthread_mutex_unlock(&context->message_lock);
+    va_end(arguments);
+    return code;
+}
+
+static void log_message(alp_context *context, alp_log_level level, const char *code,
+                        const char *object, const char *format, va_list arguments)
+{
+    if (context->options.log == NULL) {
+        return;
+    }
+    char text[MESSAGE_SIZE];
+    vsnprintf(text, sizeof text, format, arguments);
+    alp_log_message message = {level, code, object ? object : "", text};
+    context->options.log(context->options.log_user, &message);
+}
+
+void alpi_warn(alp_context *context, const char *code, const char *object, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_message(context, ALP_LOG_WARNING, code, object, format, arguments);
+    va_end(arguments);
+}
+
+void alpi_note(alp_context *context, const char *code, const char *object, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_message(context, ALP_LOG_NOTE, code, object, format, arguments);
+    va_end(arguments);
+}
+
+struct alpi_pool *alpi_context_pool(alp_context *context)
+{
+    if (context->pool == NULL && context->worker_count > 1) {
+        context->pool = alpi_pool_create(context, context->worker_count);
+    }
+    return context->pool;
+}
+
+const alp_context_options *alpi_context_options(const alp_context *context)
+{
+    return &context->options;
+}
+
+// --- memory -------------------------------------------------------------------------------------
+
+static void count_memory(alp_context *context, size_t size)
+{
+    uint64_t now =
+        atomic_fetch_add_explicit(&context->memory_now, size, memory_order_relaxed) + size;
+    uint64_t peak = atomic_load_explicit(&context->memory_peak, memory_order_relaxed);
+    while (now > peak &&
+           !atomic_compare_exchange_weak_explicit(&context->memory_peak, &peak, now,
+                                                  memory_order_relaxed, memory_order_relaxed)) {
+    }
+}
+
+void *alpi_allocate(alp_context *context, size_t count, size_t size)
+{
+    size_t bytes = 0;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 2) {
+        alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY,
+                  "out of memory: %zu elements of %zu bytes asked", count, size);
+        return NULL;
+    }
+    block_header *block =
+        context->options.allocate(context->options.allocator_user, sizeof *block + bytes);
+    if (block == NULL) {
+        alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "out of memory: %zu bytes asked", bytes);
+        return NULL;
+    }
+    block->size = bytes;
+    count_memory(context, bytes);
+    return memset(block + 1, 0, bytes);
+}
+
+void alpi_release(alp_context *context, void *pointer)
+{
+    if (pointer == NULL) {
+        return;
+    }
+    block_header *block = (block_header *)pointer - 1;
+    atomic_fetch_sub_explicit(&context->memory_now, block->size, memory_order_relaxed);
+    context->options.release(context->options.allocator_user, block);
+}
+
+void *alpi_reallocate(alp_context *context, void *pointer, size_t count, size_t size)
+{
+    void *larger = alpi_allocate(context, count, size);
+    if (larger != NULL && pointer != NULL) {
+        size_t old_size = ((block_header *)pointer - 1)->size;
+        memcpy(larger, pointer, old_size < count * size ? old_size : count * size);
+        alpi_release(context, pointer);
+    }
+    return larger;
+}
+
+alp_result alpi_grow(alp_context *context, void **items, size_t *capacity, size_t needed,
+                     size_t size)
+{
+    if (needed <= *capacity) {
+        return ALP_OK;
+    }
+    size_t larger = *capacity < 8 ? 8 : *capacity * 2;
+    larger = larger < needed ? needed : larger;
+    void *moved = alpi_reallocate(context, *items, larger, size);
+    if (moved == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    *items = moved;
+    *capacity = larger;
+    return ALP_OK;
+}
+
+char *alpi_copy_string(alp_context *context, const char *text)
+{
+    size_t size = strlen(text) + 1;
+    char *copy = alpi_allocate(context, size, 1);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
+char *alpi_format(alp_context *context, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    char *text = length < 0 ? NULL : alpi_allocate(context, (size_t)length + 1, 1);
+    if (text != NULL) {
+        vsnprintf(text, (size_t)length + 1, format, again);
+    }
+    va_end(again);
+    va_end(arguments);
+    return text;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Private side of alp_context: errors, warnings, and the pieces the other rooms call.
+#ifndef ALPI_BASE_CONTEXT_H
+#define ALPI_BASE_CONTEXT_H
+
+#include <alpenglow/context.h>
+
+/// Returns the failure of `expr` from the calling function, if it fails.
+#define ALP_TRY(expr)                                                                              \
+    do {                                                                                           \
+        alp_result try_result_ = (expr);                                                           \
+        if (try_result_ != ALP_OK) {                                                               \
+            return try_result_;                                                                    \
+        }                                                                                          \
+    } while (0)
+
+/// Stores the message "what, where, what to do" and returns `code`. May be called from a worker.
+alp_result alpi_fail(alp_context *context, alp_result code, const char *format, ...)
+    ALP_PRINTF(3, 4);
+
+/// Sends a warning or a note to the context's log. `object` may be NULL.
+void alpi_warn(alp_context *context, const char *code, const char *object, const char *format, ...)
+    ALP_PRINTF(4, 5);
+void alpi_note(alp_context *context, const char *code, const char *object, const char *format, ...)
+    ALP_PRINTF(4, 5);
+
+struct alpi_pool;
+/// The context's thread pool, started at its first use; NULL when threads cannot be started.
+struct alpi_pool *alpi_context_pool(alp_context *context);
+/// The host's scheduler, or NULL.
+const alp_context_options *alpi_context_options(const alp_context *context);
+
+#endif

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "base/file.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static alp_result fail_io(alp_context *context, const char *verb, const char *path)
+{
+    return alpi_fail(context, ALP_ERROR_IO, "%s: cannot %s: %s", path, verb, strerror(errno));
+}
+
+static alp_result read_open_file(alp_context *context, const char *path, int descriptor,
+                                 uint64_t limit, uint8_t **bytes, size_t *size)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) != 0) {
+        return fail_io(context, "read", path);
+    }
+    if (S_ISDIR(status.st_mode)) {
+        return alpi_fail(context, ALP_ERROR_IO, "%s: is a folder, a file is needed", path);
+    }
+    if (!S_ISREG(status.st_mode)) {
+        return alpi_fail(context, ALP_ERROR_IO, "%s: is not a regular file", path);
+    }
+    uint64_t length = (uint64_t)status.st_size;
+    if (length > limit) {
+        return alpi_fail(context, ALP_ERROR_LIMIT, "%s: %llu bytes, more than the limit of %llu",
+                         path, (unsigned long long)length, (unsigned long long)limit);
+    }
+    uint8_t *data = alpi_allocate(context, (size_t)length + 1, 1);
+    if (data == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    size_t done = 0;
+    while (done < length) {
+        ssize_t got = read(descriptor, data + done, (size_t)length - done);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got <= 0) {
+            alp_result result = got < 0 ? fail_io(context, "read", path)
+                                        : alpi_fail(context, ALP_ERROR_IO,
+                                                    "%s: became shorter while it was read", path);
+            alpi_release(context, data);
+            return result;
+        }
+        done += (size_t)got;
+    }
+    *bytes = data;
+    *size = (size_t)length;
+    return ALP_OK;
+}
+
+alp_result alpi_file_read(alp_context *context, const char *path, uint64_t limit, uint8_t **bytes,
+                          size_t *size)
+{
+    *bytes = NULL;
+    *size = 0;
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a FIFO must not hang us
+    if (descriptor < 0) {
+        return fail_io(context, "open", path);
+    }
+    alp_result result = read_open_file(context, path, descriptor, limit, bytes, size);
+    close(descriptor);
+    return result;
+}
+
+char *alpi_path_folder(alp_context *context, const char *path)
+{
+    const char *name = alpi_path_name(path);
+    return alpi_format(context, "%.*s", (int)(name - path), path);
+}
+
+const char *alpi_path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool alpi_path_has_ending(const char *path, const char *ending)
+{
+    size_t length = strlen(path), wanted = strlen(ending);
+    return length >= wanted && strcasecmp(path + length - wanted, ending) == 0;
+}
+
+alp_result alpi_file_check_writable(alp_context *context, const char *path, bool overwrite)
+{
+    struct stat status;
+    if (stat(path, &status) == 0) {
+        if (S_ISDIR(status.st_mode)) {
+            return alpi_fail(context, ALP_ERROR_IO, "%s: is a folder, a file name is needed", path);
+        }
+        if (!overwrite) {
+            return alpi_fail(context, ALP_ERROR_IO,
+                             "%s: exists already and would be overwritten; force it (-f) or name "
+                             "another file",
+                             path);
+        }
+    }
+    char *folder = alpi_path_folder(context, path);
+    if (folder == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = ALP_OK;
+    if (access(folder[0] ? folder : ".", W_OK | X_OK) != 0) {
+        result = alpi_fail(context, ALP_ERROR_IO, "%s: its folder cannot be written: %s", path,
+                           strerror(errno));
+    }
+    alpi_release(context, folder);
+    return result;
+}
+
+alp_result alpi_file_open(alp_context *context, const char *path, bool overwrite,
+                          alpi_file_writer *writer)
+{
+    static _Atomic uint32_t counter; // distinct names for threads of one process
+    *writer = (alpi_file_writer){.context = context, .descriptor = -1, .overwrite = overwrite};
+    ALP_TRY(alpi_file_check_writable(context, path, overwrite));
+    writer->path = alpi_copy_string(context, path);
+    writer->temporary =
+        alpi_format(context, "%s.part-%ld-%u", path, (long)getpid(), atomic_fetch_add(&counter, 1));
+    if (writer->path == NULL || writer->temporary == NULL) {
+        alpi_file_abandon(writer);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    writer->descriptor =
+        open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)0666);
+    if (writer->descriptor < 0) {
+        alp_result result = fail_io(context, "create", writer->temporary);
+        alpi_file_abandon(writer);
+        return result;
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_file_append(alpi_file_writer *writer, const void *bytes, size_t size)
+{
+    const uint8_t *data = bytes;
+    while (size > 0) {
+        ssize_t put = write(writer->descriptor, data, size);
+        if (put < 0 && errno == EINTR) {
+            continue;
+        }
+        if (put < 0) {
+            return fail_io(writer->context, "write", writer->path);
+        }
+        data += put;
+        size -= (size_t)put;
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_file_commit(alpi_file_writer *writer)
+{
+    alp_result result = ALP_OK;
+    if (fsync(writer->descriptor) != 0 && errno != EINVAL) {
+        result = fail_io(writer->context, "write", writer->path);
+    }
+    if (close(writer->descriptor) != 0 && result == ALP_OK) {
+        result = fail_io(writer->context, "write", writer->path);
+    }
+    writer->descriptor = -1;
+    if (result == ALP_OK && !writer->overwrite && access(writer->path, F_OK) == 0) {
+        result = alpi_fail(writer->context, ALP_ERROR_IO,
+                           "%s: appeared while we worked and would be overwritten", writer->path);
+    }
+    if (result == ALP_OK && rename(writer->temporary, writer->path) != 0) {
+        result = fail_io(writer->context, "rename to", writer->path);
+    }
+    if (result == ALP_OK) {
+        alpi_release(writer->context, writer->temporary);
+        writer->temporary = NULL;
+    }
+    alpi_file_abandon(writer);
+    return result;
+}
+
+void alpi_file_abandon(alpi_file_writer *writer)
+{
+    if (writer->descriptor >= 0) {
+        close(writer->descriptor);
+    }
+    if (writer->temporary != NULL) {
+        unlink(writer->temporary);
+    }
+    alpi_release(writer->context, writer->temporary);
+    alpi_release(writer->context, writer->path);
+    writer->temporary = NULL;
+    writer->path = NULL;
+    writer->descriptor = -1;
+}
+
+alp_result alpi_file_write(alp_context *context, const char *path, bool overwrite,
+                           const void *bytes, size_t size)
+{
+    alpi_file_writer writer;
+    ALP_TRY(alpi_file_open(context, path, overwrite, &writer));
+    alp_result result = alpi_file_append(&writer, bytes, size);
+    if (result == ALP_OK) {
+        return alpi_file_commit(&writer);
+    }
+    alpi_file_abandon(&writer);
+    return result;
+}
+
+alp_result alpi_folder_create(alp_context *context, const char *path)
+{
+    char *copy = alpi_copy_string(context, path);
+    if (copy == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = ALP_OK;
+    for (char *p = copy; result == ALP_OK && *p != '\0';) {
+        p += strspn(p, "/");
+        p += strcspn(p, "/");
+        char kept = *p;
+        *p = '\0';
+        if (copy[0] != '\0' && mkdir(copy, (mode_t)0777) != 0 && errno != EEXIST) {
+            result = fail_io(context, "create folder", copy);
+        }
+        *p = kept;
+    }
+    struct stat status;
+    if (result == ALP_OK && (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))) {
+        result = alpi_fail(context, ALP_ERROR_IO, "%s: is not a folder", path);
+    }
+    alpi_release(context, copy);
+    return result;
+}

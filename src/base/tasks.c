@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// A pool of pthreads that share one loop at a time through an atomic counter.
+#include "base/tasks.h"
+
+#include "base/memory.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <time.h>
+
+static const double PROGRESS_INTERVAL = 0.05; // seconds between two calls of a progress callback
+
+/// One running loop. The body's failures are kept by range number, so that the one reported is the
+/// lowest whatever the order in which ranges ran.
+typedef struct loop {
+    alp_context *context;
+    alpi_task_fn *body;
+    void *user;
+    uint32_t count, grain;
+    _Atomic uint32_t next;
+    _Atomic uint32_t done;
+    _Atomic bool stop;
+    pthread_mutex_t lock; // guards the failure
+    uint32_t failed_begin;
+    alp_result failure;
+    const alpi_task_progress *progress;
+    pthread_t caller;
+    double started, reported;
+} loop;
+
+struct alpi_pool {
+    alp_context *context;
+    pthread_mutex_t lock;
+    pthread_cond_t wake, finished;
+    loop *current;       // NULL between loops
+    uint64_t generation; // counts loops, so that a worker joins each once
+    uint32_t busy;       // workers inside the current loop
+    bool quit;
+    uint32_t thread_count;
+    struct pool_thread {
+        struct alpi_pool *pool;
+        pthread_t handle;
+        uint32_t worker;
+    } * threads;
+};
+
+double alpi_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void loop_fail(loop *l, uint32_t begin, alp_result failure)
+{
+    pthread_mutex_lock(&l->lock);
+    if (l->failure == ALP_OK || begin < l->failed_begin) {
+        l->failure = failure;
+        l->failed_begin = begin;
+    }
+    pthread_mutex_unlock(&l->lock);
+    atomic_store_explicit(&l->stop, true, memory_order_relaxed);
+}
+
+/// On the calling thread only: tells the user, at most every PROGRESS_INTERVAL.
+static void loop_report(loop *l, bool always)
+{
+    const alpi_task_progress *p = l->progress;
+    double now = alpi_seconds();
+    if (p == NULL || p->callback == NULL || (!always && now - l->reported < PROGRESS_INTERVAL)) {
+        return;
+    }
+    l->reported = now;
+    double per_item = p->units_per_item > 0.0 ? p->units_per_item : 1.0;
+    double done = (double)atomic_load_explicit(&l->done, memory_order_relaxed) * per_item;
+    double total = (double)l->count * per_item;
+    double seconds = now - l->started;
+    double rate = seconds > 0.0 ? done / seconds : 0.0;
+    alp_progress report = {p->stage, (uint64_t)done, (uint64_t)total,
+                           p->units_are_rays ? rate : 0.0,
+                           rate > 0.0 ? (total - done) / rate : -1.0};
+    if (!p->callback(p->user, &report)) {
+        loop_fail(l, UINT32_MAX, ALP_ERROR_CANCELLED);
+    }
+}
+
+static void loop_run_range(loop *l, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    alp_result result = l->body(l->user, begin, end, worker);
+    if (result != ALP_OK) {
+        loop_fail(l, begin, result);
+    }
+    atomic_fetch_add_explicit(&l->done, end - begin, memory_order_relaxed);
+}
+
+static void loop_work(loop *l, uint32_t worker)
+{
+    while (!atomic_load_explicit(&l->stop, memory_order_relaxed)) {
+        uint32_t begin = atomic_fetch_add_explicit(&l->next, l->grain, memory_order_relaxed);
+        if (begin >= l->count) {
+            break;
+        }
+        uint32_t end = l->count - begin < l->grain ? l->count : begin + l->grain;
+        loop_run_range(l, begin, end, worker);
+        if (pthread_equal(pthread_self(), l->caller)) {
+            loop_report(l, false);
+        }
+    }
+}
+
+static void *pool_thread_main(void *user)
+{
+    struct pool_thread *thread = user;
+    struct alpi_pool *pool = thread->pool;
+    uint64_t seen = 0;
+    pthread_mutex_lock(&pool->lock);
+    for (;;) {
+        while (!pool->quit && (pool->current == NULL || pool->generation == seen)) {
+            pthread_cond_wait(&pool->wake, &pool->lock);
+        }
+        if (pool->quit) {
+            break;
+        }
+        seen = pool->generation;
+        loop *l = pool->current;
+        pool->busy++;
+        pthread_mutex_unlock(&pool->lock);
+        loop_work(l, thread->worker);
+        pthread_mutex_lock(&pool->lock);
+        pool->busy--;
+        pthread_cond_signal(&pool->finished);
+    }
+    pthread_mutex_unlock(&pool->lock);
+    return NULL;
+}
+
+struct alpi_pool *alpi_pool_create(alp_context *context, uint32_t worker_count)
+{
+    struct alpi_pool *pool = ALPI_NEW(context, struct alpi_pool, 1);
+    struct pool_thread *threads = ALPI_NEW(context, struct pool_thread, worker_count);
+    if (pool == NULL || threads == NULL) {
+        alpi_release(context, pool);
+        alpi_release(context, threads);
+        return NULL;
+    }
+    *pool = (struct alpi_pool){.context = context, .threads = threads};
+    pthread_mutex_init(&pool->lock, NULL);
+    pthread_cond_init(&pool->wake, NULL);
+    pthread_condattr_t steady; // durations must not jump with the wall clock
+    pthread_condattr_init(&steady);
+    pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
+    pthread_cond_init(&pool->finished, &steady);
+    pthread_condattr_destroy(&steady);
+    for (uint32_t i = 0; i + 1 < worker_count; i++) {
+        threads[i] = (struct pool_thread){.pool = pool, .worker = i + 1};
+        if (pthread_create(&threads[i].handle, NULL, pool_thread_main, &threads[i]) != 0) {
+            break; // fewer threads change the time and nothing else
+        }
+        pool->thread_count = i + 1;
+    }
+    return pool;
+}
+
+void alpi_pool_destroy(struct alpi_pool *pool)
+{
+    if (pool == NULL) {
+        return;
+    }
+    pthread_mutex_lock(&pool->lock);
+    pool->quit = true;
+    pthread_cond_broadcast(&pool->wake);
+    pthread_mutex_unlock(&pool->lock);
+    for (uint32_t i = 0; i < pool->thread_count; i++) {
+        pthread_join(pool->threads[i].handle, NULL);
+    }
+    pthread_cond_destroy(&pool->finished);
+    pthread_cond_destroy(&pool->wake);
+    pthread_mutex_destroy(&pool->lock);
+    alp_context *context = pool->context;
+    alpi_release(context, pool->threads);
+    alpi_release(context, pool);
+}
+
+/// Runs the loop on the pool and waits, reporting progress while others still work.
+static void pool_run(struct alpi_pool *pool, loop *l)
+{
+    pthread_mutex_lock(&pool->lock);
+    pool->current = l;
+    pool->generation++;
+    pthread_cond_broadcast(&pool->wake);
+    pthread_mutex_unlock(&pool->lock);
+    loop_work(l, 0);
+    pthread_mutex_lock(&pool->lock);
+    pool->current = NULL; // a worker that wakes only now must not join
+    while (pool->busy > 0) {
+        struct timespec until;
+        clock_gettime(CLOCK_MONOTONIC, &until);
+        until.tv_nsec += (long)(PROGRESS_INTERVAL * 1e9);
+        if (until.tv_nsec >= 1000000000L) {
+            until.tv_sec += 1;
+            until.tv_nsec -= 1000000000L;
+        }
+        pthread_cond_timedwait(&pool->finished, &pool->lock, &until);
+        pthread_mutex_unlock(&pool->lock);
+        loop_report(l, false);
+        pthread_mutex_lock(&pool->lock);
+    }
+    pthread_mutex_unlock(&pool->lock);
+}
+
+/// Adapter for a host's scheduler, which knows neither failure nor progress. A host may pass ranges
+/// longer than the grain: they are cut, so that cancelling stays prompt.
+static void host_body(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    loop *l = user;
+    while (begin < end && !atomic_load_explicit(&l->stop, memory_order_relaxed)) {
+        uint32_t stop = end - begin < l->grain ? end : begin + l->grain;
+        loop_run_range(l, begin, stop, worker);
+        if (pthread_equal(pthread_self(), l->caller)) {
+            loop_report(l, false);
+        }
+        begin = stop;
+    }
+}
+
+alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grain,
+                             alpi_task_fn *body, void *user, const alpi_task_progress *progress)
+{
+    if (count == 0) {
+        return ALP_OK;
+    }
+    loop l = {.context = context,
+              .body = body,
+              .user = user,
+              .count = count,
+              .grain = grain > 0 ? grain : 1,
+              .progress = progress,
+              .caller = pthread_self(),
+              .started = alpi_seconds()};
+    pthread_mutex_init(&l.lock, NULL);
+    loop_report(&l, true);
+    const alp_context_options *options = alpi_context_options(context);
+    struct alpi_pool *pool = NULL;
+    if (options->parallel_for != NULL) {
+        options->parallel_for(options->parallel_user, count, l.grain, host_body, &l);
+    } else if (count > l.grain && (pool = alpi_context_pool(context)) != NULL) {
+        pool_run(pool, &l);
+    } else {
+        loop_work(&l, 0);
+    }
+    if (l.failure == ALP_OK) {
+        loop_report(&l, true);
+    }
+    pthread_mutex_destroy(&l.lock);
+    if (l.failure == ALP_ERROR_CANCELLED) {
+        return alpi_fail(context, ALP_ERROR_CANCELLED, "cancelled");
+    }
+    return l.failure;
+}

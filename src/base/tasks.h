@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Parallel loops over a pool of pthreads. Ranges are handed out one at a time (dynamic), because a
+// static split of tiles over two threads was measured to gain nothing. No OpenMP and no C11
+// threads: both fail under gcc's thread sanitizer.
+#ifndef ALPI_BASE_TASKS_H
+#define ALPI_BASE_TASKS_H
+
+#include "base/context.h"
+
+/// Body of a loop: works on [begin, end), a range of at most `grain`; a failure stops the loop.
+typedef alp_result alpi_task_fn(void *user, uint32_t begin, uint32_t end, uint32_t worker);
+
+/// What to tell the user while a loop runs. All may be NULL / 0.
+typedef struct alpi_task_progress {
+    alp_progress_fn *callback;
+    void *user;
+    const char *stage;
+    double units_per_item; ///< progress counts items × this; 0 = 1
+    bool units_are_rays;   ///< then rays_per_second is reported
+} alpi_task_progress;
+
+/// Runs body over [0, count) in ranges of `grain` (> 0) on all workers of the context; returns when
+/// all are done. The caller works too, as worker 0. A body must write only to what its own items
+/// own, so the result does not depend on the number of workers.
+/// @return ALP_OK; the failure of the lowest failing range; CANCELLED (progress said false).
+alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grain,
+                             alpi_task_fn *body, void *user, const alpi_task_progress *progress);
+
+/// Seconds of a steady clock, for durations.
+double alpi_seconds(void);
+
+/// Used by the context only.
+struct alpi_pool *alpi_pool_create(alp_context *context, uint32_t worker_count);
+void alpi_pool_destroy(struct alpi_pool *pool);
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Bytes ↔ scene, image, patched scene. All untrusted input ends in this room.
+#ifndef ALPI_FORMATS_FORMATS_H
+#define ALPI_FORMATS_FORMATS_H
+
+#include "base/image.h"
+#include "scene/mesh_patch.h"
+#include "scene/scene.h"
+
+/// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
+alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
+
+/// Writes the scene's document with the patch to `path` (.glb or .gltf by its ending). A scene that
+/// came from no file is first exported to glTF. Nothing is overwritten unless asked; every file is
+/// written to a temporary one and renamed. `cancelled` (may be NULL) is asked between files.
+alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                   const char *path, bool overwrite);
+
+/// Every file that alpi_gltf_write_patched would make for `path` is checked before the long work:
+/// writable, not there already unless overwrite.
+alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
+                                  bool overwrite);
+
+/// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
+/// cameras too (png.c encodes images). *bytes is released by the caller.
+alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size);
+
+/// Decodes from memory; `name` is for messages. Limits: ALPI_IMAGE_PIXEL_LIMIT.
+alp_result alpi_png_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                           size_t size, alp_image **image);
+alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                            size_t size, alp_image **image);
+alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                           size_t size, alp_image **image);
+/// By the first bytes.
+alp_result alpi_image_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                             size_t size, alp_image **image);
+
+/// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR floats.
+alp_result alpi_png_encode(const alp_image *image, uint8_t **bytes, size_t *size);
+alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
+
+#endif

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// Making, checking and asking a scene.
+#include "scene/scene.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene **scene)
+{
+    *scene = NULL;
+    alp_scene *s = ALPI_NEW(context, alp_scene, 1);
+    if (s == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    s->context = context;
+    s->name = alpi_copy_string(context, name);
+    if (s->name == NULL) {
+        alpi_release(context, s);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    *scene = s;
+    return ALP_OK;
+}
+
+void alp_scene_destroy(alp_scene *scene)
+{
+    if (scene == NULL) {
+        return;
+    }
+    alp_context *context = scene->context;
+    for (int i = ALPI_ATTACHMENT_COUNT - 1; i >= 0; i--) {
+        if (scene->attachments[i].destroy != NULL) {
+            scene->attachments[i].destroy(context, scene->attachments[i].data);
+        }
+    }
+    for (uint32_t i = 0; scene->surfaces != NULL && i < scene->surface_count; i++) {
+        alpi_release(context, scene->surfaces[i].name);
+    }
+    for (uint32_t i = 0; scene->materials != NULL && i < scene->material_count; i++) {
+        alpi_release(context, scene->materials[i].name);
+    }
+    for (uint32_t i = 0; scene->images != NULL && i < scene->image_count; i++) {
+        alp_image_destroy(scene->images[i]);
+    }
+    for (uint32_t i = 0; scene->lights != NULL && i < scene->light_count; i++) {
+        alpi_release(context, scene->lights[i].name);
+    }
+    for (int i = 0; i < ALPI_UV_SET_LIMIT; i++) {
+        alpi_release(context, scene->uvs[i]);
+    }
+    void *const arrays[] = {
+        scene->positions, scene->normals,          scene->colors,          scene->vertex_source,
+        scene->triangles, scene->triangle_surface, scene->triangle_usable, scene->surfaces,
+        scene->materials, scene->images,           scene->lights,          scene->cameras,
+        scene->name};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        alpi_release(context, arrays[i]);
+    }
+    alpi_release(context, scene);
+}
+
+// --- checks --------------------------------------------------------------------------------------
+
+static alp_result check_indices(const alp_scene *scene)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        for (int k = 0; k < 3; k++) {
+            if (scene->triangles[t][k] >= scene->vertex_count) {
+                return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
+                                 "%s: triangle %u uses vertex %u of %u", scene->name, t,
+                                 scene->triangles[t][k], scene->vertex_count);
+            }
+        }
+        if (scene->triangle_surface[t] >= scene->surface_count) {
+            return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
+                             "%s: triangle %u names surface %u of %u", scene->name, t,
+                             scene->triangle_surface[t], scene->surface_count);
+        }
+    }
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        uint32_t material = scene->surfaces[s].material;
+        if (material != ALPI_NONE && material >= scene->material_count) {
+            return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
+                             "%s: surface %u names material %u of %u", scene->name, s, material,
+                             scene->material_count);
+        }
+    }
+    return ALP_OK;
+}
+
+static bool position_is_usable(const float p[3])
+{
+    return fabsf(p[0]) <= ALPI_COORDINATE_LIMIT && fabsf(p[1]) <= ALPI_COORDINATE_LIMIT &&
+           fabsf(p[2]) <= ALPI_COORDINATE_LIMIT; // NaN compares false
+}
+
+/// Marks usable triangles and warns, once per surface and kind of fault.
+static void mark_triangles(alp_scene *scene)
+{
+    scene->usable_count = 0;
+    scene->area = 0.0;
+    scene->bounds_min = (vec3){INFINITY, INFINITY, INFINITY};
+    scene->bounds_max = (vec3){-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        const alpi_surface *surface = &scene->surfaces[s];
+        uint32_t broken = 0, flat = 0;
+        for (uint32_t i = 0; i < surface->triangle_count; i++) {
+            uint32_t t = surface->first_triangle + i;
+            const uint32_t *v = scene->triangles[t];
+            vec3 c[3];
+            alpi_triangle_corners(scene, t, c);
+            bool finite = position_is_usable(scene->positions[v[0]]) &&
+                          position_is_usable(scene->positions[v[1]]) &&
+                          position_is_usable(scene->positions[v[2]]);
+            double area = vec3_triangle_area(c[0], c[1], c[2]);
+            bool usable = finite && area > 0.0 && isfinite(area);
+            broken += !finite;
+            flat += finite && !usable;
+            scene->triangle_usable[t] = usable;
+            if (usable) {
+                scene->usable_count++;
+                scene->area += area;
+                for (int k = 0; k < 3; k++) {
+                    scene->bounds_min = vec3_min(scene->bounds_min, c[k]);
+                    scene->bounds_max = vec3_max(scene->bounds_max, c[k]);
+                }
+            }
+        }
+        if (broken > 0) {
+            alpi_warn(scene->context, "bad-coordinates", surface->name,
+                      "%u of %u triangles left out: a coordinate is not finite or beyond %g m",
+                      broken, surface->triangle_count, (double)ALPI_COORDINATE_LIMIT);
+        }
+        if (flat > 0) {
+            alpi_warn(scene->context, "zero-area", surface->name,
+                      "%u of %u triangles left out: they have no area", flat,
+                      surface->triangle_count);
+        }
+    }
+    if (scene->usable_count == 0) {
+        scene->bounds_min = scene->bounds_max = (vec3){0.0f, 0.0f, 0.0f};
+    }
+    for (uint32_t v = 0; v < scene->vertex_count; v++) {
+        if (!position_is_usable(scene->positions[v])) {
+            memset(scene->positions[v], 0, sizeof scene->positions[v]);
+        }
+    }
+}
+
+/// Unit normals everywhere: those that are zero or not finite are taken from a triangle at the
+/// vertex.
+static void repair_normals(alp_scene *scene)
+{
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        const alpi_surface *surface = &scene->surfaces[s];
+        uint32_t bad = 0;
+        for (uint32_t i = 0; i < surface->triangle_count; i++) {
+            uint32_t t = surface->first_triangle + i;
+            vec3 c[3];
+            alpi_triangle_corners(scene, t, c);
+            vec3 face = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
+            for (int k = 0; k < 3; k++) {
+                float *normal = scene->normals[scene->triangles[t][k]];
+                vec3 unit = vec3_normalize_or(vec3_load(normal), (vec3){0.0f, 0.0f, 0.0f});
+                bool usable = unit.x != 0.0f || unit.y != 0.0f || unit.z != 0.0f;
+                bad += !usable && scene->triangle_usable[t];
+                vec3_store(normal, usable ? unit : face);
+            }
+        }
+        if (bad > 0 && !surface->normals_generated) {
+            alpi_warn(scene->context, "bad-normals", surface->name,
+                      "%u normals are zero or not finite: the triangle's own is used", bad);
+        }
+    }
+    for (uint32_t v = 0; v < scene->vertex_count; v++) { // vertices of no triangle
+        vec3_store(scene->normals[v],
+                   vec3_normalize_or(vec3_load(scene->normals[v]), (vec3){0.0f, 1.0f, 0.0f}));
+    }
+}
+
+static bool clamp_value(float *value, float low, float high)
+{
+    float clamped = *value >= low ? fminf(*value, high) : low; // NaN → low
+    bool changed = !(*value == clamped);
+    *value = clamped;
+    return changed;
+}
+
+static void clamp_materials(alp_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        alpi_material *m = &scene->materials[i];
+        bool changed = clamp_value(&m->metallic, 0.0f, 1.0f);
+        changed |= clamp_value(&m->occlusion_strength, 0.0f, 1.0f);
+        for (int k = 0; k < 4; k++) {
+            changed |= clamp_value(&m->base_color[k], 0.0f, 1.0f);
+        }
+        for (int k = 0; k < 3; k++) {
+            changed |= clamp_value(&m->emission[k], 0.0f, 1e20f);
+        }
+        changed |= clamp_value(&m->alpha_cutoff, 0.0f, 1e20f);
+        if (changed) {
+            alpi_warn(scene->context, "material-range", m->name,
+                      "material %u has values out of range: clamped, so that energy does not grow",
+                      i);
+        }
+    }
+}
+
+/// Float coordinates far from the origin cannot hold fine detail: say so where it will be seen.
+static void warn_of_precision(const alp_scene *scene)
+{
+    vec3 size = vec3_sub(scene->bounds_max, scene->bounds_min);
+    float extent = vec3_length(size);
+    vec3 low = scene->bounds_min, high = scene->bounds_max;
+    float far = fmaxf(fmaxf(fmaxf(fabsf(low.x), fabsf(low.y)), fmaxf(fabsf(low.z), fabsf(high.x))),
+                      fmaxf(fabsf(high.y), fabsf(high.z)));
+    float spacing = far * 0x1p-23f; // of floats at the farthest coordinate
+    if (scene->usable_count > 0 && spacing > extent * 1e-4f) {
+        alpi_warn(scene->context, "precision", scene->name,
+                  "coordinates reach %.3g m, where floats are %.2g m apart, in a scene of %.3g m: "
+                  "move it near the origin",
+                  (double)far, (double)spacing, (double)extent);
+    }
+}
+
+alp_result alpi_scene_finish(alp_scene *scene)
+{
+    ALP_TRY(check_indices(scene));
+    if (scene->triangle_usable == NULL) {
+        ALPI_TRY_NEW(scene->context, scene->triangle_usable, scene->triangle_count);
+    }
+    repair_normals(scene);
+    mark_triangles(scene);
+    clamp_materials(scene);
+    warn_of_precision(scene);
+    return ALP_OK;
+}
+
+// --- questions -----------------------------------------------------------------------------------
+
+alp_scene_info alp_scene_get_info(const alp_scene *scene)
+{
+    if (scene == NULL) {
+        return (alp_scene_info){0};
+    }
+    alp_scene_info info = {
+        .triangles = scene->triangle_count,
+        .usable_triangles = scene->usable_count,
+        .surfaces = scene->surface_count,
+        .vertices = scene->vertex_count,
+        .materials = scene->material_count,
+        .images = scene->image_count,
+        .cameras = scene->camera_count,
+        .lights = scene->light_count,
+        .area = scene->area,
+    };
+    vec3_store(info.bounds_min, scene->bounds_min);
+    vec3_store(info.bounds_max, scene->bounds_max);
+    return info;
+}
+
+alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
+{
+    alp_surface_info info = {.name = "", .material = ""};
+    if (scene == NULL || index >= scene->surface_count) {
+        return info;
+    }
+    const alpi_surface *s = &scene->surfaces[index];
+    const alpi_material *m = s->material == ALPI_NONE ? NULL : &scene->materials[s->material];
+    return (alp_surface_info){.name = s->name,
+                              .material = m ? m->name : "",
+                              .first_triangle = s->first_triangle,
+                              .triangle_count = s->triangle_count,
+                              .uv_sets = s->uv_sets,
+                              .double_sided = m != NULL && m->double_sided,
+                              .mirrored = s->mirrored,
+                              .normals_generated = s->normals_generated};
+}
+
+/// Looks at the whole bounding box from above one of its corners. A scene that is seen mostly from
+/// behind there (a room) is looked at from inside, from near one upper corner towards the opposite
+/// lower one.
+static alp_camera automatic_camera(const alp_scene *scene)
+{
+    vec3 low = scene->bounds_min, high = scene->bounds_max;
+    vec3 size = vec3_sub(high, low);
+    vec3 center = vec3_mad(low, 0.5f, size);
+    vec3 view = vec3_normalize_or((vec3){0.8f, 0.55f, 1.0f}, (vec3){0.0f, 0.0f, 1.0f});
+    double front = 0.0, back = 0.0; // area that faces away from the centre, or towards it
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (scene->triangle_usable[t]) {
+            vec3 c[3];
+            alpi_triangle_corners(scene, t, c);
+            // Away from the centre = the outside of an object; towards it = the inside of a room.
+            vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 0.0f, 0.0f});
+            double outward = vec3_triangle_area(c[0], c[1], c[2]) *
+                             (double)vec3_dot(normal, vec3_sub(c[0], center));
+            front += outward > 0.0 ? outward : 0.0;
+            back -= outward < 0.0 ? outward : 0.0;
+        }
+    }
+    alp_camera camera = {.up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
+    if (back > front) {
+        vec3 eye = {low.x + 0.88f * size.x, low.y + 0.62f * size.y, low.z + 0.88f * size.z};
+        vec3 target = {low.x + 0.35f * size.x, low.y + 0.35f * size.y, low.z + 0.25f * size.z};
+        camera.vertical_fov = 1.2f;
+        vec3_store(camera.position, eye);
+        vec3_store(camera.target, target);
+    } else {
+        float radius = 0.5f * vec3_length(size);
+        vec3_store(camera.position, vec3_mad(center, fmaxf(radius, 1e-6f) / sinf(0.4f), view));
+        vec3_store(camera.target, center);
+    }
+    return camera;
+}
+
+alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index)
+{
+    if (scene == NULL) {
+        return (alp_camera){
+            .target = {0.0f, 0.0f, -1.0f}, .up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
+    }
+    return index < scene->camera_count ? scene->cameras[index] : automatic_camera(scene);
+}

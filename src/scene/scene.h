@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// The immutable description that every room reads: world-space triangles in flat arrays, grouped
+// into surfaces (one per node × primitive), with materials, images, lights and cameras.
+#ifndef ALPI_SCENE_SCENE_H
+#define ALPI_SCENE_SCENE_H
+
+#include "base/context.h"
+#include "base/image.h"
+#include "base/vec.h"
+
+#include <alpenglow/scene.h>
+
+#define ALPI_NONE UINT32_MAX
+enum { ALPI_UV_SET_LIMIT = 4 }; // sets 0…3 of a vertex are kept; textures that use more are ignored
+
+/// A texture as a material uses it: image, wrapping, coordinate set and KHR_texture_transform.
+typedef struct alpi_texture {
+    uint32_t image; // index into scene.images, ALPI_NONE = no texture
+    uint32_t uv_set;
+    alpi_wrap wrap_u, wrap_v;
+    float offset[2], scale[2], rotation; // radians, counter-clockwise as KHR_texture_transform
+} alpi_texture;
+
+typedef enum alpi_alpha_mode {
+    ALPI_ALPHA_OPAQUE = 0,
+    ALPI_ALPHA_MASK,
+    ALPI_ALPHA_BLEND
+} alpi_alpha_mode;
+
+typedef struct alpi_material {
+    char *name;                      // "" where the file has none
+    float base_color[4];             // linear, [0, 1]
+    alpi_texture base_color_texture; // sRGB + alpha
+    float metallic;                  // [0, 1]
+    alpi_texture metallic_texture;   // channel B, linear
+    float emission[3]; // radiance W·sr⁻¹·m⁻²: emissiveFactor × emissiveStrength
+    alpi_texture emission_texture; // sRGB
+    alpi_alpha_mode alpha_mode;
+    float alpha_cutoff;
+    bool double_sided;
+    alpi_texture occlusion_texture; // channel R, linear: accessibility
+    float occlusion_strength;       // [0, 1]: 1 + strength (R − 1)
+} alpi_material;
+
+typedef struct alpi_surface {
+    char *name; // node name, else mesh name, else "node N"
+    uint32_t node, mesh,
+        primitive;     // indices in the source file; surface i, i, 0 when there is none
+    uint32_t material; // ALPI_NONE = none: ρ = .5
+    uint32_t first_vertex, vertex_count;
+    uint32_t first_triangle,
+        triangle_count;     // triangles of the primitive in file order, none dropped
+    uint32_t uv_sets;       // sets 0 … uv_sets−1 are present in the file
+    bool mirrored;          // negative determinant: the winding was reversed on reading
+    bool normals_generated; // flat normals, because the file has none
+} alpi_surface;
+
+typedef enum alpi_light_kind {
+    ALPI_LIGHT_POINT,
+    ALPI_LIGHT_SPOT,
+    ALPI_LIGHT_DIRECTIONAL
+} alpi_light_kind;
+
+typedef struct alpi_light {
+    char *name;
+    alpi_light_kind kind;
+    vec3 color;                   // linear, unitless
+    float intensity;              // candela (point, spot) or lux (directional)
+    vec3 position, direction;     // world; direction: where the light travels, unit
+    float range;                  // metres, INFINITY = none
+    float inner_cone, outer_cone; // radians, half-angles
+} alpi_light;
+
+/// Something another room keeps with a scene, destroyed with it. Only that room knows what it is.
+typedef struct alpi_attachment {
+    void *data;
+    void (*destroy)(alp_context *context, void *data);
+} alpi_attachment;
+typedef enum alpi_attachment_kind {
+    ALPI_ATTACHMENT_DOCUMENT, // the file as read (formats)
+    ALPI_ATTACHMENT_TRACER,   // acceleration structure, made at its first use (trace)
+    ALPI_ATTACHMENT_COUNT
+} alpi_attachment_kind;
+
+struct alp_scene {
+    alp_context *context;
+    char *name; // path or "builtin:…", for messages
+
+    // Vertices, world space. A primitive without normals has three vertices of its own per
+    // triangle.
+    uint32_t vertex_count;
+    float (*positions)[3]; // metres
+    float (*normals)[3];   // unit, finite
+    float (
+        *uvs[ALPI_UV_SET_LIMIT])[2]; // NULL where no surface has the set; zeros where one lacks it
+    float (*colors)[4];              // COLOR_0, linear RGBA in [0, 1]; NULL where no surface has it
+    uint32_t *vertex_source;         // index of the vertex in its source primitive
+
+    // Triangles, counter-clockwise outside, in the order of the source primitives.
+    uint32_t triangle_count;
+    uint32_t (*triangles)[3];   // indices into the vertices
+    uint32_t *triangle_surface; // surface of each
+    bool *triangle_usable;      // finite, |coordinate| ≤ ALPI_COORDINATE_LIMIT, area > 0
+    uint32_t usable_count;
+
+    uint32_t surface_count;
+    alpi_surface *surfaces;
+    uint32_t material_count;
+    alpi_material *materials;
+    uint32_t image_count;
+    alp_image **images; // NULL where none of our uses needs it or decoding failed (with a warning)
+    uint32_t light_count;
+    alpi_light *lights;
+    uint32_t camera_count;
+    alp_camera *cameras;
+
+    vec3 bounds_min, bounds_max; // over usable triangles
+    double area;
+
+    uint64_t input_hash; // of the source bytes (FNV-1a 64), or of the arrays
+    alpi_attachment attachments[ALPI_ATTACHMENT_COUNT];
+};
+
+/// Beyond this a float product of two extents overflows and Embree drops the triangle.
+#define ALPI_COORDINATE_LIMIT 1e15f
+
+/// An empty scene that owns what is put into it; fill the arrays (allocated with the context), then
+/// call alpi_scene_finish. Destroy with alp_scene_destroy at any time.
+alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene **scene);
+
+/// Checks and completes a filled scene: marks usable triangles, replaces normals that are zero or
+/// not finite by the triangle's, clamps material values, computes bounds and area, warns of what is
+/// odd (counts and names). Non-finite positions are set to 0 and their triangles made unusable.
+/// @return ALP_OK; INVALID_DATA (an index out of range: a programming error of the reader)
+alp_result alpi_scene_finish(alp_scene *scene);
+
+/// A material with glTF's defaults except metallic 0, named `name`.
+alpi_material alpi_material_default(void);
+/// No texture.
+alpi_texture alpi_texture_none(void);
+
+/// Positions of the corners of a triangle.
+static inline void alpi_triangle_corners(const alp_scene *scene, uint32_t triangle, vec3 corner[3])
+{
+    for (int k = 0; k < 3; k++) {
+        corner[k] = vec3_load(scene->positions[scene->triangles[triangle][k]]);
+    }
+}
+
+/// The coordinates a texture is read at, for uv of its set: KHR_texture_transform applied.
+vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv);
+
+/// uv of set `set` at barycentrics (b1, b2) of a triangle (weight of corners 1 and 2); 0 if absent.
+vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, float b1, float b2);
+
+/// Coverage (alpha) of the material at a point of a triangle: base colour alpha × texture alpha ×
+/// vertex colour alpha.
+float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
+/// Whether a ray passes through the triangle there: MASK below its cutoff, BLEND below one half.
+bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+/// Whether any point of the surface can be cut (so that the tracer must ask).
+bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
+
+/// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
+vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
+/// Built-in scenes (scene/builtin_*.c). `name` without "builtin:".
+/// @return ALP_OK; INVALID_ARGUMENT (no such scene: the message lists them); OUT_OF_MEMORY
+alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene **scene);
+
+#endif

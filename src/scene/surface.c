@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What a surface is made of at a point: texture coordinates, alpha, albedo.
+#include "scene/scene.h"
+
+#include <math.h>
+
+// Physics: diffuse albedo is clamped here, so that closed rooms converge.
+static const float ALBEDO_LIMIT = 0.95f;
+static const float ALBEDO_WITHOUT_MATERIAL = 0.5f;
+
+alpi_texture alpi_texture_none(void)
+{
+    return (alpi_texture){.image = ALPI_NONE, .scale = {1.0f, 1.0f}};
+}
+
+alpi_material alpi_material_default(void)
+{
+    return (alpi_material){.base_color = {1.0f, 1.0f, 1.0f, 1.0f},
+                           .base_color_texture = alpi_texture_none(),
+                           .metallic_texture = alpi_texture_none(),
+                           .emission_texture = alpi_texture_none(),
+                           .alpha_cutoff = 0.5f,
+                           .occlusion_texture = alpi_texture_none(),
+                           .occlusion_strength = 1.0f};
+}
+
+vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)
+{
+    // KHR_texture_transform: offset · rotation · scale, the rotation counter-clockwise in uv with
+    // v pointing down: u' = cos·u·sx + sin·v·sy, v' = −sin·u·sx + cos·v·sy.
+    float u = uv.x * texture->scale[0], v = uv.y * texture->scale[1];
+    float c = cosf(texture->rotation), s = sinf(texture->rotation);
+    return (vec2){c * u + s * v + texture->offset[0], c * v - s * u + texture->offset[1]};
+}
+
+vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, float b1, float b2)
+{
+    if (set >= ALPI_UV_SET_LIMIT || scene->uvs[set] == NULL) {
+        return (vec2){0.0f, 0.0f};
+    }
+    const uint32_t *v = scene->triangles[triangle];
+    const float *a = scene->uvs[set][v[0]], *b = scene->uvs[set][v[1]], *c = scene->uvs[set][v[2]];
+    return (vec2){a[0] + b1 * (b[0] - a[0]) + b2 * (c[0] - a[0]),
+                  a[1] + b1 * (b[1] - a[1]) + b2 * (c[1] - a[1])};
+}
+
+static bool read_texture(const alp_scene *scene, const alpi_texture *texture, uint32_t triangle,
+                         float b1, float b2, float rgba[4])
+{
+    if (texture->image == ALPI_NONE || scene->images[texture->image] == NULL) {
+        return false;
+    }
+    vec2 uv =
+        alpi_texture_transform(texture, alpi_triangle_uv(scene, triangle, texture->uv_set, b1, b2));
+    alpi_image_sample(scene->images[texture->image], uv.x, uv.y, texture->wrap_u, texture->wrap_v,
+                      rgba);
+    return true;
+}
+
+static void read_vertex_color(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                              float rgba[4])
+{
+    const uint32_t *v = scene->triangles[triangle];
+    for (int k = 0; k < 4; k++) {
+        rgba[k] = scene->colors == NULL
+                      ? 1.0f
+                      : (1.0f - b1 - b2) * scene->colors[v[0]][k] + b1 * scene->colors[v[1]][k] +
+                            b2 * scene->colors[v[2]][k];
+    }
+}
+
+static const alpi_material *material_of(const alp_scene *scene, uint32_t triangle)
+{
+    uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
+    return material == ALPI_NONE ? NULL : &scene->materials[material];
+}
+
+float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    if (material == NULL || material->alpha_mode == ALPI_ALPHA_OPAQUE) {
+        return 1.0f;
+    }
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, vertex[4];
+    read_texture(scene, &material->base_color_texture, triangle, b1, b2, texel);
+    read_vertex_color(scene, triangle, b1, b2, vertex);
+    return material->base_color[3] * texel[3] * vertex[3];
+}
+
+bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    if (material == NULL || material->alpha_mode == ALPI_ALPHA_OPAQUE) {
+        return false;
+    }
+    float cutoff = material->alpha_mode == ALPI_ALPHA_MASK ? material->alpha_cutoff : 0.5f;
+    return alpi_surface_alpha(scene, triangle, b1, b2) < cutoff;
+}
+
+bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface)
+{
+    uint32_t material = scene->surfaces[surface].material;
+    return material != ALPI_NONE && scene->materials[material].alpha_mode != ALPI_ALPHA_OPAQUE;
+}
+
+vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    if (material == NULL) {
+        return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
+    }
+    float color[4], texel[4], vertex[4];
+    bool textured = read_texture(scene, &material->base_color_texture, triangle, b1, b2, texel);
+    read_vertex_color(scene, triangle, b1, b2, vertex);
+    float metallic = material->metallic, metal_texel[4];
+    if (read_texture(scene, &material->metallic_texture, triangle, b1, b2, metal_texel)) {
+        metallic *= metal_texel[2];
+    }
+    for (int k = 0; k < 3; k++) {
+        float value = material->base_color[k] * vertex[k] *
+                      (textured ? alpi_srgb_to_linear(texel[k]) : 1.0f) * (1.0f - metallic);
+        color[k] = fminf(fmaxf(value, 0.0f), ALBEDO_LIMIT);
+    }
+    return (vec3){color[0], color[1], color[2]};
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Rays against a scene: nearest hit, and whether anything is hit. embree.c is the only file of the
+// library that knows Embree; brute_force.c answers the same questions by testing every triangle.
+#ifndef ALPI_TRACE_TRACE_H
+#define ALPI_TRACE_TRACE_H
+
+#include "scene/scene.h"
+
+enum { ALPI_PACKET = 8 };
+
+/// Eight rays, structure of arrays, aligned for SIMD.
+typedef struct alpi_rays {
+    _Alignas(32) float origin_x[ALPI_PACKET], origin_y[ALPI_PACKET], origin_z[ALPI_PACKET];
+    _Alignas(32) float direction_x[ALPI_PACKET], direction_y[ALPI_PACKET], direction_z[ALPI_PACKET];
+    _Alignas(32) float minimum[ALPI_PACKET], maximum[ALPI_PACKET]; // along the (unit) direction
+} alpi_rays;
+
+typedef struct alpi_hits {
+    _Alignas(32) float distance[ALPI_PACKET]; // INFINITY where nothing was hit
+    uint32_t triangle[ALPI_PACKET];           // ALPI_NONE where nothing was hit
+    float b1[ALPI_PACKET], b2[ALPI_PACKET];   // barycentric weights of corners 1 and 2
+} alpi_hits;
+
+typedef struct alpi_tracer alpi_tracer;
+
+/// What a ray may pass through, besides cut surfaces (alpha), which are always open.
+typedef struct alpi_trace_filter {
+    bool one_sided; // single-sided materials are open from behind
+} alpi_trace_filter;
+
+/// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets
+/// the time this call spent building, 0 when it was there already.
+alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
+                                 void *progress_user, alpi_tracer **tracer, double *seconds);
+
+/// Lane i of `active` (bit i) is traced; others are left alone (occluded: bit 0; nearest:
+/// untouched).
+uint32_t alpi_trace_occluded(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                             alpi_trace_filter filter);
+void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                        alpi_trace_filter filter, alpi_hits *hits);
+
+/// The oracle: the same answers over all triangles in double precision, one ray at a time.
+void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,
+                              alpi_trace_filter filter, alpi_hits *hits);
+
+#endif

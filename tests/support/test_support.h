@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What tests share: cmocka, a context that collects log messages, temporary folders, shared files.
+#ifndef TEST_SUPPORT_H
+#define TEST_SUPPORT_H
+
+// cmocka 1.1 needs these before it
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdbool.h>
+#include <string.h>
+
+#include <alpenglow/alpenglow.h>
+
+/// Fails the test with the numbers unless |actual − expected| ≤ tolerance (NaN fails).
+#define ASSERT_NEAR(actual, expected, tolerance)                                                   \
+    test_assert_near((double)(actual), (double)(expected), (double)(tolerance), #actual, __FILE__, \
+                     __LINE__)
+void test_assert_near(double actual, double expected, double tolerance, const char *text,
+                      const char *file, int line);
+
+/// Fails the test with the context's message unless the call gives ALP_OK.
+#define ASSERT_OK(context, call) test_assert_ok((context), (call), #call, __FILE__, __LINE__)
+void test_assert_ok(alp_context *context, alp_result result, const char *text, const char *file,
+                    int line);
+
+/// A context with this many workers whose log messages test_log_contains can find.
+alp_context *test_context(uint32_t workers);
+/// Forgets logged messages.
+void test_log_clear(void);
+/// Whether a message with this code was logged since the last clear (by any test context).
+int test_log_has(const char *code);
+/// All messages, one "code object: text" a line, for asserting on words.
+const char *test_log_text(void);
+
+/// A new empty folder for this test, removed at exit. Ends in no slash.
+const char *test_folder(void);
+/// "folder/name", in one of 8 static buffers.
+const char *test_path(const char *folder, const char *name);
+
+/// Path of a file below $ALPENGLOW_SHARED (default ../shared from the source tree), or NULL when
+/// the folder is absent: then call skip() — the test shows as skipped.
+const char *test_shared(const char *relative);
+
+/// Whole file, malloc'ed; fails the test when it cannot be read.
+unsigned char *test_read_file(const char *path, size_t *size);
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Parallel loops: every item once, failures and cancelling reported, any number of workers.
+#include "test_support.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <stdatomic.h>
+
+enum { ITEMS = 10007 };
+
+static alp_result mark(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    unsigned char *seen = user;
+    for (uint32_t i = begin; i < end; i++) {
+        seen[i]++;
+    }
+    return ALP_OK;
+}
+
+static void every_item_runs_once(void **state)
+{
+    (void)state;
+    const uint32_t workers[] = {1, 2, 7, 32};
+    for (size_t w = 0; w < sizeof workers / sizeof *workers; w++) {
+        alp_context *context = test_context(workers[w]);
+        for (int repeat = 0; repeat < 20; repeat++) {
+            static unsigned char seen[ITEMS];
+            memset(seen, 0, sizeof seen);
+            ASSERT_OK(context, alpi_parallel_for(context, ITEMS, 13, mark, seen, NULL));
+            for (int i = 0; i < ITEMS; i++) {
+                assert_int_equal(seen[i], 1);
+            }
+        }
+        alp_context_destroy(context);
+    }
+}
+
+static alp_result fail_at_500_and_900(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    alp_context *context = user;
+    if (begin <= 500 && 500 < end) {
+        return alpi_fail(context, ALP_ERROR_LIMIT, "item 500");
+    }
+    return begin <= 900 && 900 < end ? ALP_ERROR_IO : ALP_OK;
+}
+
+static void a_failure_ends_the_loop(void **state)
+{
+    (void)state;
+    for (uint32_t workers = 1; workers <= 3; workers++) {
+        alp_context *context = test_context(workers);
+        alp_result result =
+            alpi_parallel_for(context, ITEMS, 1, fail_at_500_and_900, context, NULL);
+        assert_int_equal(result, ALP_ERROR_LIMIT);
+        assert_string_equal(alp_context_message(context), "item 500");
+        alp_context_destroy(context);
+    }
+}
+
+static bool refuse(void *user, const alp_progress *progress)
+{
+    int *calls = user;
+    assert_string_equal(progress->stage, "test");
+    return ++*calls < 3;
+}
+
+static alp_result slow(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)user;
+    (void)begin;
+    (void)end;
+    (void)worker;
+    double until = alpi_seconds() + 0.01;
+    while (alpi_seconds() < until) {
+    }
+    return ALP_OK;
+}
+
+static void progress_can_cancel(void **state)
+{
+    (void)state;
+    for (uint32_t workers = 1; workers <= 3; workers++) {
+        alp_context *context = test_context(workers);
+        int calls = 0;
+        alpi_task_progress progress = {.callback = refuse, .user = &calls, .stage = "test"};
+        double started = alpi_seconds();
+        alp_result result = alpi_parallel_for(context, 100000, 1, slow, NULL, &progress);
+        assert_int_equal(result, ALP_ERROR_CANCELLED);
+        assert_int_equal(calls, 3);
+        assert_true(alpi_seconds() - started < 100.0); // of 1,000 seconds of work per worker
+        alp_context_destroy(context);
+    }
+}
+
+static void host_parallel_for(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
+                              void *body_user)
+{
+    (void)grain;
+    int *calls = user;
+    ++*calls;
+    body(body_user, 0, count / 2, 0); // ranges longer than the grain are allowed
+    body(body_user, count / 2, count, 1);
+}
+
+static void a_host_scheduler_is_used(void **state)
+{
+    (void)state;
+    int calls = 0;
+    alp_context_options options = alp_context_options_default();
+    options.parallel_for = host_parallel_for;
+    options.parallel_user = &calls;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_ERROR_INVALID_ARGUMENT);
+    options.worker_count = 2;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    static unsigned char seen[ITEMS];
+    memset(seen, 0, sizeof seen);
+    ASSERT_OK(context, alpi_parallel_for(context, ITEMS, 13, mark, seen, NULL));
+    assert_int_equal(calls, 1);
+    for (int i = 0; i < ITEMS; i++) {
+        assert_int_equal(seen[i], 1);
+    }
+    alp_context_destroy(context);
+}
+
+static void no_items_is_no_work(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    ASSERT_OK(context, alpi_parallel_for(context, 0, 1, mark, NULL, NULL));
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_item_runs_once), cmocka_unit_test(a_failure_ends_the_loop),
+        cmocka_unit_test(progress_can_cancel),  cmocka_unit_test(a_host_scheduler_is_used),
+        cmocka_unit_test(no_items_is_no_work),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
