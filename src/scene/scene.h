@@ -117,8 +117,8 @@ struct alp_scene {
     vec3 bounds_min, bounds_max; // over usable triangles
     double area;
 
-    uint64_t input_hash; // of the source bytes (FNV-1a 64), or of the arrays
-    alpi_attachment attachments[ALPI_ATTACHMENT_COUNT];
+    uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
+    alpi_attachment *attachments; // [ALPI_ATTACHMENT_COUNT]; filled in later even in a const scene
 };
 
 /// Beyond this a float product of two extents overflows and Embree drops the triangle.
