@@ -165,6 +165,10 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 /// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
+/// Accessibility from the material's own occlusion map at a point; false where it has none.
+bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                            float *accessibility);
+
 /// Built-in scenes (scene/builtin_*.c). `name` without "builtin:".
 /// @return ALP_OK; INVALID_ARGUMENT (no such scene: the message lists them); OUT_OF_MEMORY
 alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene **scene);

@@ -13,7 +13,6 @@ typedef struct alpi_occlusion_setup {
     const alpi_tracer *tracer;
     alp_occlusion_options options;
     float distance;  // metres, INFINITY = no limit
-    float offset;    // metres along the geometric normal at which a ray starts
     float cone_sin2; // sin² of the cone's half-angle
     float cone_cos;  // cos of it
     alpi_trace_filter filter;
@@ -26,11 +25,16 @@ alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_opti
 alpi_occlusion_setup alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                             const alp_occlusion_options *options);
 
-/// Sum of w over samples [first, first + count) of one receiver, whose random key is `receiver`.
-/// Accessibility = 1 − sum / samples.
-double alpi_occlusion_sum(const alpi_occlusion_setup *setup, uint64_t receiver,
-                          const float position[3], const float geometric_normal[3],
-                          const float shading_normal[3], uint32_t first, uint32_t count);
+/// One receiver, as the arrays of alpi_receivers hold it.
+typedef struct alpi_receiver {
+    uint64_t key; // its random numbers
+    vec3 position, geometric_normal, shading_normal;
+    float offset; // metres along the geometric normal at which its rays start
+} alpi_receiver;
+
+/// Sum of w over samples [first, first + count) of one receiver: accessibility = 1 − sum / samples.
+double alpi_occlusion_sum(const alpi_occlusion_setup *setup, const alpi_receiver *receiver,
+                          uint32_t first, uint32_t count);
 
 /// Accessibility of all receivers, on all workers; progress stage "occlusion", in rays.
 alp_result alpi_occlusion_gather(alp_context *context, const alpi_occlusion_setup *setup,
