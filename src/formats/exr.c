@@ -117,7 +117,7 @@ typedef struct exr_reader {
     alp_image *image;
     exr_decode_pipeline_t decode;
     bool decoding; // `decode` was initialised
-    float *planes; // one chunk, channel after channel
+    float *planes; // one chunk, channel after channel, then one for all others
 } exr_reader;
 
 static const char *const GREY[] = {"Y", "A"};
@@ -247,8 +247,9 @@ static void aim_channel(exr_coding_channel_info_t *coded, float *first, uint32_t
     coded->decode_to_ptr = (uint8_t *)first;
 }
 
-/// Decodes into planes, not into the pixels: the library's own interleaving of four halves
-/// (OpenEXRCore 3.1.5) swaps R and A.
+/// Decodes into planes, not into the pixels, and channels that nobody wants into a last plane:
+/// OpenEXRCore 3.1.5 swaps R and A where it interleaves four halves, and follows the null pointer
+/// of an unwanted channel where it unpacks three.
 static alp_result decode_planes(exr_reader *reader, const exr_chunk_info_t *chunk)
 {
     exr_decode_pipeline_t *decode = &reader->decode;
@@ -259,12 +260,16 @@ static alp_result decode_planes(exr_reader *reader, const exr_chunk_info_t *chun
     } else {
         TRY_EXR(reader, exr_decoding_update(reader->exr, 0, chunk, decode));
     }
+    uint32_t wanted = reader->image->info.channels;
     size_t plane_size = (size_t)chunk->width * (size_t)chunk->height;
     for (int i = 0; i < decode->channel_count; i++) {
         exr_coding_channel_info_t *coded = &decode->channels[i];
-        int k = channel_index(reader->channels, reader->image->info.channels, coded->channel_name);
-        aim_channel(coded, k < 0 ? NULL : reader->planes + (size_t)k * plane_size, 1,
-                    (uint32_t)chunk->width);
+        int k = channel_index(reader->channels, wanted, coded->channel_name);
+        size_t plane = k < 0 ? wanted : (size_t)k;
+        aim_channel(coded, reader->planes + plane * plane_size, 1, (uint32_t)chunk->width);
+        if (coded->data_type == EXR_PIXEL_UINT) { // never a wanted one
+            coded->user_data_type = EXR_PIXEL_UINT;
+        }
     }
     if (first) {
         TRY_EXR(reader, exr_decoding_choose_default_routines(reader->exr, 0, decode));
@@ -286,7 +291,7 @@ static alp_result decode_chunk(exr_reader *reader, const exr_chunk_info_t *chunk
     }
     if (reader->planes == NULL) { // the first chunk is the largest
         ALPI_TRY_NEW(reader->stream->context, reader->planes,
-                     (size_t)width * height * image->info.channels);
+                     (size_t)width * height * (image->info.channels + 1));
     }
     ALP_TRY(decode_planes(reader, chunk));
     for (uint32_t k = 0; k < image->info.channels; k++) {

@@ -108,7 +108,7 @@ static void put_attribute(file *f, const char *name, const char *type, const voi
 }
 
 typedef struct layout {
-    const char *channels; // one letter each, sorted
+    const char *channels; // one letter each, sorted; "u" holds integers, "v" every second pixel
     int32_t pixel_type;
     int32_t min_x, min_y, width, height;
     int32_t tile; // 0 = scanlines
@@ -123,9 +123,9 @@ static void put_header(file *f, const layout *l)
     for (const char *c = l->channels; *c; c++) {
         const char name[2] = {*c, 0};
         put(&list, name, 2);
-        put_int(&list, l->pixel_type);
+        put_int(&list, *c == 'u' ? PIXEL_UINT : l->pixel_type);
         put_int(&list, 0);
-        put_int(&list, 1);
+        put_int(&list, *c == 'v' ? 2 : 1);
         put_int(&list, 1);
     }
     put(&list, "", 1);
@@ -154,7 +154,7 @@ static int value_at(int x, int y, char channel)
     return x + 10 * y + 70 * (channel - 'A');
 }
 
-static void put_value(file *f, const layout *l, int value)
+static void put_value(file *f, int32_t pixel_type, int value)
 {
     float number = (float)value;
     uint32_t bits = 0;
@@ -162,25 +162,29 @@ static void put_value(file *f, const layout *l, int value)
     // Normal numbers only: 5 bits of exponent about 15, 10 of mantissa.
     uint16_t half =
         value == 0 ? 0 : (uint16_t)((((bits >> 23) - 112) << 10) | ((bits >> 13) & 1023));
-    if (l->pixel_type == PIXEL_HALF) {
+    if (pixel_type == PIXEL_HALF) {
         put(f, &half, 2);
-    } else {
+    } else if (pixel_type == PIXEL_FLOAT) {
         put(f, &number, 4);
+    } else {
+        put_int(f, value);
     }
 }
 
 static void put_block(file *f, const layout *l, const int32_t from[2], const int32_t to[2])
 {
-    int32_t columns = to[0] - from[0], rows = to[1] - from[1];
-    put_int(f,
-            columns * rows * (int32_t)strlen(l->channels) * (l->pixel_type == PIXEL_HALF ? 2 : 4));
+    size_t start = f->size;
+    put_int(f, 0);
     for (int32_t y = from[1]; y < to[1]; y++) {
         for (const char *c = l->channels; *c; c++) {
-            for (int32_t x = from[0]; x < to[0]; x++) {
-                put_value(f, l, value_at(x, y, *c));
+            int32_t step = *c == 'v' ? 2 : 1;
+            for (int32_t x = from[0]; x < to[0]; x += step) {
+                put_value(f, *c == 'u' ? PIXEL_UINT : l->pixel_type, value_at(x, y, *c));
             }
         }
     }
+    int32_t size = (int32_t)(f->size - start - 4);
+    memcpy(f->bytes + start, &size, 4);
 }
 
 static int32_t smaller(int32_t a, int32_t b)
@@ -253,6 +257,13 @@ static void files_of_others_are_read(void **state)
     check_file(&l, "Y");
     l.channels = "AYZ";
     check_file(&l, "YA");
+    l.channels = "ABGRu";
+    check_file(&l, "RGBA");
+    l.channels = "ABGRv";
+    l.width = 8;
+    check_file(&l, "RGBA");
+    l.pixel_type = PIXEL_FLOAT;
+    check_file(&l, "RGBA");
 }
 
 static void tiles_are_read(void **state)
