@@ -83,8 +83,8 @@ static alp_result place_camera(render_job *job)
 }
 
 /// Accessibility by rays at a hit, on the side that is seen.
-static float trace_occlusion(const render_job *job, uint64_t receiver, vec3 direction,
-                             uint32_t triangle, float b1, float b2)
+static float trace_occlusion(const render_job *job, uint64_t key, vec3 direction, uint32_t triangle,
+                             float b1, float b2)
 {
     const alp_scene *scene = job->scene;
     vec3 c[3], position, geometric, shading = {0.0f, 0.0f, 0.0f};
@@ -105,11 +105,8 @@ static float trace_occlusion(const render_job *job, uint64_t receiver, vec3 dire
         geometric = vec3_scale(geometric, -1.0f);
         shading = vec3_scale(shading, -1.0f);
     }
-    float p[3], g[3], s[3];
-    vec3_store(p, position);
-    vec3_store(g, geometric);
-    vec3_store(s, shading);
-    double sum = alpi_occlusion_sum(&job->occlusion, receiver, p, g, s, 0, job->occlusion_rays);
+    alpi_receiver r = {key, position, geometric, shading, alpi_receiver_offset(position, c)};
+    double sum = alpi_occlusion_sum(&job->occlusion, &r, 0, job->occlusion_rays);
     return (float)(1.0 - sum / (double)job->occlusion_rays);
 }
 

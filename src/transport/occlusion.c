@@ -63,19 +63,12 @@ alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_opti
 alpi_occlusion_setup alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                             const alp_occlusion_options *options)
 {
-    vec3 low = scene->bounds_min, high = scene->bounds_max;
-    vec3 far = vec3_max(vec3_make(fabsf(low.x), fabsf(low.y), fabsf(low.z)),
-                        vec3_make(fabsf(high.x), fabsf(high.y), fabsf(high.z)));
-    float largest = fmaxf(fmaxf(far.x, far.y), far.z);
     bool hemisphere = options->cone >= (float)(ALPI_PI / 2.0) * 0.999999f;
     float s = sinf(options->cone);
     return (alpi_occlusion_setup){
         .tracer = tracer,
         .options = *options,
         .distance = alp_occlusion_distance(scene, options),
-        // A position is right to half a float step of its largest coordinate, and so are the
-        // triangle's corners and the distance that the tracer computes: four steps clear them all.
-        .offset = 4.0f * 0x1p-23f * largest,
         .cone_sin2 = hemisphere ? 1.0f : s * s,
         .cone_cos = hemisphere ? 0.0f : cosf(options->cone),
         .filter = {.one_sided = options->one_sided},
@@ -142,12 +135,11 @@ static double packet_sum(const alpi_occlusion_setup *setup, const alpi_rays *ray
     return sum;
 }
 
-double alpi_occlusion_sum(const alpi_occlusion_setup *setup, uint64_t receiver,
-                          const float position[3], const float geometric_normal[3],
-                          const float shading_normal[3], uint32_t first, uint32_t count)
+double alpi_occlusion_sum(const alpi_occlusion_setup *setup, const alpi_receiver *receiver,
+                          uint32_t first, uint32_t count)
 {
-    uint32_t key = alpi_random_key(setup->options.seed, receiver, 0);
-    vec3 origin = vec3_mad(vec3_load(position), setup->offset, vec3_load(geometric_normal));
+    uint32_t key = alpi_random_key(setup->options.seed, receiver->key, 0);
+    vec3 origin = vec3_mad(receiver->position, receiver->offset, receiver->geometric_normal);
     alpi_rays rays;
     for (int i = 0; i < ALPI_PACKET; i++) {
         rays.origin_x[i] = origin.x;
@@ -159,7 +151,7 @@ double alpi_occlusion_sum(const alpi_occlusion_setup *setup, uint64_t receiver,
     double sum = 0.0;
     for (uint32_t done = 0; done < count; done += ALPI_PACKET) {
         uint32_t lanes = count - done < ALPI_PACKET ? count - done : ALPI_PACKET;
-        fill_directions(setup, key, first + done, vec3_load(shading_normal), &rays);
+        fill_directions(setup, key, first + done, receiver->shading_normal, &rays);
         sum += packet_sum(setup, &rays, (1u << lanes) - 1u);
     }
     return sum;
@@ -181,9 +173,16 @@ static alp_result run_round(void *user, uint32_t begin, uint32_t end, uint32_t w
     const round_job *job = user;
     const alpi_receivers *r = job->receivers;
     for (uint32_t i = begin; i < end; i++) {
+        alpi_receiver receiver = {
+            .key = i,
+            .position = vec3_load(r->positions[i]),
+            .geometric_normal = vec3_load(r->geometric_normals[i]),
+            .shading_normal = vec3_load(r->shading_normals[i]),
+        };
+        receiver.offset =
+            r->offsets[i] > 0.0f ? r->offsets[i] : alpi_receiver_offset(receiver.position, NULL);
         job->sums[i] +=
-            alpi_occlusion_sum(job->setup, i, r->positions[i], r->geometric_normals[i],
-                               r->shading_normals[i], job->first_sample, job->sample_count);
+            alpi_occlusion_sum(job->setup, &receiver, job->first_sample, job->sample_count);
     }
     return ALP_OK;
 }
