@@ -34,52 +34,53 @@ static void print_paragraph(const char *text, int indent)
     putchar('\n');
 }
 
+/// "Range 1 to 64 texels. Default 2." on a line of its own, as far as there is something to say.
+static void print_facts(const option *o, int indent)
+{
+    char range[RANGE_SIZE], text[RANGE_SIZE + 96] = "";
+    int length = 0;
+    if (o->kind == KIND_WHOLE || o->kind == KIND_REAL) {
+        option_range(o, range, sizeof range);
+        length = snprintf(text, sizeof text, "Range %s.", range);
+    }
+    if (o->initial != NULL && length >= 0) {
+        snprintf(text + length, sizeof text - (size_t)length, "%sDefault %s.",
+                 length > 0 ? " " : "", o->initial);
+    }
+    if (text[0] != '\0') {
+        print_paragraph(text, indent);
+    }
+}
+
 static void print_option(const option *o)
 {
     enum { INDENT = 8 };
-    char text[RANGE_SIZE + 16], range[RANGE_SIZE];
     printf("  %s%s%s%s%s\n", o->name, o->alias ? ", " : "", o->alias ? o->alias : "",
            o->value ? " " : "", o->value ? o->value : "");
-    int column = INDENT;
-    printf("%*s", INDENT, "");
-    print_wrapped(o->help, INDENT, &column);
-    if (o->kind == KIND_WHOLE || o->kind == KIND_REAL) {
-        option_range(o, range, sizeof range);
-        snprintf(text, sizeof text, "Range %s.", range);
-        print_wrapped(text, INDENT, &column);
-    } else if (o->kind == KIND_CHOICE || o->kind == KIND_LIST) {
-        snprintf(text, sizeof text, "One of %s.", o->choices);
-        print_wrapped(o->kind == KIND_LIST ? "" : text, INDENT, &column);
-    }
-    if (o->initial != NULL) {
-        snprintf(text, sizeof text, "Default %s.", o->initial);
-        print_wrapped(text, INDENT, &column);
-    }
-    putchar('\n');
+    print_paragraph(o->help, INDENT);
+    print_facts(o, INDENT);
 }
 
-/// All that is not built yet, in as few lines as it takes.
+/// All that is not built yet, in as few lines as it takes; choices one option a line.
 static void print_later(command_id command)
 {
+    enum { INDENT = 2 };
     size_t count = 0;
     const option *table = option_table(&count);
-    int column = 2;
+    int column = INDENT;
     bool any = false;
     for (size_t i = 0; i < count; i++) {
         if (table[i].group == GROUP_LATER && (table[i].commands & (1u << command)) != 0) {
-            printf("%s", any ? "" : "\n");
             if (!any) {
-                printf("%s:\n  ", option_group_title(GROUP_LATER));
+                printf("\n%s:\n  ", option_group_title(GROUP_LATER));
             }
+            print_wrapped(table[i].name, INDENT, &column);
             any = true;
-            print_wrapped(table[i].name, 2, &column);
         }
     }
     for (size_t i = 0; i < count; i++) {
         if (table[i].later_choices != NULL && (table[i].commands & (1u << command)) != 0) {
-            char text[RANGE_SIZE];
-            snprintf(text, sizeof text, "%s %s", table[i].name, table[i].later_choices);
-            print_wrapped(text, 2, &column);
+            printf("\n  %s %s", table[i].name, table[i].later_choices);
         }
     }
     if (any) {

@@ -84,7 +84,7 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "--maps-dir",
      .value = "DIR",
-     .help = "Also write each map there: ao.exr (float RGBA, A = coverage, row 0 is v = 0) and "
+     .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0) and "
              "ao.png; further pages ao.1.exr and so on. DIR is made if missing."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,
@@ -154,7 +154,7 @@ static const option options[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
-     .value = "MODE",
+     .value = "auto|keep|charts",
      .choices = "auto|keep|charts",
      .later_choices = "blend|vertex",
      .initial = "auto",
@@ -179,7 +179,7 @@ static const option options[] = {
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "METHOD",
+     .value = "ao|constant",
      .choices = "ao|constant",
      .later_choices = "reference|radiosity|lightmap|probes|ambience|lpv|hemisphere|cube",
      .help = "ao: accessibility, from the scene's occlusion maps, and by rays where it has none. "
@@ -191,9 +191,10 @@ static const option options[] = {
      .name = "--camera",
      .value = "N|auto|PX,PY,PZ,TX,TY,TZ,VFOV",
      .initial = "0",
-     .help = "Camera of the scene, from 0; or position and target in metres and the vertical "
-             "field of view in degrees, above 0 and below 180. auto (and a scene without cameras): "
-             "a view of everything."},
+     .help =
+         "Camera of the scene, from 0; or position and target in metres and the vertical "
+         "field of view in degrees, 0.001 to 179. auto (and a scene without cameras): a view of "
+         "everything."},
     {.id = OPTION_RESOLUTION,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -264,7 +265,7 @@ static const option options[] = {
      .group = GROUP_AO,
      .kind = KIND_CHOICE,
      .name = "--ao-falloff",
-     .value = "CURVE",
+     .value = "none|linear|smooth|exp",
      .choices = "none|linear|smooth|exp",
      .initial = "smooth",
      .help = "How a hit at t = distance / limit occludes. none: 1; linear: 1 - t; smooth: "
@@ -286,7 +287,7 @@ static const option options[] = {
      .group = GROUP_AO,
      .kind = KIND_CHOICE,
      .name = "--ao-distribution",
-     .value = "NAME",
+     .value = "cosine|uniform",
      .choices = "cosine|uniform",
      .initial = "cosine",
      .help = "cosine: as uniform light from the sky reaches a matte surface. uniform: every "
@@ -303,7 +304,7 @@ static const option options[] = {
      .group = GROUP_AO,
      .kind = KIND_CHOICE,
      .name = "--existing-ao",
-     .value = "WHAT",
+     .value = "replace|multiply|keep",
      .choices = "replace|multiply|keep",
      .initial = "replace",
      .help = "What happens to an occlusion map that a material has already: ours takes its "
@@ -337,7 +338,7 @@ static const option options[] = {
      .group = GROUP_RUN,
      .kind = KIND_CHOICE,
      .name = "--progress",
-     .value = "HOW",
+     .value = "auto|plain|json|off",
      .choices = "auto|plain|json|off",
      .initial = "auto",
      .help = "On standard error. auto: one updating line on a terminal, else plain. plain: a line "
@@ -356,6 +357,14 @@ static const option options[] = {
      .alias = "--quiet",
      .help = "No summary, no notes, no progress. Warnings and errors stay, and so does what info "
              "and compare are asked for."},
+
+    {.id = OPTION_HELP,
+     .commands = SCENE_COMMANDS | IN_COMPARE,
+     .group = GROUP_RUN,
+     .kind = KIND_FLAG,
+     .name = "-h",
+     .alias = "--help",
+     .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
     LATER(IN_BAKE, "--only", "GLOB", "everything is baked"),

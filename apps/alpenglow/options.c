@@ -57,8 +57,8 @@ number_result number_parse_real(const char *text, double *number)
 
 void option_range(const option *o, char *text, size_t size)
 {
-    // %.15g shows whole numbers as they are, and 1e-06 short.
-    int length = snprintf(text, size, "%.15g to %.15g", o->minimum, o->maximum);
+    // %.16g shows whole numbers as they are, and 1e-06 short.
+    int length = snprintf(text, size, "%.16g to %.16g", o->minimum, o->maximum);
     if (o->unit != NULL && length > 0 && (size_t)length < size) {
         length += snprintf(text + length, size - (size_t)length, " %s", o->unit);
     }

@@ -62,6 +62,7 @@ typedef enum option_id {
     OPTION_WARNINGS_AS_ERRORS,
     OPTION_QUIET,
     OPTION_FORCE,
+    OPTION_HELP, // seen before all others
     OPTION_COUNT,
     OPTION_LATER
 } option_id;
