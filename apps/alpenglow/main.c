@@ -31,10 +31,15 @@ static command_id find_command(const char *name)
         }
     }
     const char *nearest = command_nearest(name);
-    if (nearest != NULL) {
+    if (name[0] == '-') {
+        usage_error(COMMAND_COUNT,
+                    "unknown option '%s'; the command comes first: bake, render, "
+                    "info or compare",
+                    name);
+    } else if (nearest != NULL) {
         usage_error(COMMAND_COUNT, "unknown command '%s'; did you mean %s?", name, nearest);
     } else {
-        usage_error(COMMAND_COUNT, "unknown %s '%s'", name[0] == '-' ? "option" : "command", name);
+        usage_error(COMMAND_COUNT, "unknown command '%s'", name);
     }
     return COMMAND_COUNT;
 }
