@@ -94,9 +94,15 @@ bool alpi_path_has_ending(const char *path, const char *ending)
 alp_result alpi_file_check_writable(alp_context *context, const char *path, bool overwrite)
 {
     struct stat status;
+    if (alpi_path_name(path)[0] == '\0') {
+        return alpi_fail(context, ALP_ERROR_IO, "\"%s\": a file name is needed", path);
+    }
     if (stat(path, &status) == 0) {
         if (S_ISDIR(status.st_mode)) {
             return alpi_fail(context, ALP_ERROR_IO, "%s: is a folder, a file name is needed", path);
+        }
+        if (!S_ISREG(status.st_mode)) { // renaming onto a device would replace the device
+            return alpi_fail(context, ALP_ERROR_IO, "%s: is not a regular file", path);
         }
         if (!overwrite) {
             return alpi_fail(context, ALP_ERROR_IO,
