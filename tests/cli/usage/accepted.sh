@@ -13,6 +13,7 @@ right bake --padding 0 64
 right bake --texels-per-metre 1e-6 1000000 auto
 right bake --ao-samples 1 1048576
 right bake --ao-distance 0.000001 1e9 auto inf .5
+right bake --ao-falloff "none --ao-distance inf"
 right bake --ao-cone 0.001 90
 right bake --seed 0 9007199254740992
 right bake --threads 1 1024 auto

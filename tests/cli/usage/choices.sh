@@ -14,4 +14,4 @@ for method in reference radiosity lightmap probes ambience lpv hemisphere cube r
     try render scene.glb -o out.png --with $method
 done
 try bake scene.glb -o out.glb --ao-distance inf --ao-falloff linear
-try bake scene.glb -o out.glb --ao-distance inf --ao-falloff none
+try bake scene.glb -o out.glb --ao-distance=inf --ao-falloff=exp

@@ -8,7 +8,7 @@ try() {
 # helpers for numbers: in a range the missing scene is the fault (1), out of it the number is (2)
 accepted() { # command, option, value
     local code=0
-    alpenglow "$1" ${4:-} missing.glb $(outputs "$1") "$2" "$3" >/dev/null 2>&1 || code=$?
+    alpenglow "$1" missing.glb $(outputs "$1") "$2" $3 >/dev/null 2>&1 || code=$?
     printf '%s %s %s | %s\n' "$1" "$2" "$3" "$code"
 }
 outputs() {

@@ -13,4 +13,4 @@ try compare
 try compare a
 try compare a b c
 # after -- all are operands
-try info -- --json
+alpenglow info -- --json 2>&1 | grep -c -e "--json: "
