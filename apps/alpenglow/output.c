@@ -54,6 +54,9 @@ int output_check(const char *path, bool overwrite)
         if (!overwrite) {
             return fail_path(path, "exists already; -f overwrites it");
         }
+        if (!S_ISREG(about.st_mode)) { // a rename would put a file in the place of a device
+            return fail_path(path, "is not an ordinary file");
+        }
     }
     char *folder = folder_of(path);
     int code = EXIT_DONE;
