@@ -214,19 +214,22 @@ static int parse_number(command_id command, const option *o, const char *text, o
         return EXIT_DONE;
     }
     number_result result = NUMBER_OK;
+    bool outside = false;
     if (o->kind == KIND_WHOLE) {
         bool negative =
             text[0] == '-' && number_parse_whole(text + 1, &value->whole) != NUMBER_NONE;
         result = negative ? NUMBER_TOO_LARGE : number_parse_whole(text, &value->whole);
-        value->real = (double)value->whole;
+        // as whole numbers: a double does not know all of them
+        outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
     } else {
         result = number_parse_real(text, &value->real);
+        outside = value->real < o->minimum || value->real > o->maximum;
     }
     if (result == NUMBER_NONE) {
         return usage_error(command, "%s: '%s' is not a %snumber; give %s", o->name, text,
                            o->kind == KIND_WHOLE ? "whole " : "", range);
     }
-    if (result == NUMBER_TOO_LARGE || value->real < o->minimum || value->real > o->maximum) {
+    if (result == NUMBER_TOO_LARGE || outside) {
         return usage_error(command, "%s: %s is out of range; give %s", o->name, text, range);
     }
     return EXIT_DONE;
