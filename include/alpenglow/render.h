@@ -4,6 +4,7 @@
 #define ALPENGLOW_RENDER_H
 
 #include <alpenglow/bake.h>
+#include <alpenglow/display.h>
 #include <alpenglow/image.h>
 #include <alpenglow/scene.h>
 
@@ -35,10 +36,6 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
-
-/// 8-bit sRGB picture of a linear float image (values clamped to [0,1]), over a grey background
-/// where alpha is 0.
-ALP_API ALP_NODISCARD alp_result alp_image_to_display(const alp_image *linear, alp_image **display);
 
 ALP_END_DECLS
 

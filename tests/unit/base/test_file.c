@@ -116,6 +116,24 @@ static void a_file_that_appears_meanwhile_is_kept(void **state)
     alp_context_destroy(context);
 }
 
+static void two_writers_of_one_file_do_not_meet(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const char *folder = test_folder(), *path = test_path(folder, "a.txt");
+    alpi_file_writer one, two;
+    ASSERT_OK(context, alpi_file_open(context, path, true, &one));
+    ASSERT_OK(context, alpi_file_open(context, path, true, &two));
+    ASSERT_OK(context, alpi_file_append(&one, "one", 3));
+    ASSERT_OK(context, alpi_file_append(&two, "two", 3));
+    ASSERT_OK(context, alpi_file_commit(&two));
+    assert_holds(path, "two");
+    ASSERT_OK(context, alpi_file_commit(&one));
+    assert_holds(path, "one");
+    assert_int_equal(files_in(folder), 1);
+    alp_context_destroy(context);
+}
+
 static void assert_refused(alp_context *context, const char *path, const char *words)
 {
     assert_int_equal(alpi_file_check_writable(context, path, true), ALP_ERROR_IO);
@@ -202,6 +220,7 @@ int main(void)
         cmocka_unit_test(giving_up_leaves_nothing),
         cmocka_unit_test(a_file_is_kept_unless_it_may_go),
         cmocka_unit_test(a_file_that_appears_meanwhile_is_kept),
+        cmocka_unit_test(two_writers_of_one_file_do_not_meet),
         cmocka_unit_test(places_that_cannot_be_written_are_named),
         cmocka_unit_test(places_that_cannot_be_read_are_named),
         cmocka_unit_test(folders_are_made_with_their_parents),
