@@ -7,8 +7,9 @@
 #   check.sh pkg_config WORK       so does a compiler with pkg-config's flags
 #   check.sh headers WORK          each header alone compiles as C17 and as C++17
 #   check.sh symbols WORK          the library shows what the headers declare, and nothing else
+#   check.sh readme WORK           the README shows the program that is built here
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
+project=$(cd "$(dirname "$0")/project" && pwd)
 step=$1
 unset MAKEFLAGS MFLAGS # of a make that may stand above
 
@@ -40,10 +41,10 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 
 case $step in
 find_package)
-    cmake -S "$here" -B "$work/found" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
+    cmake -S "$project" -B "$work/found" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
     cmake --build "$work/found"
     run_consumer "$work/found/consumer" "$work/found"
-    sed 's/find_package(alpenglow 0.1/find_package(alpenglow 0.2/' "$here/CMakeLists.txt" |
+    sed 's/find_package(alpenglow 0.1/find_package(alpenglow 0.2/' "$project/CMakeLists.txt" |
         (mkdir -p "$work/newer" && cat >"$work/newer/CMakeLists.txt")
     ! cmake -S "$work/newer" -B "$work/newer/build" -DCMAKE_PREFIX_PATH="$prefix" \
         >/dev/null 2>&1 || fail "version 0.2 was asked for and 0.1 accepted"
@@ -54,7 +55,7 @@ pkg_config)
     [ -e "$libraries/libalpenglow.so" ] || static=--static
     mkdir -p "$work/pkg"
     # shellcheck disable=SC2046,SC2086 # lists of words
-    cc -std=c17 $warnings "$here/consumer.c" -o "$work/pkg/consumer" \
+    cc -std=c17 $warnings "$project/consumer.c" -o "$work/pkg/consumer" \
         $(pkg-config $static --cflags --libs alpenglow)
     LD_LIBRARY_PATH=$libraries run_consumer "$work/pkg/consumer" "$work/pkg"
     ;;
@@ -86,6 +87,12 @@ symbols)
     diff "$work/declared" "$work/shown" >"$work/difference" ||
         fail "declared (<) and shown (>) differ:
 $(cat "$work/difference")"
+    ;;
+readme)
+    # shellcheck disable=SC2016 # the backquotes are Markdown
+    sed -n '/^```c$/,/^```$/p' "$project/../../../README.md" | sed '/^```/d' >"$work/readme.c"
+    sed '/^\/\//d' "$project/consumer.c" | diff - "$work/readme.c" ||
+        fail "the C program in README.md is not $project/consumer.c"
     ;;
 *) fail "no such step" ;;
 esac
