@@ -233,8 +233,8 @@ alp_result alpi_scene_finish(alp_scene *scene)
     if (scene->triangle_usable == NULL) {
         ALPI_TRY_NEW(scene->context, scene->triangle_usable, scene->triangle_count);
     }
+    mark_triangles(scene); // first: only normals that a usable triangle needs are worth a warning
     repair_normals(scene);
-    mark_triangles(scene);
     clamp_materials(scene);
     warn_of_precision(scene);
     return ALP_OK;
