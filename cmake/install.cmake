@@ -1,1 +1,34 @@
-# Install rules, find_package and pkg-config files.
+# Install rules, find_package and pkg-config files. All of it may be moved: no path is absolute.
+set(ALP_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/alpenglow)
+
+install(TARGETS alpenglow EXPORT alpenglowTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/alpenglow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_BINARY_DIR}/include/alpenglow/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/alpenglow)
+
+# The installed command finds the library beside it, wherever the two were moved.
+file(RELATIVE_PATH ALP_BIN_TO_LIB "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+set_target_properties(alpenglow_command PROPERTIES INSTALL_RPATH "$ORIGIN/${ALP_BIN_TO_LIB}")
+install(TARGETS alpenglow_command DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# find_package(alpenglow). A static library needs its libraries found again; a shared one does not.
+get_target_property(ALP_LIBRARY_TYPE alpenglow TYPE)
+configure_package_config_file(cmake/alpenglowConfig.cmake.in alpenglowConfig.cmake
+                              INSTALL_DESTINATION ${ALP_PACKAGE_FOLDER})
+write_basic_package_version_file(alpenglowConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(EXPORT alpenglowTargets NAMESPACE alpenglow:: DESTINATION ${ALP_PACKAGE_FOLDER})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfigVersion.cmake
+        DESTINATION ${ALP_PACKAGE_FOLDER})
+
+# pkg-config. Embree 3 has no .pc file of its own.
+set(ALP_PKGCONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH ALP_PKGCONFIG_TO_PREFIX "${CMAKE_INSTALL_PREFIX}/${ALP_PKGCONFIG_FOLDER}"
+     "${CMAKE_INSTALL_PREFIX}")
+string(REGEX REPLACE "/$" "" ALP_PKGCONFIG_TO_PREFIX "${ALP_PKGCONFIG_TO_PREFIX}")
+configure_file(cmake/alpenglow.pc.in alpenglow.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/alpenglow.pc DESTINATION ${ALP_PKGCONFIG_FOLDER})

@@ -1,10 +1,86 @@
 // SPDX-License-Identifier: MIT
+// The command: finds which one is meant, and hands over.
+#include "options.h"
+
 #include <alpenglow/alpenglow.h>
 
 #include <stdio.h>
+#include <string.h>
 
-int main(void)
+static bool is_help(const char *word)
 {
-    printf("alpenglow %s\n", alp_version());
-    return 0;
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+}
+
+static bool asks_for_help(int count, char **words)
+{
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        if (is_help(words[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The command of this name, or COMMAND_COUNT after a message.
+static command_id find_command(const char *name)
+{
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(command_table()[i].name, name) == 0) {
+            return i;
+        }
+    }
+    const char *nearest = command_nearest(name);
+    if (name[0] == '-') {
+        usage_error(COMMAND_COUNT,
+                    "unknown option '%s'; the command comes first: bake, render, "
+                    "info or compare",
+                    name);
+    } else if (nearest != NULL) {
+        usage_error(COMMAND_COUNT, "unknown command '%s'; did you mean %s?", name, nearest);
+    } else {
+        usage_error(COMMAND_COUNT, "unknown command '%s'", name);
+    }
+    return COMMAND_COUNT;
+}
+
+static int run_command(int count, char **words)
+{
+    command_id id = find_command(words[0]);
+    if (id == COMMAND_COUNT) {
+        return EXIT_USAGE;
+    }
+    const command_entry *c = &command_table()[id];
+    if (c->run == NULL || asks_for_help(count - 1, words + 1)) {
+        return help_print_command(id);
+    }
+    command_line parsed;
+    int code = arguments_parse(id, count - 1, words + 1, &parsed);
+    return code == EXIT_DONE ? c->run(&parsed) : code;
+}
+
+static int dispatch(int count, char **words)
+{
+    if (count < 1) {
+        return usage_error(COMMAND_COUNT, "which command? bake, render, info or compare");
+    }
+    if (is_help(words[0])) {
+        return help_print();
+    }
+    if (strcmp(words[0], "--version") == 0) {
+        printf("alpenglow %s\n", alp_version());
+        return EXIT_DONE;
+    }
+    return run_command(count, words);
+}
+
+int main(int count, char **words)
+{
+    int code = dispatch(count > 0 ? count - 1 : 0, words + 1);
+    // A full disk or a closed pipe shows only now.
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "alpenglow: cannot write to standard output\n");
+        code = code == EXIT_DONE ? EXIT_FAILED : code;
+    }
+    return code;
 }

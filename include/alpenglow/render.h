@@ -22,7 +22,7 @@ typedef struct alp_render_options {
     uint32_t samples;       ///< camera rays per pixel, [1, 4096]; default 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     uint32_t camera_index;  ///< default 0; past the last: the automatic camera
-    alp_occlusion_options occlusion; ///< for AO by rays; its progress is ignored
+    alp_occlusion_options occlusion; ///< for AO by rays, `samples` per pixel; its progress is ignored
     const alp_lightmap
         *lightmap; ///< NULL, or maps of this scene that are read instead of its textures
     alp_progress_fn *progress;

@@ -7,8 +7,8 @@
 
 ALP_BEGIN_DECLS
 
-/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. A scene is only
-/// read by the calls that take it, so threads with contexts of their own may share one.
+/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. Calls that take a
+/// scene run on the context it was made with: one at a time.
 typedef struct alp_scene alp_scene;
 
 /// Reads a scene file (.gltf, .glb) or makes a built-in one ("builtin:cornell", "builtin:furnace",

@@ -65,15 +65,17 @@ static inline uint32_t alpi_owen_scramble(uint32_t x, uint32_t key)
     return alpi_reverse_bits(alpi_owen_hash(alpi_reverse_bits(x), key));
 }
 
-/// Second Sobol' dimension (the first is the bit reversal of the index): the matrix of the
-/// primitive polynomial x + 1, which is Pascal's triangle modulo 2.
-static inline uint32_t alpi_sobol_1(uint32_t index)
+/// Second Sobol' dimension, bits reversed (the first is the index itself, bits reversed). Its
+/// matrix, of the primitive polynomial x + 1, is Pascal's triangle modulo 2; by Lucas bit j of the
+/// product is the sum of all bits k of the index with j a subset of k, which five folds compute.
+static inline uint32_t alpi_sobol_1_reversed(uint32_t index)
 {
-    uint32_t result = 0;
-    for (uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1) {
-        result ^= (index & 1u) ? column : 0u;
-    }
-    return result;
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    index ^= (index >> 16) & 0x0000ffffu;
+    return index;
 }
 
 /// [0, 1) from 32 random bits: the upper 24, which a float holds exactly.
@@ -87,8 +89,10 @@ static inline float alpi_unit_float(uint32_t bits)
 static inline vec2 alpi_sample_2d(uint32_t key, uint32_t sample)
 {
     uint32_t shuffled = alpi_owen_scramble(sample, alpi_hash32(key ^ 0x68bc21ebu));
-    uint32_t x = alpi_owen_scramble(alpi_reverse_bits(shuffled), alpi_hash32(key ^ 0x02e5be93u));
-    uint32_t y = alpi_owen_scramble(alpi_sobol_1(shuffled), alpi_hash32(key ^ 0x967a889bu));
+    // A scramble of a number whose bits are reversed already needs only the second reversal.
+    uint32_t x = alpi_reverse_bits(alpi_owen_hash(shuffled, alpi_hash32(key ^ 0x02e5be93u)));
+    uint32_t y = alpi_reverse_bits(
+        alpi_owen_hash(alpi_sobol_1_reversed(shuffled), alpi_hash32(key ^ 0x967a889bu)));
     return (vec2){alpi_unit_float(x), alpi_unit_float(y)};
 }
 

@@ -72,9 +72,10 @@ static void loop_report(loop *l, bool always)
     }
     l->reported = now;
     double per_item = p->units_per_item > 0.0 ? p->units_per_item : 1.0;
-    double done = (double)atomic_load_explicit(&l->done, memory_order_relaxed) * per_item;
-    double total = (double)l->count * per_item;
-    double seconds = now - l->started;
+    double done =
+        p->units_before + (double)atomic_load_explicit(&l->done, memory_order_relaxed) * per_item;
+    double total = p->units_total > 0.0 ? p->units_total : (double)l->count * per_item;
+    double seconds = now - (p->started > 0.0 ? p->started : l->started);
     double rate = seconds > 0.0 ? done / seconds : 0.0;
     alp_progress report = {p->stage, (uint64_t)done, (uint64_t)total,
                            p->units_are_rays ? rate : 0.0,

@@ -16,6 +16,9 @@ typedef struct alpi_task_progress {
     void *user;
     const char *stage;
     double units_per_item; ///< progress counts items × this; 0 = 1
+    double units_before;   ///< done by earlier loops of the same stage
+    double units_total;    ///< of the whole stage; 0 = this loop alone
+    double started;        ///< alpi_seconds() when the stage began; 0 = with this loop
     bool units_are_rays;   ///< then rays_per_second is reported
 } alpi_task_progress;
 

@@ -16,8 +16,9 @@ alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene *
     }
     s->context = context;
     s->name = alpi_copy_string(context, name);
-    if (s->name == NULL) {
-        alpi_release(context, s);
+    s->attachments = ALPI_NEW(context, alpi_attachment, ALPI_ATTACHMENT_COUNT);
+    if (s->name == NULL || s->attachments == NULL) {
+        alp_scene_destroy(s);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     *scene = s;
@@ -30,7 +31,7 @@ void alp_scene_destroy(alp_scene *scene)
         return;
     }
     alp_context *context = scene->context;
-    for (int i = ALPI_ATTACHMENT_COUNT - 1; i >= 0; i--) {
+    for (int i = ALPI_ATTACHMENT_COUNT - 1; scene->attachments != NULL && i >= 0; i--) {
         if (scene->attachments[i].destroy != NULL) {
             scene->attachments[i].destroy(context, scene->attachments[i].data);
         }
@@ -50,11 +51,11 @@ void alp_scene_destroy(alp_scene *scene)
     for (int i = 0; i < ALPI_UV_SET_LIMIT; i++) {
         alpi_release(context, scene->uvs[i]);
     }
-    void *const arrays[] = {
-        scene->positions, scene->normals,          scene->colors,          scene->vertex_source,
-        scene->triangles, scene->triangle_surface, scene->triangle_usable, scene->surfaces,
-        scene->materials, scene->images,           scene->lights,          scene->cameras,
-        scene->name};
+    void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,
+                            scene->vertex_source,   scene->triangles, scene->triangle_surface,
+                            scene->triangle_usable, scene->surfaces,  scene->materials,
+                            scene->images,          scene->lights,    scene->cameras,
+                            scene->attachments,     scene->name};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(context, arrays[i]);
     }

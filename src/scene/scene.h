@@ -117,8 +117,8 @@ struct alp_scene {
     vec3 bounds_min, bounds_max; // over usable triangles
     double area;
 
-    uint64_t input_hash; // of the source bytes (FNV-1a 64), or of the arrays
-    alpi_attachment attachments[ALPI_ATTACHMENT_COUNT];
+    uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
+    alpi_attachment *attachments; // [ALPI_ATTACHMENT_COUNT]; filled in later even in a const scene
 };
 
 /// Beyond this a float product of two extents overflows and Embree drops the triangle.
@@ -164,6 +164,10 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 
 /// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
+/// Accessibility from the material's own occlusion map at a point; false where it has none.
+bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                            float *accessibility);
 
 /// Built-in scenes (scene/builtin_*.c). `name` without "builtin:".
 /// @return ALP_OK; INVALID_ARGUMENT (no such scene: the message lists them); OUT_OF_MEMORY

@@ -123,3 +123,16 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
     }
     return (vec3){color[0], color[1], color[2]};
 }
+
+bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                            float *accessibility)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    float texel[4];
+    if (material == NULL ||
+        !read_texture(scene, &material->occlusion_texture, triangle, b1, b2, texel)) {
+        return false;
+    }
+    *accessibility = 1.0f + material->occlusion_strength * (texel[0] - 1.0f);
+    return true;
+}

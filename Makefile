@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+# What a person types. CMake does the work: presets in CMakePresets.json, build/PRESET is the output.
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+# OFF keeps a warning a warning, which a newer compiler than ours needs; CI says ON.
+WERROR ?= OFF
+# no: leave packages alone, for machines where scripts/setup.sh has nothing to say.
+SETUP ?= yes
+
+configure = cmake --preset $(1) -DALP_WARNINGS_AS_ERRORS=$(WERROR) --log-level=WARNING
+build = $(call configure,$(1)) && cmake --build build/$(1)
+setup = $(if $(filter no,$(SETUP)),@:,@scripts/setup.sh $(1))
+
+.PHONY: all demo test format lint install clean help
+
+all: ## Build the library and the command, ready for use (the default)
+	$(call setup,build)
+	@$(call build,release)
+	@echo "The command is build/release/apps/alpenglow/alpenglow; 'make help' says what else there is."
+
+demo: ## Set up, build, bake a teapot in a room and take its picture
+	$(call setup,build)
+	@$(call build,release)
+	@scripts/demo.sh build/release/apps/alpenglow/alpenglow demo
+
+test: ## Set up, build and run every test; ends in a line that counts them
+	$(call setup,check)
+	@$(call build,dev)
+	@scripts/test.py dev
+
+format: ## Format the sources
+	@scripts/lint.sh format
+
+lint: ## Check formatting, the law of the rooms, clang-tidy and cppcheck
+	$(call setup,check)
+	@$(call configure,dev)
+	@scripts/lint.sh
+
+install: ## Build and install to PREFIX (default /usr/local; DESTDIR is honoured)
+	$(call setup,build)
+	@$(call build,release)
+	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
+
+clean: ## Remove everything that was built
+	@rm -rf build demo
+
+help: ## This list
+	@sed -n 's/^\([a-z]*\):.*## /    make \1: /p' $(MAKEFILE_LIST) | awk -F': ' \
+	    '{printf "%-18s %s\n", $$1, $$2}'

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// alpenglow bake: loads, bakes, reports.
+#include "interrupt.h"
+#include "output.h"
+#include "report.h"
+#include "session.h"
+
+#include <math.h>
+
+static int check_output_name(const char *path)
+{
+    if (path == NULL || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
+        return EXIT_DONE;
+    }
+    if (path_ends(path, ".dae") || path_ends(path, ".obj")) {
+        return usage_error(COMMAND_BAKE, "-o %s: %s is not built yet; write .glb or .gltf", path,
+                           path_ends(path, ".dae") ? ".dae" : ".obj");
+    }
+    return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
+}
+
+static int read_options(const command_line *a, alp_bake_options *o)
+{
+    const option_value *values = a->values;
+    *o = alp_bake_options_default();
+    o->output = values[OPTION_OUTPUT].text;
+    o->maps_folder = values[OPTION_MAPS_FOLDER].text;
+    o->overwrite = values[OPTION_FORCE].given;
+    o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
+    o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
+    o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
+    const option_value *density = &values[OPTION_TEXELS_PER_METRE];
+    o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
+    if (o->output == NULL && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
+                                         "--maps-dir DIR");
+    }
+    int code = check_output_name(o->output);
+    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+}
+
+static void print_atlas(const alp_atlas_info *atlas)
+{
+    printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
+           "%.4g texels per metre\n",
+           atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
+           atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+}
+
+static void print_occlusion(const command_line *a, const alp_bake_report *r)
+{
+    printf("occlusion  %llu rays per texel, ",
+           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole);
+    if (isinf(r->ao_distance)) {
+        printf("no distance limit");
+    } else {
+        printf("to %.4g m%s", (double)r->ao_distance,
+               a->values[OPTION_AO_DISTANCE].choice == 0 ? " (auto: 20 % of the scene's diagonal)"
+                                                         : "");
+    }
+    printf("; mean accessibility %.4f\n", r->ao_mean);
+}
+
+static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
+                          const alp_bake_report *r)
+{
+    if (o->output != NULL) {
+        printf("wrote      %s\n", o->output);
+    }
+    if (o->maps_folder != NULL) {
+        printf("maps       %s/ao.exr, ao.png%s\n", o->maps_folder,
+               r->atlas.pages > 1 ? " and further pages" : "");
+    }
+    print_atlas(&r->atlas);
+    print_occlusion(a, r);
+    printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
+           s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
+           r->seconds_bake, r->seconds_write);
+    if (r->seconds_bake > 0.0) {
+        printf("; %.3g Mrays/s", 1e-6 * (double)r->rays / r->seconds_bake);
+    }
+    putchar('\n');
+}
+
+static int write_report(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
+                        const command_line *a)
+{
+    json_t *document = report_make(s, lightmap, r);
+    int code = document == NULL ? failure("out of memory")
+                                : output_write_json(document, a->values[OPTION_JSON].text,
+                                                    a->values[OPTION_FORCE].given);
+    json_decref(document);
+    return code;
+}
+
+static int bake(session *s, const command_line *a, alp_bake_options *o)
+{
+    alp_lightmap *lightmap = NULL;
+    alp_bake_report report;
+    o->progress = session_progress;
+    o->progress_user = s;
+    interrupt_defer();
+    int code = session_end(s, alp_bake(s->scene, o, &lightmap, &report));
+    if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
+        code = write_report(s, lightmap, &report, a);
+    }
+    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
+        print_summary(s, a, o, &report);
+    }
+    alp_lightmap_destroy(lightmap);
+    return code == EXIT_DONE ? session_judge_warnings(s) : code;
+}
+
+int command_bake(const command_line *a)
+{
+    alp_bake_options options;
+    const char *json = a->values[OPTION_JSON].text;
+    int code = read_options(a, &options);
+    if (code == EXIT_DONE && json != NULL) {
+        code = output_check(json, a->values[OPTION_FORCE].given);
+    }
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    interrupt_install();
+    session s;
+    code = session_open(&s, a);
+    if (code == EXIT_DONE) {
+        code = session_load(&s, a->operands[0]);
+    }
+    if (code == EXIT_DONE) {
+        code = bake(&s, a, &options);
+    }
+    session_close(&s);
+    return code;
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// alpenglow info: what is in a scene.
+#include "output.h"
+#include "report.h"
+#include "session.h"
+
+#include <math.h>
+
+/// Density at which a scene fills half of a page of 1024², about what charts leave for triangles.
+static double estimate_density(const alp_scene_info *info)
+{
+    enum { PAGE = 1024 };
+    return info->area > 0.0 ? sqrt(0.5 * PAGE * PAGE / info->area) : 0.0;
+}
+
+static void print_scene(const char *path, const alp_scene_info *i)
+{
+    printf("scene      ");
+    print_clean(stdout, path);
+    printf("\ntriangles  %u (%u usable)\nvertices   %u\nsurfaces   %u\nmaterials  %u\n"
+           "images     %u\nlights     %u\ncameras    %u\n",
+           i->triangles, i->usable_triangles, i->vertices, i->surfaces, i->materials, i->images,
+           i->lights, i->cameras);
+    const float *low = i->bounds_min, *high = i->bounds_max;
+    printf("bounds     %g %g %g to %g %g %g m\n", (double)low[0], (double)low[1], (double)low[2],
+           (double)high[0], (double)high[1], (double)high[2]);
+    printf("size       %g x %g x %g m\n", (double)high[0] - (double)low[0],
+           (double)high[1] - (double)low[1], (double)high[2] - (double)low[2]);
+    printf("area       %.6g m2\n", i->area);
+    if (i->area > 0.0) {
+        printf("estimate   --size 1024 gives about %.2g texels per metre\n", estimate_density(i));
+    }
+}
+
+static void print_surfaces(const alp_scene *scene, uint32_t count)
+{
+    if (count == 0) {
+        return;
+    }
+    printf("\n%10s  %7s  %-5s  %-9s  %s\n", "triangles", "uv sets", "sides", "normals",
+           "surface (material)");
+    for (uint32_t i = 0; i < count; i++) {
+        alp_surface_info s = alp_scene_get_surface(scene, i);
+        printf("%10u  %7u  %-5s  %-9s  ", s.triangle_count, s.uv_sets,
+               s.double_sided ? "two" : "one", s.normals_generated ? "generated" : "given");
+        print_clean(stdout, s.name);
+        printf(" (");
+        print_clean(stdout, s.material[0] != '\0' ? s.material : "no material");
+        printf(")%s\n", s.mirrored ? ", mirrored" : "");
+    }
+}
+
+static json_t *make_vector(const float v[3])
+{
+    return json_pack("[o, o, o]", json_number((double)v[0]), json_number((double)v[1]),
+                     json_number((double)v[2]));
+}
+
+static json_t *make_scene(const alp_scene_info *i)
+{
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}, s:o}", "triangles",
+                     (json_int_t)i->triangles, "usable_triangles", (json_int_t)i->usable_triangles,
+                     "vertices", (json_int_t)i->vertices, "surfaces", (json_int_t)i->surfaces,
+                     "materials", (json_int_t)i->materials, "images", (json_int_t)i->images,
+                     "lights", (json_int_t)i->lights, "cameras", (json_int_t)i->cameras, "bounds",
+                     "minimum", make_vector(i->bounds_min), "maximum", make_vector(i->bounds_max),
+                     "area", json_number(i->area));
+}
+
+static json_t *make_surfaces(const alp_scene *scene, uint32_t count)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < count; i++) {
+        alp_surface_info s = alp_scene_get_surface(scene, i);
+        json_array_append_new(list, json_pack("{s:o, s:o, s:I, s:I, s:b, s:b, s:b}", "name",
+                                              json_text(s.name), "material", json_text(s.material),
+                                              "triangles", (json_int_t)s.triangle_count, "uv_sets",
+                                              (json_int_t)s.uv_sets, "double_sided", s.double_sided,
+                                              "mirrored", s.mirrored, "normals_generated",
+                                              s.normals_generated));
+    }
+    return list;
+}
+
+static json_t *make_cameras(const alp_scene *scene, uint32_t count)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < count; i++) {
+        alp_camera c = alp_scene_get_camera(scene, i);
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:o}", "position", make_vector(c.position), "target",
+                            make_vector(c.target), "up", make_vector(c.up), "vertical_fov_degrees",
+                            json_number((double)c.vertical_fov * 180.0 / M_PI)));
+    }
+    return list;
+}
+
+static int print_json(const session *s, const alp_scene_info *info)
+{
+    json_t *document =
+        json_pack("{s:s, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene", make_scene(info),
+                  "surfaces", make_surfaces(s->scene, info->surfaces), "cameras",
+                  make_cameras(s->scene, info->cameras), "warnings", report_warnings(&s->messages));
+    if (document == NULL) {
+        return failure("out of memory");
+    }
+    json_dumpf(document, stdout, JSON_STYLE); // main sees whether the stream took it
+    putchar('\n');
+    json_decref(document);
+    return EXIT_DONE;
+}
+
+int command_info(const command_line *a)
+{
+    session s;
+    int code = session_open(&s, a);
+    if (code == EXIT_DONE) {
+        code = session_load(&s, a->operands[0]);
+    }
+    if (code == EXIT_DONE) {
+        alp_scene_info info = alp_scene_get_info(s.scene);
+        if (a->values[OPTION_JSON].given) {
+            code = print_json(&s, &info);
+        } else {
+            print_scene(a->operands[0], &info);
+            print_surfaces(s.scene, info.surfaces);
+        }
+    }
+    session_close(&s);
+    return code;
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// alpenglow render: a picture of a scene from one of its cameras.
+#include "interrupt.h"
+#include "output.h"
+#include "session.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE_LIMIT = 16384, CAMERA_NUMBERS = 7 };
+
+/// "960x540"
+static int read_resolution(const char *text, alp_render_options *o)
+{
+    char width_text[16] = "";
+    const char *x = strchr(text, 'x');
+    uint64_t width = 0, height = 0;
+    if (x != NULL && (size_t)(x - text) < sizeof width_text) {
+        memcpy(width_text, text, (size_t)(x - text));
+    }
+    if (number_parse_whole(width_text, &width) != NUMBER_OK ||
+        number_parse_whole(x + 1, &height) != NUMBER_OK || width < 1 || width > SIDE_LIMIT ||
+        height < 1 || height > SIDE_LIMIT) {
+        return usage_error(COMMAND_RENDER,
+                           "--resolution: '%s' is not a size; give WxH, each 1 to %d pixels", text,
+                           SIDE_LIMIT);
+    }
+    o->width = (uint32_t)width;
+    o->height = (uint32_t)height;
+    return EXIT_DONE;
+}
+
+/// Reads exactly `count` numbers with commas between.
+static bool read_numbers(const char *text, double *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char word[64];
+        size_t length = strcspn(text, ",");
+        bool last = text[length] == '\0';
+        if (length >= sizeof word || last != (i == count - 1)) {
+            return false;
+        }
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
+            return false;
+        }
+        text += length + !last;
+    }
+    return true;
+}
+
+static bool place_camera(const double n[CAMERA_NUMBERS], alp_camera *camera)
+{
+    double axis[3], length = 0.0;
+    for (int i = 0; i < 3; i++) {
+        camera->position[i] = (float)n[i];
+        camera->target[i] = (float)n[i + 3];
+        axis[i] = (double)camera->target[i] - (double)camera->position[i];
+        length += axis[i] * axis[i];
+    }
+    length = sqrt(length);
+    // Looking straight up or down, +Y cannot be up.
+    bool vertical = fabs(axis[1]) > 0.9999 * length;
+    camera->up[0] = 0.0f;
+    camera->up[1] = vertical ? 0.0f : 1.0f;
+    camera->up[2] = vertical ? -1.0f : 0.0f;
+    camera->vertical_fov = (float)(n[6] * (M_PI / 180.0));
+    return length > 0.0 && n[6] >= 1e-3 && n[6] <= 179.0;
+}
+
+static int read_camera(const char *text, alp_render_options *o)
+{
+    uint64_t index = 0;
+    double numbers[CAMERA_NUMBERS];
+    number_result result = number_parse_whole(text, &index);
+    if (strcmp(text, "auto") == 0) {
+        o->camera_index = UINT32_MAX;
+    } else if (result == NUMBER_OK && index < UINT32_MAX) {
+        o->camera_index = (uint32_t)index;
+    } else if (result != NUMBER_NONE || !read_numbers(text, numbers, CAMERA_NUMBERS) ||
+               !place_camera(numbers, &o->camera)) {
+        return usage_error(COMMAND_RENDER,
+                           "--camera: '%s' is no camera; give a number from 0, auto, or "
+                           "PX,PY,PZ,TX,TY,TZ,VFOV with a target apart from the position, metres, "
+                           "and VFOV 0.001 to 179 degrees",
+                           text);
+    }
+    return EXIT_DONE;
+}
+
+static int read_options(const command_line *a, alp_render_options *o)
+{
+    const char *output = a->values[OPTION_OUTPUT].text;
+    *o = alp_render_options_default();
+    if (output == NULL) {
+        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png or "
+                                           "-o IMAGE.exr");
+    }
+    if (!path_ends(output, ".png") && !path_ends(output, ".exr")) {
+        return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png or .exr", output);
+    }
+    if (!a->values[OPTION_WITH].given) {
+        return usage_error(COMMAND_RENDER, "by which method? give --with ao or --with constant");
+    }
+    o->method = (alp_render_method)a->values[OPTION_WITH].choice;
+    o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
+    int code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+    if (code == EXIT_DONE) {
+        code = read_camera(a->values[OPTION_CAMERA].text, o);
+    }
+    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+}
+
+/// A camera that was asked for by number must be there.
+static int check_camera(const session *s, const command_line *a, const alp_render_options *o)
+{
+    uint32_t cameras = alp_scene_get_info(s->scene).cameras;
+    bool numbered = o->camera.vertical_fov <= 0.0f && o->camera_index != UINT32_MAX;
+    if (a->values[OPTION_CAMERA].given && numbered && o->camera_index >= cameras) {
+        char text[160];
+        snprintf(text, sizeof text,
+                 "--camera %u: the scene has %u camera%s, counted from 0; auto shows everything",
+                 o->camera_index, cameras, cameras == 1 ? "" : "s");
+        return failure(text);
+    }
+    return EXIT_DONE;
+}
+
+static alp_result save(const alp_image *linear, const char *path, bool overwrite)
+{
+    if (path_ends(path, ".exr")) {
+        return alp_image_save(linear, path, overwrite);
+    }
+    alp_image *display = NULL;
+    alp_result result = alp_image_to_display(linear, &display);
+    if (result == ALP_OK) {
+        result = alp_image_save(display, path, overwrite);
+    }
+    alp_image_destroy(display);
+    return result;
+}
+
+static int render(session *s, const command_line *a, alp_render_options *o)
+{
+    const char *output = a->values[OPTION_OUTPUT].text;
+    alp_image *image = NULL;
+    double start = clock_seconds();
+    o->progress = session_progress;
+    o->progress_user = s;
+    interrupt_defer();
+    alp_result result = alp_render(s->scene, o, &image);
+    double seconds = clock_seconds() - start;
+    if (result == ALP_OK) {
+        result = save(image, output, a->values[OPTION_FORCE].given);
+    }
+    alp_image_destroy(image);
+    int code = session_end(s, result);
+    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
+        printf("wrote      %s, %u x %u, load %.2f s, render %.2f s\n", output, o->width, o->height,
+               s->load_seconds, seconds);
+    }
+    return code == EXIT_DONE ? session_judge_warnings(s) : code;
+}
+
+int command_render(const command_line *a)
+{
+    alp_render_options options;
+    int code = read_options(a, &options);
+    if (code == EXIT_DONE) {
+        code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);
+    }
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    interrupt_install();
+    session s;
+    code = session_open(&s, a);
+    if (code == EXIT_DONE) {
+        code = session_load(&s, a->operands[0]);
+    }
+    if (code == EXIT_DONE) {
+        code = check_camera(&s, a, &options);
+    }
+    if (code == EXIT_DONE) {
+        code = render(&s, a, &options);
+    }
+    session_close(&s);
+    return code;
+}

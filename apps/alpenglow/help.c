@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// --help, written from the table.
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { LINE_WIDTH = 80, RANGE_SIZE = 160 };
+
+/// Prints words from `column` on, broken before the line is full; later lines start at `indent`.
+static void print_wrapped(const char *text, int indent, int *column)
+{
+    while (*text != '\0') {
+        int length = (int)strcspn(text, " ");
+        if (*column > indent && *column + 1 + length > LINE_WIDTH) {
+            printf("\n%*s", indent, "");
+            *column = indent;
+        } else if (*column > indent) {
+            putchar(' ');
+            *column += 1;
+        }
+        printf("%.*s", length, text);
+        *column += length;
+        text += length;
+        text += strspn(text, " ");
+    }
+}
+
+static void print_paragraph(const char *text, int indent)
+{
+    int column = indent;
+    printf("%*s", indent, "");
+    print_wrapped(text, indent, &column);
+    putchar('\n');
+}
+
+/// "Range 1 to 64 texels. Default 2." on a line of its own, as far as there is something to say.
+static void print_facts(const option *o, int indent)
+{
+    char range[RANGE_SIZE], text[RANGE_SIZE + 96] = "";
+    int length = 0;
+    if (o->kind == KIND_WHOLE || o->kind == KIND_REAL) {
+        option_range(o, range, sizeof range);
+        length = snprintf(text, sizeof text, "Range %s.", range);
+    }
+    if (o->initial != NULL && length >= 0) {
+        snprintf(text + length, sizeof text - (size_t)length, "%sDefault %s.",
+                 length > 0 ? " " : "", o->initial);
+    }
+    if (text[0] != '\0') {
+        print_paragraph(text, indent);
+    }
+}
+
+static void print_option(const option *o)
+{
+    enum { INDENT = 8 };
+    printf("  %s%s%s%s%s\n", o->name, o->alias ? ", " : "", o->alias ? o->alias : "",
+           o->value ? " " : "", o->value ? o->value : "");
+    print_paragraph(o->help, INDENT);
+    print_facts(o, INDENT);
+}
+
+/// All that is not built yet, in as few lines as it takes; choices one option a line.
+static void print_later(command_id command)
+{
+    enum { INDENT = 2 };
+    size_t count = 0;
+    const option *table = option_table(&count);
+    int column = INDENT;
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        if (table[i].group == GROUP_LATER && (table[i].commands & (1u << command)) != 0) {
+            if (!any) {
+                printf("\n%s:\n  ", option_group_title(GROUP_LATER));
+            }
+            print_wrapped(table[i].name, INDENT, &column);
+            any = true;
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (table[i].later_choices != NULL && (table[i].commands & (1u << command)) != 0) {
+            printf("\n  %s %s", table[i].name, table[i].later_choices);
+        }
+    }
+    if (any) {
+        putchar('\n');
+    }
+}
+
+static void print_group(command_id command, option_group group)
+{
+    size_t count = 0;
+    const option *table = option_table(&count);
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        if (table[i].group != group || (table[i].commands & (1u << command)) == 0) {
+            continue;
+        }
+        if (!any) {
+            printf("\n%s:\n", option_group_title(group));
+        }
+        any = true;
+        print_option(&table[i]);
+    }
+}
+
+static void print_footer(command_id command)
+{
+    if (command != COMMAND_COMPARE) {
+        printf("\nSCENE is a .gltf or .glb file, or one of\n"
+               "  builtin:cornell builtin:furnace builtin:bowl builtin:sphere-plane\n"
+               "  builtin:torus-plane builtin:teapot-room\n");
+    }
+    printf("\nExit status: 0 done, 1 failed, 2 wrong usage%s.\n",
+           command == COMMAND_BAKE || command == COMMAND_RENDER ? ", 130 interrupted" : "");
+}
+
+int help_print_command(command_id command)
+{
+    const command_entry *c = &command_table()[command];
+    if (c->run == NULL) {
+        return usage_error(COMMAND_COUNT, "%s: not built yet; %s", c->name, c->help);
+    }
+    printf("Usage: alpenglow %s %s\n\n", c->name, c->synopsis);
+    print_paragraph(c->help, 0);
+    for (option_group group = 0; group < GROUP_LATER; group++) {
+        print_group(command, group);
+    }
+    print_later(command);
+    print_footer(command);
+    return EXIT_DONE;
+}
+
+int help_print(void)
+{
+    printf("Usage: alpenglow COMMAND ...\n\n"
+           "Bakes indirect light into scenes for real-time 3D.\n\nCommands:\n");
+    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+        printf("  %-8s  %s\n", command_table()[i].name, command_table()[i].summary);
+    }
+    printf("\nNot built yet (refused by name):\n ");
+    for (int i = COMMAND_BUILT_COUNT; i < COMMAND_COUNT; i++) {
+        printf(" %s", command_table()[i].name);
+    }
+    printf("\n\n  alpenglow COMMAND --help   options of a command\n"
+           "  alpenglow --version        version\n"
+           "\nExample:\n"
+           "  alpenglow bake builtin:teapot-room -o room.glb --maps-dir maps\n");
+    return EXIT_DONE;
+}

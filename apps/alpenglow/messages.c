@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What the library tells: printed at once, warnings kept for the report.
+#include "messages.h"
+
+#include "options.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void *allocate_or_exit(void *old, size_t size)
+{
+    void *memory = realloc(old, size > 0 ? size : 1);
+    if (memory == NULL) {
+        fprintf(stderr, "alpenglow: out of memory\n");
+        exit(EXIT_FAILED);
+    }
+    return memory;
+}
+
+void print_clean(FILE *stream, const char *text)
+{
+    const unsigned char *at = (const unsigned char *)text;
+    for (; *at != '\0'; at++) {
+        // C1 controls are U+0080 to U+009F, in UTF-8 C2 80 to C2 9F.
+        bool c1 = at[0] == 0xC2 && at[1] >= 0x80 && at[1] <= 0x9F;
+        if (*at < 0x20 || *at == 0x7F || c1) {
+            fputc('?', stream);
+            at += c1;
+        } else {
+            fputc(*at, stream);
+        }
+    }
+}
+
+int failure(const char *text)
+{
+    fputs("alpenglow: ", stderr);
+    print_clean(stderr, text);
+    fputc('\n', stderr);
+    return EXIT_FAILED;
+}
+
+static char *copy_text(const char *text)
+{
+    size_t size = strlen(text) + 1;
+    return memcpy(allocate_or_exit(NULL, size), text, size);
+}
+
+static void keep(message_log *m, const alp_log_message *logged)
+{
+    if (m->warning_count == m->capacity) {
+        m->capacity = m->capacity == 0 ? 16 : m->capacity * 2;
+        m->warnings = allocate_or_exit(m->warnings, m->capacity * sizeof *m->warnings);
+    }
+    m->warnings[m->warning_count++] =
+        (message){copy_text(logged->code), copy_text(logged->object), copy_text(logged->text)};
+}
+
+void messages_log(void *user, const alp_log_message *logged)
+{
+    message_log *m = user;
+    bool warning = logged->level == ALP_LOG_WARNING;
+    if (warning) {
+        keep(m, logged);
+    } else if (m->quiet) {
+        return;
+    }
+    if (m->progress != NULL) {
+        progress_clear(m->progress);
+    }
+    fputs(warning ? "warning: " : "note: ", stderr);
+    if (logged->object[0] != '\0') {
+        print_clean(stderr, logged->object);
+        fputs(": ", stderr);
+    }
+    print_clean(stderr, logged->text);
+    fputc('\n', stderr);
+}
+
+void messages_release(message_log *m)
+{
+    for (size_t i = 0; i < m->warning_count; i++) {
+        free(m->warnings[i].code);
+        free(m->warnings[i].object);
+        free(m->warnings[i].text);
+    }
+    free(m->warnings);
+    *m = (message_log){0};
+}

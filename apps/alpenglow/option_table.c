@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: MIT
+// The commands and options themselves: everything that the contract names, built or not.
+#include "options.h"
+
+static const command_entry commands[COMMAND_COUNT] = {
+    [COMMAND_BAKE] =
+        {"bake", "SCENE -o OUT.glb|OUT.gltf [--maps-dir DIR] [OPTIONS]",
+         "bake ambient occlusion into a scene", 1, command_bake,
+         "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
+         "open, and writes a copy of the scene with that occlusion map attached. What the bake "
+         "does not touch comes out byte for byte as it was."},
+    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|IMAGE.exr --with ao|constant [OPTIONS]",
+                        "render a picture of a scene", 1, command_render,
+                        "Renders SCENE from one of its cameras, or from an automatic one. A .png "
+                        "is for looking at, an .exr holds the linear values."},
+    [COMMAND_INFO] = {"info", "SCENE [--json]", "say what is in a scene", 1, command_info,
+                      "Prints what SCENE holds: triangles, surfaces with their texture "
+                      "coordinate sets, materials, lights, cameras, size."},
+    [COMMAND_COMPARE] =
+        {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
+         "say how two images differ", 2, command_compare,
+         "Compares the images A and B (.exr, .png, .jpg) of equal size, over the pixels that are "
+         "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
+         "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
+         "largest of |A - B| and where it is."},
+    [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
+                        "bake --maps ao puts light on surfaces"},
+    [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
+                     "bake --maps ao puts light on surfaces"},
+    [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience of a moving scene", 1, NULL,
+                          "bake --maps ao puts light on surfaces"},
+    [COMMAND_SH] = {"sh", "ENV", "spherical harmonics of a sky", 1, NULL, "nothing instead"},
+    [COMMAND_VIEW] = {"view", "SCENE|OUT", "look at a scene", 1, NULL,
+                      "render makes a picture, and any glTF viewer shows what bake writes"},
+    [COMMAND_BENCH] = {"bench", "[ROOM]", "measure speed", 0, NULL,
+                       "bake --json gives seconds and rays of a bake"},
+};
+
+#define SCENE_COMMANDS (IN_BAKE | IN_RENDER | IN_INFO)
+#define RAY_COMMANDS (IN_BAKE | IN_RENDER)
+#define LATER(commands_, name_, value_, instead_)                                                  \
+    {                                                                                              \
+        .id = OPTION_LATER, .commands = (commands_), .group = GROUP_LATER, .kind = KIND_TEXT,      \
+        .name = (name_), .value = (value_), .help = (instead_)                                     \
+    }
+
+static const char no_light[] = "only occlusion is baked (--maps ao)";
+static const char no_sky[] = "occlusion is baked under a uniform sky";
+static const char set_rays[] = "--ao-samples sets the rays of a texel";
+
+static const option options[] = {
+    // --- output ---------------------------------------------------------------------------------
+    {.id = OPTION_OUTPUT,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "OUT.glb|OUT.gltf",
+     .help = "The baked scene. A .gltf gets its buffers and images beside it. Without -o, "
+             "--maps-dir must be given. OUT.dae and OUT.obj are not built yet."},
+    {.id = OPTION_OUTPUT,
+     .commands = IN_RENDER,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "IMAGE.png|IMAGE.exr",
+     .help = "The picture: .png 8-bit sRGB, .exr linear float with alpha = a surface is seen. "
+             "Needed."},
+    {.id = OPTION_MAPS,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_LIST,
+     .name = "--maps",
+     .value = "LIST",
+     .choices = "ao",
+     .later_choices = "bent|light|direction|sh|probes",
+     .initial = "ao",
+     .help = "What to bake: ao, the ambient occlusion map (1 open, 0 closed)."},
+    {.id = OPTION_MAPS_FOLDER,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--maps-dir",
+     .value = "DIR",
+     .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0) and "
+             "ao.png; further pages ao.1.exr and so on. DIR is made if missing."},
+    {.id = OPTION_JSON,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--json",
+     .value = "FILE",
+     .help = "Write a report: scene, atlas, seconds, rays, memory, objects with their rectangles, "
+             "warnings."},
+    {.id = OPTION_JSON,
+     .commands = IN_COMPARE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--json",
+     .value = "FILE",
+     .help = "Write the numbers as JSON."},
+    {.id = OPTION_JSON,
+     .commands = IN_INFO,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_FLAG,
+     .name = "--json",
+     .help = "Print JSON instead of a table."},
+    {.id = OPTION_HEATMAP,
+     .commands = IN_COMPARE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--heatmap",
+     .value = "PNG",
+     .help = "Write a picture of |A - B|: black 0, white the 99th percentile and above, magenta "
+             "covered in one only."},
+    {.id = OPTION_FORCE,
+     .commands = RAY_COMMANDS | IN_COMPARE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_FLAG,
+     .name = "-f",
+     .alias = "--force",
+     .help = "Overwrite existing files. Without it an existing output stops the command before "
+             "it starts."},
+
+    // --- what -----------------------------------------------------------------------------------
+    {.id = OPTION_SIZE,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--size",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 16384,
+     .unit = "texels",
+     .initial = "1024",
+     .help = "Side of a page of the atlas. Time and memory grow with its square."},
+    {.id = OPTION_TEXELS_PER_METRE,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_REAL,
+     .name = "--texels-per-metre",
+     .value = "D|auto",
+     .choices = "auto",
+     .minimum = 1e-6,
+     .maximum = 1e6,
+     .unit = "texels per metre",
+     .initial = "auto",
+     .help = "Density of the map; pages are added as needed. auto: the highest density at which "
+             "all fits one page. Time grows with its square."},
+    {.id = OPTION_ATLAS,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--atlas",
+     .value = "auto|keep|charts",
+     .choices = "auto|keep|charts",
+     .later_choices = "blend|vertex",
+     .initial = "auto",
+     .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
+             "charts: unwrap anew. auto: keep where it is valid, else charts."},
+    {.id = OPTION_PADDING,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--padding",
+     .value = "N",
+     .minimum = 0,
+     .maximum = 64,
+     .unit = "texels",
+     .initial = "2",
+     .help = "Free texels between neighbouring charts, filled with the nearest value. More keeps "
+             "smaller mip levels clean, and leaves less of the page for charts."},
+
+    // --- picture --------------------------------------------------------------------------------
+    {.id = OPTION_WITH,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--with",
+     .value = "ao|constant",
+     .choices = "ao|constant",
+     .later_choices = "reference|radiosity|lightmap|probes|ambience|lpv|hemisphere|cube",
+     .help = "ao: accessibility, from the scene's occlusion maps, and by rays where it has none. "
+             "constant: uniform light of radiance 1, which shows the base colour. Needed."},
+    {.id = OPTION_CAMERA,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--camera",
+     .value = "N|auto|PX,PY,PZ,TX,TY,TZ,VFOV",
+     .initial = "0",
+     .help =
+         "Camera of the scene, from 0; or position and target in metres and the vertical "
+         "field of view in degrees, 0.001 to 179. auto (and a scene without cameras): a view of "
+         "everything."},
+    {.id = OPTION_RESOLUTION,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--resolution",
+     .value = "WxH",
+     .initial = "960x540",
+     .help = "Size of the picture in pixels, each side 1 to 16384."},
+    {.id = OPTION_SAMPLES,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_WHOLE,
+     .name = "--samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 4096,
+     .unit = "camera rays per pixel",
+     .initial = "16",
+     .help = "More smooth the edges; time grows with N."},
+    {.id = OPTION_SCALE,
+     .commands = IN_COMPARE,
+     .group = GROUP_WHAT,
+     .kind = KIND_REAL,
+     .name = "--scale",
+     .value = "S",
+     .minimum = -1e9,
+     .maximum = 1e9,
+     .initial = "1",
+     .help = "Multiply A by S first."},
+    {.id = OPTION_MAX_RMSE,
+     .commands = IN_COMPARE,
+     .group = GROUP_WHAT,
+     .kind = KIND_REAL,
+     .name = "--max-rmse",
+     .value = "X",
+     .minimum = 0,
+     .maximum = 1e9,
+     .help = "Exit with 1 when rmse is above X, or when no pixel is covered in both."},
+
+    // --- ambient occlusion ----------------------------------------------------------------------
+    {.id = OPTION_AO_SAMPLES,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_WHOLE,
+     .name = "--ao-samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 1048576,
+     .unit = "rays per point",
+     .initial = "512",
+     .help = "Time grows with N. The standard error of a texel is at most 0.5 / sqrt(N), and with "
+             "these samples mostly far less; powers of two serve best."},
+    {.id = OPTION_AO_DISTANCE,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_REAL,
+     .name = "--ao-distance",
+     .value = "M|auto|inf",
+     .choices = "auto|inf",
+     .minimum = 1e-6,
+     .maximum = 1e9,
+     .unit = "metres",
+     .initial = "auto",
+     .help = "How far away a surface still occludes. auto: 20 % of the diagonal of the scene's "
+             "bounding box. inf: no limit. Shorter rays are a little faster."},
+    {.id = OPTION_AO_FALLOFF,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_CHOICE,
+     .name = "--ao-falloff",
+     .value = "none|linear|smooth|exp",
+     .choices = "none|linear|smooth|exp",
+     .initial = "smooth",
+     .help = "How a hit at t = distance / limit occludes. none: 1; linear: 1 - t; smooth: "
+             "(1 - t)^2 (1 + 2t); exp: e^-4t, brought to 0 at the limit. With --ao-distance inf "
+             "only none has a meaning and is the default."},
+    {.id = OPTION_AO_CONE,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_REAL,
+     .name = "--ao-cone",
+     .value = "DEG",
+     .minimum = 1e-3,
+     .maximum = 90,
+     .unit = "degrees",
+     .initial = "90",
+     .help = "Half-angle of the cone of rays about the normal; 90 is the whole hemisphere."},
+    {.id = OPTION_AO_DISTRIBUTION,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_CHOICE,
+     .name = "--ao-distribution",
+     .value = "cosine|uniform",
+     .choices = "cosine|uniform",
+     .initial = "cosine",
+     .help = "cosine: as uniform light from the sky reaches a matte surface. uniform: every "
+             "direction counts the same."},
+    {.id = OPTION_ONE_SIDED,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_AO,
+     .kind = KIND_FLAG,
+     .name = "--one-sided",
+     .help = "Rays pass single-sided materials from behind. Without it every surface occludes "
+             "from both sides."},
+    {.id = OPTION_EXISTING_AO,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_CHOICE,
+     .name = "--existing-ao",
+     .value = "replace|multiply|keep",
+     .choices = "replace|multiply|keep",
+     .initial = "replace",
+     .help = "What happens to an occlusion map that a material has already: ours takes its "
+             "place, ours times the old one does, or the material keeps its own."},
+
+    // --- run ------------------------------------------------------------------------------------
+    {.id = OPTION_SEED,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_RUN,
+     .kind = KIND_WHOLE,
+     .name = "--seed",
+     .value = "N",
+     .minimum = 0,
+     .maximum = 9007199254740992.0,
+     .initial = "0",
+     .help = "Another seed gives other noise of the same size. The same seed gives the same bits "
+             "with any number of threads."},
+    {.id = OPTION_THREADS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_RUN,
+     .kind = KIND_WHOLE,
+     .name = "--threads",
+     .value = "N|auto",
+     .choices = "auto",
+     .minimum = 1,
+     .maximum = 1024,
+     .initial = "auto",
+     .help = "auto: one per core. Changes the time and never the result."},
+    {.id = OPTION_PROGRESS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_RUN,
+     .kind = KIND_CHOICE,
+     .name = "--progress",
+     .value = "auto|plain|json|off",
+     .choices = "auto|plain|json|off",
+     .initial = "auto",
+     .help = "On standard error. auto: one updating line on a terminal, else plain. plain: a line "
+             "now and then. json: one object a line."},
+    {.id = OPTION_WARNINGS_AS_ERRORS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_RUN,
+     .kind = KIND_FLAG,
+     .name = "--warnings-as-errors",
+     .help = "Stop at the first warning and exit with 1."},
+    {.id = OPTION_QUIET,
+     .commands = SCENE_COMMANDS | IN_COMPARE,
+     .group = GROUP_RUN,
+     .kind = KIND_FLAG,
+     .name = "-q",
+     .alias = "--quiet",
+     .help = "No summary, no notes, no progress. Warnings and errors stay, and so does what info "
+             "and compare are asked for."},
+
+    {.id = OPTION_HELP,
+     .commands = SCENE_COMMANDS | IN_COMPARE,
+     .group = GROUP_RUN,
+     .kind = KIND_FLAG,
+     .name = "-h",
+     .alias = "--help",
+     .help = "Print this."},
+
+    // --- of the contract, not built yet ---------------------------------------------------------
+    LATER(IN_BAKE, "--only", "GLOB", "everything is baked"),
+    LATER(IN_BAKE, "--occluders", "GLOB", "everything occludes"),
+    LATER(IN_BAKE, "--ao-bleed", NULL, "open is 1 and closed is 0, without colour"),
+    LATER(IN_BAKE, "--ao-self", NULL, "objects occlude themselves and each other"),
+    LATER(RAY_COMMANDS, "--bounces", "N|converge", no_light),
+    LATER(IN_BAKE, "--direct", "on|off|only", no_light),
+    LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),
+    LATER(IN_BAKE, "--samples", "N", set_rays),
+    LATER(IN_BAKE, "--units", "irradiance|irradiance/pi|radiance", no_light),
+    LATER(IN_BAKE, "--layers", NULL, no_light),
+    LATER(IN_BAKE, "--sky", "FILE|R,G,B|R,G,B/R,G,B|clear", no_sky),
+    LATER(IN_BAKE, "--sky-turn", "DEG", no_sky),
+    LATER(IN_BAKE, "--sky-strength", "S", no_sky),
+    LATER(IN_BAKE, "--sun", "AZ,EL,LUX", no_sky),
+    LATER(IN_BAKE, "--sun-size", "DEG", no_sky),
+    LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",
+          "occlusion is attached as the material's occlusion map"),
+    LATER(IN_BAKE, "--quality", "preview|medium|high", set_rays),
+    LATER(IN_BAKE, "--error", "PCT", set_rays),
+    LATER(IN_BAKE, "--time-limit", "S", "Ctrl-C stops a bake; --ao-samples sets its length"),
+    LATER(IN_BAKE, "--memory-limit", "SIZE", "--size sets the memory that a bake needs"),
+    LATER(IN_BAKE, "--adaptive", "A|off", "every texel gets --ao-samples rays"),
+    LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
+    LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
+    LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
+    LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
+    LATER(IN_BAKE, "--report", "OUT.html", "--json writes a report"),
+    LATER(IN_RENDER, "--exposure", "EV|auto", "values 0 to 1 are shown as they are"),
+    LATER(IN_RENDER, "--tone", "film|reinhard|filmic|none", "values above 1 are cut off"),
+    LATER(IN_RENDER, "--white-balance", "K|auto|off", "white stays white"),
+    LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
+};
+
+static const char *const group_titles[GROUP_COUNT] = {
+    [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "What",
+    [GROUP_PICTURE] = "Picture", [GROUP_AO] = "Ambient occlusion",
+    [GROUP_RUN] = "Run",         [GROUP_LATER] = "Not built yet (refused by name)",
+};
+
+const command_entry *command_table(void)
+{
+    return commands;
+}
+
+const option *option_table(size_t *count)
+{
+    *count = sizeof options / sizeof *options;
+    return options;
+}
+
+const char *option_group_title(option_group group)
+{
+    return group_titles[group];
+}

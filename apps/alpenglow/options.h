@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The one table of commands and options: parsing, --help and completion all read it.
+#ifndef COMMAND_OPTIONS_H
+#define COMMAND_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Exit codes of the contract.
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
+
+typedef enum command_id {
+    COMMAND_BAKE,
+    COMMAND_RENDER,
+    COMMAND_INFO,
+    COMMAND_COMPARE,
+    COMMAND_BUILT_COUNT, // what follows is in the contract and not built yet
+    COMMAND_PROBES = COMMAND_BUILT_COUNT,
+    COMMAND_LPV,
+    COMMAND_AMBIENCE,
+    COMMAND_SH,
+    COMMAND_VIEW,
+    COMMAND_BENCH,
+    COMMAND_COUNT
+} command_id;
+
+enum {
+    IN_BAKE = 1 << COMMAND_BAKE,
+    IN_RENDER = 1 << COMMAND_RENDER,
+    IN_INFO = 1 << COMMAND_INFO,
+    IN_COMPARE = 1 << COMMAND_COMPARE,
+};
+
+/// Every option that can be given; OPTION_LATER stands for all that are not built yet.
+typedef enum option_id {
+    OPTION_OUTPUT,
+    OPTION_MAPS,
+    OPTION_MAPS_FOLDER,
+    OPTION_SIZE,
+    OPTION_TEXELS_PER_METRE,
+    OPTION_ATLAS,
+    OPTION_PADDING,
+    OPTION_AO_SAMPLES,
+    OPTION_AO_DISTANCE,
+    OPTION_AO_FALLOFF,
+    OPTION_AO_CONE,
+    OPTION_AO_DISTRIBUTION,
+    OPTION_ONE_SIDED,
+    OPTION_EXISTING_AO,
+    OPTION_WITH,
+    OPTION_CAMERA,
+    OPTION_RESOLUTION,
+    OPTION_SAMPLES,
+    OPTION_SCALE,
+    OPTION_MAX_RMSE,
+    OPTION_HEATMAP,
+    OPTION_SEED,
+    OPTION_THREADS,
+    OPTION_PROGRESS,
+    OPTION_JSON,
+    OPTION_WARNINGS_AS_ERRORS,
+    OPTION_QUIET,
+    OPTION_FORCE,
+    OPTION_HELP, // seen before all others
+    OPTION_COUNT,
+    OPTION_LATER
+} option_id;
+
+typedef enum option_group {
+    GROUP_OUTPUT,
+    GROUP_WHAT,
+    GROUP_PICTURE,
+    GROUP_AO,
+    GROUP_RUN,
+    GROUP_LATER,
+    GROUP_COUNT
+} option_group;
+
+typedef enum option_kind {
+    KIND_FLAG,   // no value
+    KIND_TEXT,   // anything but nothing
+    KIND_CHOICE, // one of `choices`
+    KIND_LIST,   // some of `choices`, with commas between
+    KIND_WHOLE,  // a whole number in [minimum, maximum], or one of `choices`
+    KIND_REAL,   // a number in [minimum, maximum], or one of `choices`
+} option_kind;
+
+typedef struct option {
+    option_id id;
+    unsigned commands; // which commands have it: IN_…
+    option_group group;
+    option_kind kind;
+    const char *name;          // "--size"
+    const char *alias;         // a second spelling, or NULL
+    const char *value;         // what its value is called, NULL for a flag
+    const char *choices;       // "auto|keep|charts", or NULL
+    const char *later_choices; // choices of the contract that are not built yet, or NULL
+    double minimum, maximum;
+    const char *unit;    // "metres", or NULL
+    const char *initial; // the value when it is not given, read like a given one; or NULL
+    const char *help;    // for options not built yet: what exists instead
+} option;
+
+/// What an option was given. A number has choice −1.
+typedef struct option_value {
+    bool given;
+    const char *text;
+    int choice;
+    uint64_t whole;
+    double real;
+} option_value;
+
+/// A command line that was understood.
+typedef struct command_line {
+    command_id command;
+    const char *operands[2]; // SCENE, or A and B
+    option_value values[OPTION_COUNT];
+} command_line;
+
+typedef struct command_entry {
+    const char *name;
+    const char *synopsis;
+    const char *summary;
+    int operand_count;
+    int (*run)(const command_line *arguments); // NULL: not built yet
+    const char *help; // paragraph under the synopsis; not built: what exists
+} command_entry;
+
+const command_entry *command_table(void); ///< [COMMAND_COUNT]
+const option *option_table(size_t *count);
+const char *option_group_title(option_group group);
+
+/// The option of this name that the command has, or NULL.
+const option *option_find(command_id command, const char *name, size_t length);
+/// Writes the range of a numeric option, such as "1 to 64 texels, or auto".
+void option_range(const option *option, char *text, size_t size);
+/// The known option or command nearest to a misspelt one, or NULL when nothing is near.
+const char *option_nearest(command_id command, const char *name);
+const char *command_nearest(const char *name);
+
+/// Understands what follows the command's name. @return EXIT_DONE, or EXIT_USAGE after a message.
+int arguments_parse(command_id command, int count, char **words, command_line *parsed);
+
+/// Strict numbers: the whole text, no blanks, no hexadecimal, no NaN, no infinity.
+typedef enum number_result { NUMBER_OK, NUMBER_NONE, NUMBER_TOO_LARGE } number_result;
+number_result number_parse_whole(const char *text, uint64_t *number);
+number_result number_parse_real(const char *text, double *number);
+
+/// Prints "alpenglow COMMAND: message" and where help is, to stderr. @return EXIT_USAGE
+int usage_error(command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+int help_print(void);                       ///< of the whole program, to stdout
+int help_print_command(command_id command); ///< to stdout
+
+int command_bake(const command_line *arguments);
+int command_render(const command_line *arguments);
+int command_info(const command_line *arguments);
+int command_compare(const command_line *arguments);
+
+#endif

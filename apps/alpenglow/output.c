@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Files that the command itself writes: checked before the work, complete or not there after it.
+#include "output.h"
+
+#include "messages.h"
+#include "options.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static int fail_path(const char *path, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static int fail_path(const char *path, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fputs("alpenglow: ", stderr);
+    print_clean(stderr, path);
+    fputs(": ", stderr);
+    print_clean(stderr, text);
+    fputc('\n', stderr);
+    return EXIT_FAILED;
+}
+
+/// The folder of a path, malloc'ed.
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (slash == NULL) {
+        return strcpy(allocate_or_exit(NULL, 2), ".");
+    }
+    size_t length = slash == path ? 1 : (size_t)(slash - path);
+    char *folder = allocate_or_exit(NULL, length + 1);
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    return folder;
+}
+
+int output_check(const char *path, bool overwrite)
+{
+    struct stat about;
+    if (stat(path, &about) == 0) {
+        if (S_ISDIR(about.st_mode)) {
+            return fail_path(path, "is a folder; name a file in it");
+        }
+        if (!overwrite) {
+            return fail_path(path, "exists already; -f overwrites it");
+        }
+    }
+    char *folder = folder_of(path);
+    int code = EXIT_DONE;
+    if (stat(folder, &about) != 0) {
+        code = fail_path(path, "cannot be written: its folder: %s", strerror(errno));
+    } else if (!S_ISDIR(about.st_mode)) {
+        code = fail_path(path, "cannot be written: its folder is a file");
+    } else if (access(folder, W_OK | X_OK) != 0) {
+        code = fail_path(path, "cannot be written: its folder: %s", strerror(errno));
+    }
+    free(folder);
+    return code;
+}
+
+static bool write_all(FILE *file, const char *text)
+{
+    bool good = fputs(text, file) >= 0 && fputc('\n', file) != EOF;
+    return fclose(file) == 0 && good;
+}
+
+static int write_and_rename(const char *text, const char *path, const char *temporary)
+{
+    int descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (file == NULL) {
+        int code = fail_path(path, "cannot be written: %s", strerror(errno));
+        if (descriptor >= 0) {
+            close(descriptor);
+            unlink(temporary);
+        }
+        return code;
+    }
+    if (!write_all(file, text) || rename(temporary, path) != 0) {
+        int code = fail_path(path, "cannot be written: %s", strerror(errno));
+        unlink(temporary);
+        return code;
+    }
+    return EXIT_DONE;
+}
+
+int output_write_json(const json_t *document, const char *path, bool overwrite)
+{
+    int code = output_check(path, overwrite); // again: the work may have taken hours
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    char *text = json_dumps(document, JSON_STYLE);
+    if (text == NULL) {
+        return failure("out of memory");
+    }
+    size_t size = strlen(path) + 32;
+    char *temporary = allocate_or_exit(NULL, size);
+    snprintf(temporary, size, "%s.%ld.tmp", path, (long)getpid());
+    code = write_and_rename(text, path, temporary);
+    free(temporary);
+    free(text);
+    return code;
+}
+
+json_t *json_number(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+json_t *json_text(const char *text)
+{
+    json_t *json = json_string(text);
+    if (json == NULL) {
+        size_t size = strlen(text) + 1;
+        char *ascii = memcpy(allocate_or_exit(NULL, size), text, size);
+        for (char *at = ascii; *at != '\0'; at++) {
+            *at = (*at & 0x80) != 0 ? '?' : *at;
+        }
+        json = json_string(ascii);
+        free(ascii);
+    }
+    return json;
+}
+
+bool path_ends(const char *path, const char *ending)
+{
+    size_t length = strlen(path), ending_length = strlen(ending);
+    return length >= ending_length && strcasecmp(path + length - ending_length, ending) == 0;
+}

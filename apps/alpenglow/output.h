@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Files that the command itself writes: checked before the work, complete or not there after it.
+#ifndef COMMAND_OUTPUT_H
+#define COMMAND_OUTPUT_H
+
+#include <stdbool.h>
+
+#include <jansson.h>
+
+/// Whether `path` can be written, before long work. @return EXIT_DONE, or EXIT_FAILED and a message
+int output_check(const char *path, bool overwrite);
+
+/// Writes a JSON document; to a temporary file that is renamed when complete.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int output_write_json(const json_t *document, const char *path, bool overwrite);
+
+/// A JSON number, null where it is not finite. A JSON text, '?' for bytes that are not UTF-8.
+json_t *json_number(double number);
+json_t *json_text(const char *text);
+/// How documents are written: "key": value, 2 blanks a level, 9 digits.
+enum { JSON_STYLE = JSON_INDENT(2) | JSON_REAL_PRECISION(9) };
+
+/// Whether the path ends so, in any case of letters.
+bool path_ends(const char *path, const char *ending);
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// How far long work is, shown on standard error.
+#ifndef COMMAND_PROGRESS_H
+#define COMMAND_PROGRESS_H
+
+#include <alpenglow/context.h>
+
+/// In the order of the choices of --progress.
+typedef enum progress_mode {
+    PROGRESS_AUTO, // a line that is written over on a terminal, else PLAIN
+    PROGRESS_PLAIN,
+    PROGRESS_JSON,
+    PROGRESS_OFF
+} progress_mode;
+
+typedef struct progress_display {
+    progress_mode mode; // AUTO here means: a terminal
+    bool line_open;     // the terminal's line holds text
+    double last;        // when something was shown, seconds
+    char stage[32];
+} progress_display;
+
+progress_display progress_start(progress_mode mode);
+void progress_show(progress_display *progress, const alp_progress *state);
+void progress_clear(progress_display *progress); ///< frees the terminal's line for other text
+
+/// Seconds of a clock that never goes back.
+double clock_seconds(void);
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The --json report of a bake.
+#include "report.h"
+
+#include "output.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Bounds in texture coordinates of what one surface has on one page.
+typedef struct rectangle {
+    bool used;
+    float u0, v0, u1, v1;
+} rectangle;
+
+static void grow(rectangle *r, const float uvs[6])
+{
+    if (!r->used) {
+        *r = (rectangle){true, INFINITY, INFINITY, -INFINITY, -INFINITY};
+    }
+    for (int corner = 0; corner < 3; corner++) {
+        r->u0 = fminf(r->u0, uvs[2 * corner]);
+        r->u1 = fmaxf(r->u1, uvs[2 * corner]);
+        r->v0 = fminf(r->v0, uvs[2 * corner + 1]);
+        r->v1 = fmaxf(r->v1, uvs[2 * corner + 1]);
+    }
+}
+
+static json_t *make_object(const alp_surface_info *surface, uint32_t page, uint32_t uv_set,
+                           const rectangle *r)
+{
+    return json_pack("{s:o, s:I, s:I, s:[o, o, o, o]}", "name", json_text(surface->name), "page",
+                     (json_int_t)page, "uv_set", (json_int_t)uv_set, "rectangle",
+                     json_number((double)r->u0), json_number((double)r->v0),
+                     json_number((double)r->u1), json_number((double)r->v1));
+}
+
+/// One entry for every page that the surface has triangles on. `pages` is scratch, all unused.
+static void add_surface(json_t *objects, const alp_atlas *atlas, const alp_surface_info *surface,
+                        rectangle *pages)
+{
+    alp_atlas_info info = alp_atlas_get_info(atlas);
+    const float *uvs = alp_atlas_corner_uvs(atlas);
+    const uint32_t *triangle_pages = alp_atlas_triangle_pages(atlas);
+    // Charts go into the first free set; keep uses the second that is there.
+    uint32_t uv_set = info.mode == ALP_ATLAS_KEEP ? 1 : surface->uv_sets;
+    uint32_t first = info.pages, last = 0;
+    for (uint32_t i = 0; i < surface->triangle_count; i++) {
+        uint32_t triangle = surface->first_triangle + i, page = triangle_pages[triangle];
+        if (page < info.pages) {
+            grow(&pages[page], &uvs[(size_t)triangle * 6]);
+            first = page < first ? page : first;
+            last = page > last ? page : last;
+        }
+    }
+    for (uint32_t page = first; page <= last && page < info.pages; page++) {
+        if (pages[page].used) {
+            json_array_append_new(objects, make_object(surface, page, uv_set, &pages[page]));
+            pages[page].used = false;
+        }
+    }
+}
+
+static json_t *make_objects(const alp_scene *scene, const alp_lightmap *lightmap)
+{
+    const alp_atlas *atlas = alp_lightmap_atlas(lightmap);
+    uint32_t page_count = alp_atlas_get_info(atlas).pages;
+    rectangle *pages = allocate_or_exit(NULL, (size_t)page_count * sizeof *pages);
+    for (uint32_t i = 0; i < page_count; i++) {
+        pages[i].used = false;
+    }
+    json_t *objects = json_array();
+    uint32_t surface_count = alp_scene_get_info(scene).surfaces;
+    for (uint32_t i = 0; i < surface_count; i++) {
+        alp_surface_info surface = alp_scene_get_surface(scene, i);
+        add_surface(objects, atlas, &surface, pages);
+    }
+    free(pages);
+    return objects;
+}
+
+json_t *report_warnings(const message_log *messages)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < messages->warning_count; i++) {
+        const message *m = &messages->warnings[i];
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:o}", "code", json_text(m->code), "object",
+                                        json_text(m->object), "text", json_text(m->text)));
+    }
+    return list;
+}
+
+static json_t *make_atlas(const alp_atlas_info *atlas)
+{
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o}", "pages", (json_int_t)atlas->pages, "width",
+                     (json_int_t)atlas->width, "height", (json_int_t)atlas->height, "charts",
+                     (json_int_t)atlas->charts, "texels", (json_int_t)atlas->texels, "utilisation",
+                     json_number(atlas->utilisation));
+}
+
+static json_t *make_seconds(const alp_bake_report *r, double load)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "load", json_number(load), "atlas",
+                     json_number(r->seconds_atlas), "build", json_number(r->seconds_build), "bake",
+                     json_number(r->seconds_bake), "write", json_number(r->seconds_write), "total",
+                     json_number(load + r->seconds_total));
+}
+
+json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r)
+{
+    // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
+    char hash[24];
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)r->input_hash);
+    return json_pack("{s:s, s:{s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{}, s:I, s:o, s:o}",
+                     "version", alp_version(), "scene", "triangles", (json_int_t)r->scene.triangles,
+                     "surfaces", (json_int_t)r->scene.surfaces, "atlas", make_atlas(&r->atlas),
+                     "seconds", make_seconds(r, s->load_seconds), "rays", (json_int_t)r->rays,
+                     "threads", (json_int_t)r->threads, "seed", (json_int_t)r->seed, "input_hash",
+                     hash, "error", "peak_memory_bytes", (json_int_t)r->peak_memory_bytes,
+                     "objects", make_objects(s->scene, lightmap), "warnings",
+                     report_warnings(&s->messages));
+}

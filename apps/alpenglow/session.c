@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// What every command that loads a scene has: context, messages, progress, and how it ends.
+#include "session.h"
+
+#include "interrupt.h"
+
+#include <math.h>
+
+int session_open(session *s, const command_line *a)
+{
+    const option_value *values = a->values;
+    bool quiet = values[OPTION_QUIET].given;
+    progress_mode mode = (progress_mode)values[OPTION_PROGRESS].choice;
+    bool unasked = quiet && !values[OPTION_PROGRESS].given;
+    *s = (session){
+        .messages = {.quiet = quiet},
+        .progress = progress_start(unasked ? PROGRESS_OFF : mode),
+        .warnings_as_errors = values[OPTION_WARNINGS_AS_ERRORS].given,
+    };
+    s->messages.progress = &s->progress;
+    alp_context_options options = alp_context_options_default();
+    if (values[OPTION_THREADS].choice < 0) {
+        options.worker_count = (uint32_t)values[OPTION_THREADS].whole;
+    }
+    options.log = messages_log;
+    options.log_user = &s->messages;
+    alp_result result = alp_context_create(&options, &s->context);
+    return result == ALP_OK ? EXIT_DONE : failure(alp_result_name(result));
+}
+
+int session_load(session *s, const char *path)
+{
+    double start = clock_seconds();
+    alp_result result = alp_scene_load(s->context, path, &s->scene);
+    s->load_seconds = clock_seconds() - start;
+    return result == ALP_OK ? session_judge_warnings(s) : session_end(s, result);
+}
+
+void session_close(session *s)
+{
+    progress_clear(&s->progress);
+    alp_scene_destroy(s->scene);
+    alp_context_destroy(s->context);
+    messages_release(&s->messages);
+}
+
+static bool has_failed_by_warning(const session *s)
+{
+    return s->warnings_as_errors && s->messages.warning_count > 0;
+}
+
+bool session_progress(void *user, const alp_progress *state)
+{
+    session *s = user;
+    if (interrupt_asked() || has_failed_by_warning(s)) {
+        return false;
+    }
+    progress_show(&s->progress, state);
+    return true;
+}
+
+int session_end(session *s, alp_result result)
+{
+    progress_clear(&s->progress);
+    if (result == ALP_OK) {
+        return EXIT_DONE;
+    }
+    if (result == ALP_ERROR_CANCELLED) {
+        if (interrupt_asked()) {
+            failure("interrupted; nothing was written");
+            return EXIT_INTERRUPTED;
+        }
+        return session_judge_warnings(s);
+    }
+    const char *text = alp_context_message(s->context);
+    return failure(text[0] != '\0' ? text : alp_result_name(result));
+}
+
+int session_judge_warnings(const session *s)
+{
+    return has_failed_by_warning(s) ? failure("a warning is an error (--warnings-as-errors)")
+                                    : EXIT_DONE;
+}
+
+int occlusion_read(const command_line *a, alp_occlusion_options *o)
+{
+    enum { DISTANCE_AUTO = 0, DISTANCE_INFINITE = 1 }; // the choices of --ao-distance
+    const double radians = M_PI / 180.0;
+    const option_value *distance = &a->values[OPTION_AO_DISTANCE];
+    const option_value *falloff = &a->values[OPTION_AO_FALLOFF];
+    *o = alp_occlusion_options_default();
+    o->samples = (uint32_t)a->values[OPTION_AO_SAMPLES].whole;
+    o->distance = distance->choice == DISTANCE_AUTO       ? 0.0f
+                  : distance->choice == DISTANCE_INFINITE ? INFINITY
+                                                          : (float)distance->real;
+    o->falloff = (alp_falloff)falloff->choice;
+    if (distance->choice == DISTANCE_INFINITE && o->falloff != ALP_FALLOFF_NONE) {
+        if (falloff->given) {
+            return usage_error(a->command,
+                               "--ao-falloff %s needs a distance; with --ao-distance inf there "
+                               "is only none",
+                               falloff->text);
+        }
+        o->falloff = ALP_FALLOFF_NONE;
+    }
+    o->cone = (float)(a->values[OPTION_AO_CONE].real * radians);
+    o->distribution = (alp_distribution)a->values[OPTION_AO_DISTRIBUTION].choice;
+    o->one_sided = a->values[OPTION_ONE_SIDED].given;
+    o->seed = a->values[OPTION_SEED].whole;
+    return EXIT_DONE;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What every command that loads a scene has: context, messages, progress, and how it ends.
+#ifndef COMMAND_SESSION_H
+#define COMMAND_SESSION_H
+
+#include "messages.h"
+#include "options.h"
+#include "progress.h"
+
+#include <alpenglow/alpenglow.h>
+
+typedef struct session {
+    alp_context *context;
+    alp_scene *scene; // NULL until session_load
+    message_log messages;
+    progress_display progress;
+    bool warnings_as_errors;
+    double load_seconds;
+} session;
+
+/// Makes the context that the arguments ask for. `s` must stay where it is.
+/// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
+int session_open(session *s, const command_line *arguments);
+/// Loads operand 0. @return EXIT_DONE, or EXIT_FAILED after a message
+int session_load(session *s, const char *path);
+void session_close(session *s);
+
+/// An alp_progress_fn; `user` is a session. False on Ctrl-C, and on a warning that is an error.
+bool session_progress(void *user, const alp_progress *state);
+
+/// Prints why a call failed. @return the exit code that the result stands for
+int session_end(session *s, alp_result result);
+
+/// Whether a warning makes the command fail; says so if it does.
+int session_judge_warnings(const session *s);
+
+/// The --ao-… options. @return EXIT_DONE, or EXIT_USAGE after a message
+int occlusion_read(const command_line *arguments, alp_occlusion_options *options);
+
+#endif

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks the law of the rooms: who may include what.
+
+    scripts/check_rooms.py [FOLDER]     the tree to check; default: this one
+
+Prints one line per fault, "file:line: what is wrong", and exits with 1 if there is any. The table
+below is the law; CONTRIBUTING.md says it in words. A room is a folder of src/. Rooms stand in the
+order in which they build on each other, so the law has no cycles.
+"""
+import pathlib
+import re
+import sys
+
+# room: rooms whose headers it may include besides its own
+ROOMS = {
+    "base": [],
+    "sh": ["base"],
+    "film": ["base"],
+    "scene": ["sh", "base"],
+    "formats": ["scene", "sh", "base"],
+    "trace": ["scene", "base"],
+    "atlas": ["scene", "base"],
+    "transport": ["trace", "scene", "sh", "base"],
+    "maps": ["transport", "atlas", "trace", "scene", "sh", "base"],
+    "fields": ["transport", "maps", "trace", "scene", "sh", "base"],
+    "render": ["fields", "maps", "transport", "trace", "scene", "film", "sh", "base"],
+    "bake": ["render", "fields", "maps", "transport", "atlas", "trace", "formats", "scene", "film",
+             "sh", "base"],
+}
+
+# public header: the lowest room that may include it, which stands for it in the law. Lightmaps,
+# which bake.h declares, live in maps.
+PUBLIC = {
+    "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
+    "scene": "scene", "atlas": "atlas", "occlusion": "transport", "bake": "maps",
+    "render": "render", "alpenglow": "bake",
+}
+
+# header of another project: where it may be included (a folder below src/, "apps", or one file)
+THIRD_PARTY = {
+    r"embree3/.*": ["src/trace/embree.c"],
+    r"jansson\.h": ["src/formats", "src/bake", "apps"],
+    r"png\.h": ["src/formats"],
+    r"jpeglib\.h|jerror\.h": ["src/formats"],
+    r"(OpenEXR/)?openexr.*\.h": ["src/formats"],
+    r"zlib\.h": ["src/formats"],
+    r"pthread\.h": ["src/base"],
+}
+
+# of C17 and POSIX
+SYSTEM = set(
+    "assert ctype errno fcntl float inttypes limits locale math setjmp signal stdalign stdarg "
+    "stdatomic stdbool stddef stdint stdio stdlib string strings time unistd dirent getopt sched "
+    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/wait termios".split())
+SYSTEM_OF_PUBLIC_HEADERS = {"stdbool", "stddef", "stdint"}
+
+INCLUDE = re.compile(r"\s*#\s*include\b\s*(.*)")
+TARGET = re.compile(r'(?:<([^>]+)>|"([^"]+)")')
+
+
+def includes(path):
+    """(line number, angled target or None, quoted target or None) of each include of a file."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            target = TARGET.match(match[1])
+            yield number, target[1] if target else None, target[2] if target else None
+
+
+def may_use(room, other):
+    return other == room or other in ROOMS[room]
+
+
+def fault_of_public(name, room):
+    """Fault of including <alpenglow/name.h> from a room (None: from an app, which may)."""
+    if name not in PUBLIC:
+        return f"<alpenglow/{name}.h> is not in the table of public headers"
+    if room and not may_use(room, PUBLIC[name]):
+        return f"{room} may not include <alpenglow/{name}.h>, which belongs to {PUBLIC[name]}"
+    return None
+
+
+def fault_of_system(target, place):
+    """Fault of including <target>, which is not ours, from a file (path from the root)."""
+    for pattern, places in THIRD_PARTY.items():
+        if re.fullmatch(pattern, target):
+            if any(place == allowed or place.startswith(allowed + "/") for allowed in places):
+                return None
+            return f"<{target}> may only be included from {', '.join(places)}"
+    if target.removesuffix(".h") not in SYSTEM:
+        return f"<{target}> is neither of C17 or POSIX nor in the table of third parties"
+    return None
+
+
+def fault_of_quoted(root, place, room, target):
+    """Fault of including "target" from a file of a room (None: of an app)."""
+    if room is None:
+        beside = (root / place).parent / target
+        return None if beside.is_file() else f'an app may not include "{target}": it is not its own'
+    other = target.split("/")[0]
+    if not target.endswith(".h"):
+        return f'"{target}" is not a header'
+    if other not in ROOMS or not (root / "src" / target).is_file():
+        return f'"{target}" is no header of a room (write it from src/, as "room/name.h")'
+    if not may_use(room, other):
+        return f'{room} may not include "{target}": it may use {", ".join(ROOMS[room]) or "none"}'
+    return None
+
+
+def faults_of_file(root, path):
+    place = path.relative_to(root).as_posix()
+    parts = place.split("/")
+    if parts[0] == "src" and (len(parts) != 3 or parts[1] not in ROOMS):
+        yield 1, f"{'/'.join(parts[1:-1]) or 'src'} is not a room"
+        return
+    room = parts[1] if parts[0] == "src" else None
+    if parts[0] == "include":
+        room = PUBLIC.get(path.name.removesuffix(".in").removesuffix(".h"))
+        if room is None:
+            yield 1, "this public header is not in the table"
+            return
+    for number, angled, quoted in includes(path):
+        if angled is None and quoted is None:
+            fault = "an include must name its file"
+        elif quoted is not None:
+            fault = (fault_of_quoted(root, place, room, quoted) if parts[0] != "include"
+                     else "a public header includes <alpenglow/...> and C headers only")
+        elif angled.startswith("alpenglow/"):
+            fault = fault_of_public(angled[len("alpenglow/"):].removesuffix(".h"), room)
+        elif parts[0] == "include":
+            known = angled.removesuffix(".h") in SYSTEM_OF_PUBLIC_HEADERS
+            fault = None if known else f"a public header may not include <{angled}>"
+        else:
+            fault = fault_of_system(angled, place)
+        if fault:
+            yield number, fault
+
+
+def unlisted_files(root):
+    """Sources that their room's CMakeLists.txt does not name, and so nobody compiles."""
+    for path in sorted(p for room in ROOMS for p in (root / "src" / room).glob("*.c")):
+        listed = (path.parent / "CMakeLists.txt").read_text(encoding="utf-8")
+        if not re.search(rf"(?<![\w.]){re.escape(path.name)}(?![\w.])", listed):
+            yield path, 1, "is not listed in its room's CMakeLists.txt"
+
+
+def check(root):
+    """All faults of a tree, as lines."""
+    lines = []
+    for folder in ("src", "include", "apps"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".c", ".h") or path.name.endswith(".h.in"):
+                for number, fault in faults_of_file(root, path):
+                    lines.append(f"{path.relative_to(root)}:{number}: {fault}")
+    for path, number, fault in unlisted_files(root):
+        lines.append(f"{path.relative_to(root)}:{number}: {fault}")
+    return lines
+
+
+def check_table():
+    """The law itself: every room builds on rooms that stand before it."""
+    seen = set()
+    for room, allowed in ROOMS.items():
+        assert set(allowed) <= seen, f"{room} may include a room above it"
+        seen.add(room)
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parent.parent
+    root = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else here
+    check_table()
+    lines = check(root)
+    print("\n".join(lines) if lines else "rooms: every include is lawful")
+    sys.exit(1 if lines else 0)
+
+
+if __name__ == "__main__":
+    main()

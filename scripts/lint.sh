@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Reads the sources with everything that finds faults without running them.
+#
+#   scripts/lint.sh          formatting, rooms, cppcheck, clang-tidy: all run, then 1 if any failed
+#   scripts/lint.sh format   formats in place instead
+#
+# Needs a configured build/dev (make lint does that). Settings: .clang-format, .clang-tidy,
+# scripts/cppcheck.suppressions.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+jobs=$(nproc)
+
+sources() {
+    find src include apps tests -path '*/node_modules' -prune -o -name '*.[ch]' -print0
+}
+
+check_format() {
+    sources | xargs -0 clang-format --dry-run -Werror
+}
+
+check_rooms() {
+    python3 scripts/check_rooms.py
+}
+
+check_cppcheck() {
+    cppcheck --quiet --error-exitcode=1 -j "$jobs" --std=c11 --library=posix --inline-suppr \
+        --enable=warning,performance,portability,style --suppress=missingIncludeSystem \
+        --suppressions-list=scripts/cppcheck.suppressions -D__GNUC__ \
+        -I include -I build/dev/include -I src -I tests/support src apps tests
+}
+
+check_clang_tidy() {
+    local log=build/dev/clang-tidy.log
+    run-clang-tidy -quiet -j "$jobs" -p build/dev "^$PWD/(src|apps|tests)/" >"$log" 2>&1 && return
+    # One finding in a header is told for every file that includes it: each is shown once.
+    sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -E ': (error|warning): ' | sort -u
+    echo "what led to each: $log"
+    return 1
+}
+
+if [ "${1:-}" = format ]; then
+    sources | xargs -0 clang-format -i
+    exit
+fi
+
+failed=""
+for step in format rooms cppcheck clang_tidy; do
+    before=$SECONDS
+    "check_$step" || failed="$failed $step"
+    echo "lint: $step took $((SECONDS - before)) s"
+done
+[ -z "$failed" ] && echo "lint: no findings" && exit 0
+echo "lint: findings in$failed"
+exit 1

@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what the project needs on Debian 12. Looks first, and does nothing when all is there.
+#
+#   scripts/setup.sh build    what the library and the command need
+#   scripts/setup.sh check    that, and what tests, lint and CI need (default)
+#
+# Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
+# comes from npm. Exit status: 0 all is there, 1 something is missing, 2 wrong usage.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# A package, and the command that proves it is there ("-": ask dpkg). A tool counts however it came.
+build_packages="
+    gcc                 gcc
+    libc6-dev           -
+    make                make
+    cmake               cmake
+    ninja-build         ninja
+    pkg-config          pkg-config
+    libembree-dev       -
+    libjansson-dev      -
+    libpng-dev          -
+    libjpeg62-turbo-dev -
+    libopenexr-dev      -
+    zlib1g-dev          -"
+check_packages="
+    g++                 g++
+    python3             python3
+    libcmocka-dev       -
+    clang               clang
+    libclang-rt-14-dev  -
+    clang-format        clang-format
+    clang-tidy          clang-tidy
+    cppcheck            cppcheck
+    ca-certificates     -
+    nodejs              node
+    npm                 npm"
+validator=tests/validator
+
+say() {
+    printf 'setup: %s\n' "$*" >&2
+}
+
+missing_packages() { # the packages of a list that are not there, one a line
+    local package proof
+    while read -r package proof; do
+        [ -n "$package" ] || continue
+        if [ "$proof" = - ]; then
+            [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+                echo "$package"
+        else
+            command -v "$proof" >/dev/null 2>&1 || echo "$package"
+        fi
+    done <<<"$1"
+}
+
+refuse() { # reason, packages
+    say "$1"
+    say "these Debian 12 packages are missing:"
+    say "    $2"
+    say "install them (as root: apt-get install $2) and run this again"
+    exit 1
+}
+
+install_packages() {
+    local missing=$1 root=""
+    command -v apt-get >/dev/null 2>&1 || refuse "this is not Debian: there is no apt-get" "$missing"
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null 2>&1 ||
+            refuse "not root, and there is no sudo: nothing may be installed" "$missing"
+        root=sudo
+        if [ ! -t 0 ] && ! sudo -n true 2>/dev/null; then
+            refuse "sudo needs a password and nobody is there to type it" "$missing"
+        fi
+    fi
+    say "installing: $missing"
+    $root apt-get update -q >&2 || say "apt-get update failed; trying with the lists at hand"
+    # shellcheck disable=SC2086 # a list of words
+    $root env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -q -y --no-install-recommends $missing >&2 ||
+        refuse "apt-get could not install everything (see above)" "$missing"
+}
+
+install_validator() { # what package-lock.json pins, once per state of that file
+    [ -f $validator/package-lock.json ] || return 0
+    cmp -s $validator/package-lock.json $validator/node_modules/.installed-for && return 0
+    say "installing the npm packages of $validator"
+    if ! npm ci --prefix $validator --no-audit --no-fund >&2; then
+        say "npm ci failed in $validator (see above); the network is needed once"
+        exit 1
+    fi
+    cp $validator/package-lock.json $validator/node_modules/.installed-for
+}
+
+case "${1:-check}" in
+build) wanted=$build_packages ;;
+check) wanted=$build_packages$'\n'$check_packages ;;
+*)
+    say "usage: scripts/setup.sh [build|check]"
+    exit 2
+    ;;
+esac
+
+missing=$(missing_packages "$wanted" | xargs)
+[ -z "$missing" ] || install_packages "$missing"
+[ "${1:-check}" = build ] || install_validator

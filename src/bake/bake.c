@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// The job: check → atlas → acceleration structure → occlusion → maps → files.
+#include "bake/job.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "transport/occlusion.h"
+
+#include <string.h>
+
+alp_bake_options alp_bake_options_default(void)
+{
+    return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
+                              .atlas = alp_atlas_options_default(),
+                              .occlusion = alp_occlusion_options_default()};
+}
+
+static alp_result check_options(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->struct_size != sizeof *o) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake options are not from _default()");
+    }
+    if ((int)o->existing_ao < ALP_EXISTING_AO_REPLACE || o->existing_ao > ALP_EXISTING_AO_KEEP) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
+    }
+    ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
+    if (job->scene->usable_count == 0) {
+        return alpi_fail(
+            job->context, ALP_ERROR_INVALID_DATA, "%s: nothing to bake: %s", job->scene->name,
+            job->scene->triangle_count == 0 ? "the scene has no triangles"
+                                            : "no triangle has area and finite coordinates");
+    }
+    return ALP_OK;
+}
+
+/// Tells the user that a stage begins; false from the user cancels.
+static alp_result begin_stage(const alpi_bake_job *job, const char *stage)
+{
+    alp_progress progress = {stage, 0, 1, 0.0, -1.0};
+    if (job->options.progress != NULL &&
+        !job->options.progress(job->options.progress_user, &progress)) {
+        return alpi_fail(job->context, ALP_ERROR_CANCELLED, "cancelled");
+    }
+    return ALP_OK;
+}
+
+static alp_result make_atlas(alpi_bake_job *job)
+{
+    double started = alpi_seconds();
+    ALP_TRY(begin_stage(job, "atlas"));
+    alp_atlas_options options = job->options.atlas;
+    options.progress = job->options.progress;
+    options.progress_user = job->options.progress_user;
+    alp_atlas *atlas = NULL;
+    ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    ALP_TRY(alpi_lightmap_create(atlas, &job->lightmap));
+    job->report.atlas = atlas->info;
+    job->report.atlas.texels = job->lightmap->texels.count;
+    job->report.seconds_atlas = alpi_seconds() - started;
+    return ALP_OK;
+}
+
+/// Mean over the surface: each texel counts by its area.
+static double area_mean(const alpi_texels *texels, const float *values)
+{
+    double sum = 0.0, area = 0.0;
+    for (uint32_t i = 0; i < texels->count; i++) {
+        sum += (double)texels->areas[i] * (double)values[i];
+        area += (double)texels->areas[i];
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+static void warn_of_darkness(const alpi_bake_job *job)
+{
+    if (job->report.ao_mean < 0.05) {
+        alpi_warn(job->context, "dark", job->scene->name,
+                  "the mean accessibility is %.1f %%: a closed room is dark without a distance "
+                  "limit; give one (--ao-distance auto, or metres)",
+                  100.0 * job->report.ao_mean);
+    }
+}
+
+static alp_result gather_occlusion(alpi_bake_job *job, float *values)
+{
+    ALP_TRY(begin_stage(job, "build"));
+    alpi_tracer *tracer = NULL;
+    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
+                                  &tracer, &job->report.seconds_build));
+    double started = alpi_seconds();
+    alp_occlusion_options options = job->options.occlusion;
+    options.progress = job->options.progress;
+    options.progress_user = job->options.progress_user;
+    alpi_occlusion_setup setup = alpi_occlusion_prepare(job->scene, tracer, &options);
+    job->report.ao_distance = setup.distance;
+    const alpi_texels *texels = &job->lightmap->texels;
+    ALP_TRY(alpi_occlusion_gather(job->context, &setup, &texels->receivers, values));
+    job->report.rays = (uint64_t)texels->count * options.samples;
+    job->report.seconds_bake = alpi_seconds() - started;
+    job->report.ao_mean = area_mean(texels, values);
+    warn_of_darkness(job);
+    if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
+        alpi_bake_multiply_existing(job, values);
+    }
+    return alpi_lightmap_store(job->lightmap, values);
+}
+
+static alp_result run(alpi_bake_job *job)
+{
+    double started = alpi_seconds();
+    ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_check_outputs(job));
+    ALP_TRY(make_atlas(job));
+    float *values = ALPI_NEW(job->context, float, job->lightmap->texels.count);
+    if (values == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = gather_occlusion(job, values);
+    alpi_release(job->context, values);
+    ALP_TRY(result);
+    ALP_TRY(begin_stage(job, "write"));
+    double write_started = alpi_seconds();
+    ALP_TRY(alpi_bake_write_outputs(job));
+    job->report.seconds_write = alpi_seconds() - write_started;
+    job->report.seconds_total = alpi_seconds() - started;
+    return ALP_OK;
+}
+
+alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
+                    alp_lightmap **lightmap, alp_bake_report *report)
+{
+    if (lightmap != NULL) {
+        *lightmap = NULL;
+    }
+    if (scene == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alpi_bake_job job = {.scene = scene,
+                         .context = scene->context,
+                         .options = options ? *options : alp_bake_options_default()};
+    alp_result result = run(&job);
+    if (result == ALP_OK && report != NULL) {
+        job.report.scene = alp_scene_get_info(scene);
+        job.report.threads = alp_context_worker_count(job.context);
+        job.report.seed = job.options.occlusion.seed;
+        job.report.input_hash = scene->input_hash;
+        job.report.peak_memory_bytes = alp_context_peak_memory(job.context);
+        *report = job.report;
+    }
+    if (result == ALP_OK && lightmap != NULL) {
+        *lightmap = job.lightmap;
+    } else {
+        alp_lightmap_destroy(job.lightmap);
+    }
+    return result;
+}

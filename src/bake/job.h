@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The job of one bake, shared by the files of this room.
+#ifndef ALPI_BAKE_JOB_H
+#define ALPI_BAKE_JOB_H
+
+#include "maps/lightmap.h"
+
+#include <alpenglow/bake.h>
+
+typedef struct alpi_bake_job {
+    const alp_scene *scene;
+    alp_context *context;
+    alp_bake_options options;
+    alp_lightmap *lightmap;
+    alp_bake_report report;
+} alpi_bake_job;
+
+/// Fails before the long work if an output could not be written at its end.
+alp_result alpi_bake_check_outputs(const alpi_bake_job *job);
+/// Writes maps and asset; nothing appears at its place before everything is encoded.
+alp_result alpi_bake_write_outputs(alpi_bake_job *job);
+
+/// Multiplies each value by the occlusion map that the texel's material has already.
+void alpi_bake_multiply_existing(const alpi_bake_job *job, float *accessibility);
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Dilation: a wave that starts at all covered texels at once and carries their values outwards, one
+// step at a time, until the page is full. Linear in texels.
+#include "maps/lightmap.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+typedef struct wave {
+    float *page;
+    uint32_t width, height;
+    uint8_t *filled;
+    uint32_t *queue; // texels in the order in which they were reached
+    size_t count;
+} wave;
+
+static void reach(wave *w, size_t from, size_t to)
+{
+    if (!w->filled[to]) {
+        w->filled[to] = 1;
+        memcpy(w->page + 4 * to, w->page + 4 * from, 3 * sizeof(float));
+        w->queue[w->count++] = (uint32_t)to;
+    }
+}
+
+static void spread(wave *w)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        size_t at = w->queue[i];
+        uint32_t x = (uint32_t)(at % w->width), y = (uint32_t)(at / w->width);
+        if (x > 0) {
+            reach(w, at, at - 1);
+        }
+        if (x + 1 < w->width) {
+            reach(w, at, at + 1);
+        }
+        if (y > 0) {
+            reach(w, at, at - w->width);
+        }
+        if (y + 1 < w->height) {
+            reach(w, at, at + w->width);
+        }
+    }
+}
+
+alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32_t height)
+{
+    size_t count = (size_t)width * height;
+    wave w = {.page = page, .width = width, .height = height};
+    w.filled = ALPI_NEW(context, uint8_t, count);
+    w.queue = ALPI_NEW(context, uint32_t, count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (w.filled != NULL && w.queue != NULL) {
+        for (size_t i = 0; i < count; i++) {
+            if (page[4 * i + 3] > 0.0f) {
+                w.filled[i] = 1;
+                w.queue[w.count++] = (uint32_t)i;
+            }
+        }
+        spread(&w);
+        result = ALP_OK;
+    }
+    alpi_release(context, w.filled);
+    alpi_release(context, w.queue);
+    return result;
+}

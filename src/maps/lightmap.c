@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "maps/lightmap.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+void alp_lightmap_destroy(alp_lightmap *lightmap)
+{
+    if (lightmap == NULL) {
+        return;
+    }
+    alp_context *context = lightmap->context;
+    for (uint32_t p = 0; lightmap->pages != NULL && p < lightmap->page_count; p++) {
+        alpi_release(context, lightmap->pages[p]);
+    }
+    alpi_release(context, lightmap->pages);
+    alpi_texels_destroy(context, &lightmap->texels);
+    alp_atlas_destroy(lightmap->atlas);
+    alpi_release(context, lightmap);
+}
+
+static alp_result allocate_pages(alp_lightmap *l)
+{
+    l->pages = ALPI_NEW(l->context, float *, l->page_count);
+    if (l->pages == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t p = 0; p < l->page_count; p++) {
+        ALPI_TRY_NEW(l->context, l->pages[p], 4 * (size_t)l->width * l->height);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
+{
+    *lightmap = NULL;
+    alp_lightmap *l = ALPI_NEW(atlas->context, alp_lightmap, 1);
+    if (l == NULL) {
+        alp_atlas_destroy(atlas);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    l->context = atlas->context;
+    l->atlas = atlas;
+    l->page_count = atlas->info.pages;
+    l->width = atlas->info.width;
+    l->height = atlas->info.height;
+    alp_result result = alpi_texels_create(atlas, &l->texels);
+    if (result == ALP_OK) {
+        result = allocate_pages(l);
+    }
+    if (result != ALP_OK) {
+        alp_lightmap_destroy(l);
+        return result;
+    }
+    *lightmap = l;
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
+{
+    const alpi_texels *texels = &lightmap->texels;
+    for (uint32_t i = 0; i < texels->count; i++) {
+        size_t at = (size_t)texels->pixels[i][1] * lightmap->width + texels->pixels[i][0];
+        float *pixel = lightmap->pages[texels->pages[i]] + 4 * at;
+        pixel[0] = pixel[1] = pixel[2] = values[i];
+        pixel[3] = 1.0f;
+    }
+    for (uint32_t p = 0; p < lightmap->page_count; p++) {
+        ALP_TRY(
+            alpi_dilate(lightmap->context, lightmap->pages[p], lightmap->width, lightmap->height));
+    }
+    return ALP_OK;
+}
+
+void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
+                          float rgb[3])
+{
+    const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
+    float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
+    float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
+    alp_image view = {.context = lightmap->context,
+                      .info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT},
+                      .pixels = lightmap->pages[lightmap->atlas->triangle_pages[triangle]]};
+    float rgba[4];
+    alpi_image_sample(&view, u, v, ALPI_WRAP_CLAMP, ALPI_WRAP_CLAMP, rgba);
+    memcpy(rgb, rgba, 3 * sizeof *rgb);
+}
+
+alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
+                                    alp_component component, alp_image **image)
+{
+    bool bytes = component == ALP_COMPONENT_U8;
+    alp_image_info info = {lightmap->width, lightmap->height, bytes ? 1 : 4, component};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    size_t count = (size_t)info.width * info.height;
+    const float *source = lightmap->pages[page];
+    if (!bytes) {
+        memcpy((*image)->pixels, source, 4 * count * sizeof *source);
+        return ALP_OK;
+    }
+    uint8_t *target = (*image)->pixels;
+    for (size_t i = 0; i < count; i++) {
+        float value = fminf(fmaxf(source[4 * i], 0.0f), 1.0f);
+        target[i] = (uint8_t)(value * 255.0f + 0.5f);
+    }
+    return ALP_OK;
+}
+
+uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap)
+{
+    return lightmap ? lightmap->page_count : 0;
+}
+
+const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
+                               uint32_t *height)
+{
+    if (lightmap == NULL || page >= lightmap->page_count) {
+        return NULL;
+    }
+    if (width != NULL) {
+        *width = lightmap->width;
+    }
+    if (height != NULL) {
+        *height = lightmap->height;
+    }
+    return lightmap->pages[page];
+}
+
+const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)
+{
+    return lightmap ? lightmap->atlas : NULL;
+}

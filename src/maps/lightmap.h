@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Light on surfaces: values at the texels of an atlas, kept as pages of floats.
+#ifndef ALPI_MAPS_LIGHTMAP_H
+#define ALPI_MAPS_LIGHTMAP_H
+
+#include "atlas/atlas.h"
+#include "base/image.h"
+
+#include <alpenglow/bake.h>
+
+struct alp_lightmap {
+    alp_context *context;
+    alp_atlas *atlas; // owned
+    alpi_texels texels;
+    uint32_t page_count, width, height;
+    float **pages; // [page_count] → [height][width][4]: value in RGB, coverage in A
+};
+
+/// Takes the atlas over (also on failure) and makes its texels; pages are zero.
+alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap);
+
+/// Writes one value per texel into R = G = B, coverage 1 into A, and fills the rest of each page
+/// from the nearest covered texel, so that no filter or mip level ever reads something that is no
+/// surface.
+alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values);
+
+/// Bilinear look-up at a point of a triangle.
+void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
+                          float rgb[3]);
+
+/// A page as image: float RGBA as it is, or 8-bit grey (R rounded), dilated texels included.
+alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
+                                    alp_component component, alp_image **image);
+
+/// Fills pixels with A = 0 of an RGBA page from the nearest (4-connected steps) with A > 0; A stays
+/// 0. A page without any covered pixel is left alone.
+alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32_t height);
+
+#endif

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// Camera → hit → map or transport → picture. Pixels are averaged over a box of stratified camera
+// rays.
+#include <alpenglow/render.h>
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "maps/lightmap.h"
+#include "transport/occlusion.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 4096 };
+enum { STREAM_PIXEL = 1 }; // random numbers of camera rays, apart from those of occlusion
+
+typedef struct render_job {
+    const alp_scene *scene;
+    alp_render_options options;
+    const alpi_tracer *tracer;
+    alpi_occlusion_setup occlusion;
+    uint32_t occlusion_rays; // at the hit of each camera ray
+    alp_image *image;
+    vec3 origin, forward, right, up; // right and up span half the picture's height at distance 1
+    float aspect;
+} render_job;
+
+alp_render_options alp_render_options_default(void)
+{
+    return (alp_render_options){.struct_size = sizeof(alp_render_options),
+                                .width = 960,
+                                .height = 540,
+                                .samples = 16,
+                                .occlusion = alp_occlusion_options_default()};
+}
+
+static alp_result check_options(const alp_scene *scene, const alp_render_options *o)
+{
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    if (o->struct_size != sizeof *o) {
+        return alpi_fail(scene->context, code, "render options are not from _default()");
+    }
+    if (o->width < 1 || o->width > SIDE_LIMIT || o->height < 1 || o->height > SIDE_LIMIT) {
+        return alpi_fail(scene->context, code, "render: %u x %u pixels, sides must be 1 to %d",
+                         o->width, o->height, SIDE_LIMIT);
+    }
+    if (o->samples < 1 || o->samples > SAMPLE_LIMIT) {
+        return alpi_fail(scene->context, code, "render: %u samples per pixel, need 1 to %d",
+                         o->samples, SAMPLE_LIMIT);
+    }
+    if (o->method != ALP_RENDER_AO && o->method != ALP_RENDER_CONSTANT) {
+        return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
+    }
+    if (o->lightmap != NULL && o->lightmap->atlas->scene != scene) {
+        return alpi_fail(scene->context, code, "render: the maps belong to another scene");
+    }
+    return alpi_occlusion_check(scene, &o->occlusion);
+}
+
+/// The camera's frame: right-handed, looking along `forward`, picture up along `up`.
+static alp_result place_camera(render_job *job)
+{
+    const alp_camera *o = &job->options.camera;
+    alp_camera c =
+        o->vertical_fov != 0.0f ? *o : alp_scene_get_camera(job->scene, job->options.camera_index);
+    job->origin = vec3_load(c.position);
+    const vec3 none = {0.0f, 0.0f, 0.0f};
+    vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c.target), job->origin), none);
+    vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c.up)), none);
+    bool fov_is_valid = c.vertical_fov > 0.0f && c.vertical_fov < (float)ALPI_PI;
+    if (!vec3_is_finite(job->origin) || vec3_length(right) == 0.0f || !fov_is_valid) {
+        return alpi_fail(job->scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "camera: its position must be finite and differ from the target, the view "
+                         "not along up, the field of view inside (0, pi)");
+    }
+    float half = tanf(0.5f * c.vertical_fov);
+    job->forward = forward;
+    job->right = vec3_scale(right, half);
+    job->up = vec3_scale(vec3_cross(right, forward), half);
+    job->aspect = (float)job->options.width / (float)job->options.height;
+    return ALP_OK;
+}
+
+/// Accessibility by rays at a hit, on the side that is seen.
+static float trace_occlusion(const render_job *job, uint64_t key, vec3 direction, uint32_t triangle,
+                             float b1, float b2)
+{
+    const alp_scene *scene = job->scene;
+    vec3 c[3], position, geometric, shading = {0.0f, 0.0f, 0.0f};
+    alpi_triangle_corners(scene, triangle, c);
+    float b0 = 1.0f - b1 - b2;
+    const float weight[3] = {b0, b1, b2};
+    position = vec3_add(vec3_add(vec3_scale(c[0], b0), vec3_scale(c[1], b1)), vec3_scale(c[2], b2));
+    geometric = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
+    for (int k = 0; k < 3; k++) {
+        shading =
+            vec3_mad(shading, weight[k], vec3_load(scene->normals[scene->triangles[triangle][k]]));
+    }
+    shading = vec3_normalize_or(shading, geometric);
+    if (vec3_dot(shading, geometric) <= 0.0f) {
+        shading = geometric;
+    }
+    if (vec3_dot(direction, geometric) > 0.0f) { // seen from behind
+        geometric = vec3_scale(geometric, -1.0f);
+        shading = vec3_scale(shading, -1.0f);
+    }
+    alpi_receiver r = {key, position, geometric, shading, alpi_receiver_offset(position, c)};
+    double sum = alpi_occlusion_sum(&job->occlusion, &r, 0, job->occlusion_rays);
+    return (float)(1.0 - sum / (double)job->occlusion_rays);
+}
+
+static void shade(const render_job *job, uint64_t receiver, vec3 direction, const alpi_hits *hits,
+                  int lane, float rgb[3])
+{
+    uint32_t triangle = hits->triangle[lane];
+    float b1 = hits->b1[lane], b2 = hits->b2[lane];
+    if (job->options.method == ALP_RENDER_CONSTANT) {
+        vec3_store(rgb, alpi_surface_albedo(job->scene, triangle, b1, b2));
+        return;
+    }
+    if (job->options.lightmap != NULL) {
+        alpi_lightmap_sample(job->options.lightmap, triangle, b1, b2, rgb);
+        return;
+    }
+    float value = 1.0f;
+    if (!alpi_surface_occlusion(job->scene, triangle, b1, b2, &value)) {
+        value = trace_occlusion(job, receiver, direction, triangle, b1, b2);
+    }
+    rgb[0] = rgb[1] = rgb[2] = value;
+}
+
+/// Through the point (x, y) of the picture, in pixels from its upper left corner.
+static vec3 camera_direction(const render_job *job, float x, float y)
+{
+    float sx = (2.0f * x / (float)job->options.width - 1.0f) * job->aspect;
+    float sy = 1.0f - 2.0f * y / (float)job->options.height;
+    vec3 d = vec3_mad(vec3_mad(job->forward, sx, job->right), sy, job->up);
+    return vec3_normalize_or(d, job->forward);
+}
+
+static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
+{
+    uint32_t x = index % job->options.width, y = index / job->options.width;
+    uint32_t key = alpi_random_key(job->options.occlusion.seed, index, STREAM_PIXEL);
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    alpi_rays rays;
+    alpi_hits hits;
+    vec3 directions[ALPI_PACKET];
+    for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
+        uint32_t rest = job->options.samples - first;
+        uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            vec2 u = alpi_sample_2d(key, first + i);
+            vec3 d = camera_direction(job, (float)x + u.x, (float)y + u.y);
+            directions[i] = d;
+            rays.origin_x[i] = job->origin.x;
+            rays.origin_y[i] = job->origin.y;
+            rays.origin_z[i] = job->origin.z;
+            rays.direction_x[i] = d.x;
+            rays.direction_y[i] = d.y;
+            rays.direction_z[i] = d.z;
+            rays.minimum[i] = 0.0f;
+            rays.maximum[i] = INFINITY;
+        }
+        alpi_trace_nearest(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter, &hits);
+        for (uint32_t i = 0; i < lanes; i++) {
+            if (hits.triangle[i] != ALPI_NONE) {
+                uint64_t receiver = (uint64_t)index * job->options.samples + first + i;
+                float rgb[3];
+                shade(job, receiver, directions[i], &hits, (int)i, rgb);
+                for (int k = 0; k < 3; k++) {
+                    sum[k] += (double)rgb[k];
+                }
+                sum[3] += 1.0;
+            }
+        }
+    }
+    for (int k = 0; k < 4; k++) { // colour over what is covered; alpha = covered share
+        double share = k < 3 ? sum[3] : (double)job->options.samples;
+        pixel[k] = share > 0.0 ? (float)(sum[k] / share) : 0.0f;
+    }
+}
+
+static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const render_job *job = user;
+    float *pixels = job->image->pixels;
+    for (uint32_t i = begin; i < end; i++) {
+        render_pixel(job, i, pixels + 4 * (size_t)i);
+    }
+    return ALP_OK;
+}
+
+static alp_result run(render_job *job)
+{
+    const alp_render_options *o = &job->options;
+    ALP_TRY(place_camera(job));
+    alpi_tracer *tracer = NULL;
+    ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &tracer, NULL));
+    job->tracer = tracer;
+    job->occlusion = alpi_occlusion_prepare(job->scene, tracer, &o->occlusion);
+    job->occlusion_rays =
+        o->occlusion.samples / o->samples + (o->occlusion.samples % o->samples != 0);
+    alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
+    ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
+    alpi_task_progress progress = {.callback = o->progress,
+                                   .user = o->progress_user,
+                                   .stage = "render",
+                                   .units_per_item = (double)o->samples,
+                                   .units_are_rays = true};
+    return alpi_parallel_for(job->scene->context, o->width * o->height, 64, render_range, job,
+                             &progress);
+}
+
+alp_result alp_render(const alp_scene *scene, const alp_render_options *options, alp_image **image)
+{
+    if (scene == NULL || image == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    *image = NULL;
+    render_job job = {.scene = scene, .options = options ? *options : alp_render_options_default()};
+    ALP_TRY(check_options(scene, &job.options));
+    alp_result result = run(&job);
+    if (result != ALP_OK) {
+        alp_image_destroy(job.image);
+        return result;
+    }
+    *image = job.image;
+    return ALP_OK;
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Rays by testing every triangle, in double precision: slow, plain, and the oracle of the fast way.
+// Based on: Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. JGT 2(1), 1997.
+#include "trace/trace.h"
+
+typedef struct vec3d {
+    double x, y, z;
+} vec3d;
+
+static vec3d load(const float *p)
+{
+    return (vec3d){(double)p[0], (double)p[1], (double)p[2]};
+}
+
+static vec3d subtract(vec3d a, vec3d b)
+{
+    return (vec3d){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static vec3d cross(vec3d a, vec3d b)
+{
+    return (vec3d){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static double dot(vec3d a, vec3d b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+typedef struct hit {
+    double distance, b1, b2;
+    bool from_behind;
+} hit;
+
+/// Solves origin + distance·direction = a + b1·(b − a) + b2·(c − a).
+static bool intersect(const alp_scene *scene, uint32_t triangle, vec3d origin, vec3d direction,
+                      hit *h)
+{
+    const uint32_t *v = scene->triangles[triangle];
+    vec3d a = load(scene->positions[v[0]]);
+    vec3d e1 = subtract(load(scene->positions[v[1]]), a);
+    vec3d e2 = subtract(load(scene->positions[v[2]]), a);
+    vec3d p = cross(direction, e2);
+    double determinant = dot(e1, p);
+    if (determinant == 0.0) {
+        return false; // parallel to the plane
+    }
+    vec3d s = subtract(origin, a);
+    vec3d q = cross(s, e1);
+    h->b1 = dot(s, p) / determinant;
+    h->b2 = dot(direction, q) / determinant;
+    h->distance = dot(e2, q) / determinant;
+    h->from_behind = determinant < 0.0; // the direction runs along the outer normal
+    return h->b1 >= 0.0 && h->b2 >= 0.0 && h->b1 + h->b2 <= 1.0;
+}
+
+static bool passes(const alp_scene *scene, uint32_t triangle, const hit *h,
+                   alpi_trace_filter filter)
+{
+    uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
+    bool double_sided = material != ALPI_NONE && scene->materials[material].double_sided;
+    return (filter.one_sided && h->from_behind && !double_sided) ||
+           alpi_surface_is_cut(scene, triangle, (float)h->b1, (float)h->b2);
+}
+
+void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,
+                              alpi_trace_filter filter, alpi_hits *hits)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((active >> i & 1u) == 0) {
+            continue;
+        }
+        vec3d origin = {(double)rays->origin_x[i], (double)rays->origin_y[i],
+                        (double)rays->origin_z[i]};
+        vec3d direction = {(double)rays->direction_x[i], (double)rays->direction_y[i],
+                           (double)rays->direction_z[i]};
+        double nearest = (double)rays->maximum[i];
+        hits->distance[i] = INFINITY;
+        hits->triangle[i] = ALPI_NONE;
+        hits->b1[i] = hits->b2[i] = 0.0f;
+        for (uint32_t t = 0; t < scene->triangle_count; t++) {
+            hit h;
+            if (scene->triangle_usable[t] && intersect(scene, t, origin, direction, &h) &&
+                h.distance >= (double)rays->minimum[i] && h.distance <= nearest &&
+                !passes(scene, t, &h, filter)) {
+                nearest = h.distance;
+                hits->distance[i] = (float)h.distance;
+                hits->triangle[i] = t;
+                hits->b1[i] = (float)h.b1;
+                hits->b2[i] = (float)h.b2;
+            }
+        }
+    }
+}

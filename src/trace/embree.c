@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// Rays through Embree 3: the only file of the library that knows it.
+// Based on: Wald, Woop, Benthin, Johnson, Ernst. Embree: A Kernel Framework for Efficient CPU Ray
+// Tracing. SIGGRAPH 2014.
+#include "trace/trace.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <embree3/rtcore.h>
+
+#include <stdio.h>
+#include <string.h>
+
+/// Triangles are in two geometries: those that always stop a ray, and those whose material may cut
+/// it, which alone pay for a filter call at every hit.
+typedef enum geometry_kind {
+    GEOMETRY_SOLID = 0,
+    GEOMETRY_CUT = 1,
+    GEOMETRY_COUNT = 2
+} geometry_kind;
+
+struct alpi_tracer {
+    const alp_scene *scene;
+    RTCDevice device;
+    RTCScene embree_scene;
+    uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
+    uint32_t count[GEOMETRY_COUNT];
+};
+
+/// Our data behind Embree's context, which the filters get.
+typedef struct trace_context {
+    struct RTCIntersectContext embree; // first: filters get its address
+    const alpi_tracer *tracer;
+} trace_context;
+
+// --- filters -------------------------------------------------------------------------------------
+
+// RTCRayN and RTCHitN are structures of arrays of N floats, in the order of the fields of RTCRay
+// and RTCHit; the accessors that Embree ships are C++ only.
+enum { RAY_DIRECTION_X = 4 };
+enum { HIT_NORMAL_X = 0, HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6 };
+
+static float lane_float(const void *fields, unsigned n, unsigned field, unsigned lane)
+{
+    float value;
+    memcpy(&value, (const char *)fields + sizeof value * ((size_t)field * n + lane), sizeof value);
+    return value;
+}
+
+static uint32_t lane_uint(const void *fields, unsigned n, unsigned field, unsigned lane)
+{
+    uint32_t value;
+    memcpy(&value, (const char *)fields + sizeof value * ((size_t)field * n + lane), sizeof value);
+    return value;
+}
+
+static uint32_t lane_triangle(const struct RTCFilterFunctionNArguments *a, unsigned lane)
+{
+    const trace_context *context = (const void *)a->context;
+    uint32_t geometry = lane_uint(a->hit, a->N, HIT_GEOMETRY, lane);
+    return context->tracer->triangles[geometry][lane_uint(a->hit, a->N, HIT_PRIMITIVE, lane)];
+}
+
+/// Lets rays through where alpha cuts the surface.
+static void cut_filter(const struct RTCFilterFunctionNArguments *a)
+{
+    const trace_context *context = (const void *)a->context;
+    for (unsigned i = 0; i < a->N; i++) {
+        if (a->valid[i] != 0 && alpi_surface_is_cut(context->tracer->scene, lane_triangle(a, i),
+                                                    lane_float(a->hit, a->N, HIT_U, i),
+                                                    lane_float(a->hit, a->N, HIT_V, i))) {
+            a->valid[i] = 0;
+        }
+    }
+}
+
+static bool is_double_sided(const alp_scene *scene, uint32_t triangle)
+{
+    uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
+    return material != ALPI_NONE && scene->materials[material].double_sided;
+}
+
+/// Lets rays through single-sided surfaces from behind. Embree's normal is (v1−v0)×(v2−v0), which
+/// points outside for a counter-clockwise triangle.
+static void one_sided_filter(const struct RTCFilterFunctionNArguments *a)
+{
+    const trace_context *context = (const void *)a->context;
+    for (unsigned i = 0; i < a->N; i++) {
+        if (a->valid[i] == 0) {
+            continue;
+        }
+        float along = 0.0f;
+        for (unsigned k = 0; k < 3; k++) {
+            along += lane_float(a->ray, a->N, RAY_DIRECTION_X + k, i) *
+                     lane_float(a->hit, a->N, HIT_NORMAL_X + k, i);
+        }
+        if (along > 0.0f && !is_double_sided(context->tracer->scene, lane_triangle(a, i))) {
+            a->valid[i] = 0;
+        }
+    }
+}
+
+// --- building ------------------------------------------------------------------------------------
+
+typedef struct build_progress {
+    alp_progress_fn *callback;
+    void *user;
+    double reported;
+    bool cancelled;
+} build_progress;
+
+static bool report_build(void *user, double done)
+{
+    build_progress *p = user;
+    double now = alpi_seconds();
+    if (p->callback != NULL && now - p->reported > 0.05) {
+        p->reported = now;
+        alp_progress progress = {"build", (uint64_t)(done * 100.0), 100, 0.0, -1.0};
+        p->cancelled = !p->callback(p->user, &progress);
+    }
+    return !p->cancelled;
+}
+
+static void destroy_tracer(alp_context *context, void *data)
+{
+    alpi_tracer *tracer = data;
+    if (tracer->embree_scene != NULL) {
+        rtcReleaseScene(tracer->embree_scene);
+    }
+    if (tracer->device != NULL) {
+        rtcReleaseDevice(tracer->device);
+    }
+    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+        alpi_release(context, tracer->triangles[g]);
+    }
+    alpi_release(context, tracer);
+}
+
+static alp_result fail_embree(const alp_scene *scene, RTCDevice device, const char *what)
+{
+    enum RTCError error = rtcGetDeviceError(device);
+    alp_result code = error == RTC_ERROR_OUT_OF_MEMORY ? ALP_ERROR_OUT_OF_MEMORY
+                      : error == RTC_ERROR_CANCELLED   ? ALP_ERROR_CANCELLED
+                                                       : ALP_ERROR_UNSUPPORTED;
+    return alpi_fail(scene->context, code, "%s: %s failed in the ray tracer (Embree error %d)",
+                     scene->name, what, (int)error);
+}
+
+static alp_result sort_triangles(alpi_tracer *tracer)
+{
+    const alp_scene *scene = tracer->scene;
+    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+        ALPI_TRY_NEW(scene->context, tracer->triangles[g], scene->usable_count);
+    }
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (scene->triangle_usable[t]) {
+            bool cut = alpi_surface_has_cuts(scene, scene->triangle_surface[t]);
+            geometry_kind g = cut ? GEOMETRY_CUT : GEOMETRY_SOLID;
+            tracer->triangles[g][tracer->count[g]++] = t;
+        }
+    }
+    return ALP_OK;
+}
+
+/// Vertices are copied: Embree reads 16 bytes at each of 12, past the end of an array of ours.
+static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
+{
+    const alp_scene *scene = tracer->scene;
+    uint32_t count = tracer->count[kind];
+    if (count == 0) {
+        return ALP_OK;
+    }
+    RTCGeometry geometry = rtcNewGeometry(tracer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *vertices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), scene->vertex_count);
+    uint32_t(*indices)[3] = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                    RTC_FORMAT_UINT3, sizeof *indices, count);
+    if (geometry == NULL || vertices == NULL || indices == NULL) {
+        if (geometry != NULL) {
+            rtcReleaseGeometry(geometry);
+        }
+        return fail_embree(scene, tracer->device, "making a geometry");
+    }
+    memcpy(vertices, scene->positions, sizeof *scene->positions * scene->vertex_count);
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(indices[i], scene->triangles[tracer->triangles[kind][i]], sizeof indices[i]);
+    }
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    if (kind == GEOMETRY_CUT) {
+        rtcSetGeometryIntersectFilterFunction(geometry, cut_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, cut_filter);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tracer->embree_scene, geometry, kind);
+    rtcReleaseGeometry(geometry);
+    return ALP_OK;
+}
+
+static alp_result build(alpi_tracer *tracer, build_progress *progress)
+{
+    const alp_scene *scene = tracer->scene;
+    char config[96];
+    const char *isa = alpi_context_options(scene->context)->max_isa;
+    // One thread: our own pool drives the rays, and a build on one thread is the same every time.
+    snprintf(config, sizeof config, "threads=1,set_affinity=0%s%s", isa ? ",max_isa=" : "",
+             isa ? isa : "");
+    tracer->device = rtcNewDevice(config);
+    if (tracer->device == NULL) {
+        return fail_embree(scene, NULL, "starting");
+    }
+    tracer->embree_scene = rtcNewScene(tracer->device);
+    if (tracer->embree_scene == NULL) {
+        return fail_embree(scene, tracer->device, "making a scene");
+    }
+    // Robust: no ray slips through the edge between two triangles.
+    rtcSetSceneFlags(tracer->embree_scene,
+                     RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(tracer->embree_scene, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneProgressMonitorFunction(tracer->embree_scene, report_build, progress);
+    ALP_TRY(sort_triangles(tracer));
+    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+        ALP_TRY(attach_geometry(tracer, (geometry_kind)g));
+    }
+    rtcCommitScene(tracer->embree_scene);
+    if (progress->cancelled) {
+        return alpi_fail(scene->context, ALP_ERROR_CANCELLED, "cancelled");
+    }
+    if (rtcGetDeviceError(tracer->device) != RTC_ERROR_NONE) {
+        return fail_embree(scene, tracer->device, "building");
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
+                                 void *progress_user, alpi_tracer **tracer, double *seconds)
+{
+    alpi_attachment *attachment = &scene->attachments[ALPI_ATTACHMENT_TRACER];
+    double started = alpi_seconds();
+    if (attachment->data == NULL) {
+        alpi_tracer *made = ALPI_NEW(scene->context, alpi_tracer, 1);
+        if (made == NULL) {
+            return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        made->scene = scene;
+        build_progress report = {progress, progress_user, started, false};
+        alp_result result = build(made, &report);
+        if (result != ALP_OK) {
+            destroy_tracer(scene->context, made);
+            return result;
+        }
+        rtcSetSceneProgressMonitorFunction(made->embree_scene, NULL, NULL);
+        *attachment = (alpi_attachment){made, destroy_tracer};
+    }
+    *tracer = attachment->data;
+    if (seconds != NULL) {
+        *seconds = alpi_seconds() - started;
+    }
+    return ALP_OK;
+}
+
+// --- tracing -------------------------------------------------------------------------------------
+
+static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    trace_context context = {.tracer = tracer};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = filter.one_sided ? one_sided_filter : NULL;
+    return context;
+}
+
+static void fill_rays(const alpi_rays *rays, uint32_t active, struct RTCRay8 *ray, int *valid)
+{
+    memcpy(ray->org_x, rays->origin_x, sizeof ray->org_x);
+    memcpy(ray->org_y, rays->origin_y, sizeof ray->org_y);
+    memcpy(ray->org_z, rays->origin_z, sizeof ray->org_z);
+    memcpy(ray->dir_x, rays->direction_x, sizeof ray->dir_x);
+    memcpy(ray->dir_y, rays->direction_y, sizeof ray->dir_y);
+    memcpy(ray->dir_z, rays->direction_z, sizeof ray->dir_z);
+    memcpy(ray->tnear, rays->minimum, sizeof ray->tnear);
+    memcpy(ray->tfar, rays->maximum, sizeof ray->tfar);
+    memset(ray->time, 0, sizeof ray->time);
+    memset(ray->id, 0, sizeof ray->id);
+    memset(ray->flags, 0, sizeof ray->flags);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        ray->mask[i] = UINT32_MAX; // this build of Embree has ray masks on
+        valid[i] = (active >> i & 1u) != 0 ? -1 : 0;
+    }
+}
+
+uint32_t alpi_trace_occluded(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                             alpi_trace_filter filter)
+{
+    struct RTCRay8 ray;
+    _Alignas(32) int valid[ALPI_PACKET];
+    fill_rays(rays, active, &ray, valid);
+    trace_context context = start_context(tracer, filter);
+    rtcOccluded8(valid, tracer->embree_scene, &context.embree, &ray);
+    uint32_t occluded = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        occluded |= (ray.tfar[i] < 0.0f ? 1u : 0u) << i; // −∞ marks a hit
+    }
+    return occluded & active;
+}
+
+void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                        alpi_trace_filter filter, alpi_hits *hits)
+{
+    struct RTCRayHit8 ray_hit;
+    _Alignas(32) int valid[ALPI_PACKET];
+    fill_rays(rays, active, &ray_hit.ray, valid);
+    memset(&ray_hit.hit, 0xff, sizeof ray_hit.hit); // RTC_INVALID_GEOMETRY_ID everywhere
+    trace_context context = start_context(tracer, filter);
+    rtcIntersect8(valid, tracer->embree_scene, &context.embree, &ray_hit);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if (valid[i] == 0) {
+            continue;
+        }
+        uint32_t geometry = ray_hit.hit.geomID[i];
+        bool hit = geometry != RTC_INVALID_GEOMETRY_ID;
+        hits->distance[i] = hit ? ray_hit.ray.tfar[i] : INFINITY;
+        hits->triangle[i] = hit ? tracer->triangles[geometry][ray_hit.hit.primID[i]] : ALPI_NONE;
+        hits->b1[i] = hit ? ray_hit.hit.u[i] : 0.0f;
+        hits->b2[i] = hit ? ray_hit.hit.v[i] : 0.0f;
+    }
+}

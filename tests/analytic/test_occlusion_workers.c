@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The number of workers changes no bit; another seed changes many.
+#include "test_scenes.h"
+
+enum { POINTS = 3000 };
+
+static void gather(uint32_t workers, uint64_t seed, uint32_t samples, float *values)
+{
+    static float positions[POINTS][3], normals[POINTS][3];
+    alp_context *context = test_context(workers);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){-2, 0, 2}, (double[]){4, 0, 0}, (double[]){0, 0, -4});
+    test_mesh_sphere(mesh, (double[]){0, 0.5, 0}, 0.5, 32, 16, 1.0, 1);
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    for (int i = 0; i < POINTS; i++) {
+        positions[i][0] = -1.5f + 3.0f * (float)(i % 60) / 60.0f;
+        positions[i][1] = 0.0f;
+        positions[i][2] = -1.5f + 3.0f * (float)(i / 60) / 50.0f;
+        normals[i][0] = normals[i][2] = 0.0f;
+        normals[i][1] = 1.0f;
+    }
+    alp_occlusion_options options = alp_occlusion_options_default();
+    options.samples = samples;
+    options.seed = seed;
+    options.distance = 1.0f;
+    ASSERT_OK(context, alp_occlusion_at_points(scene, POINTS, positions[0], NULL, normals[0],
+                                               &options, values));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void any_number_of_workers_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static float one[POINTS], other[POINTS];
+    const uint32_t workers[] = {2, 7, 32};
+    gather(1, 5, 64, one);
+    for (size_t i = 0; i < sizeof workers / sizeof *workers; i++) {
+        memset(other, 0, sizeof other);
+        gather(workers[i], 5, 64, other);
+        assert_memory_equal(one, other, sizeof one);
+    }
+}
+
+static void another_seed_gives_other_bits(void **state)
+{
+    (void)state;
+    static float one[POINTS], other[POINTS];
+    gather(2, 5, 64, one);
+    gather(2, 6, 64, other);
+    int different = 0;
+    for (int i = 0; i < POINTS; i++) {
+        different += one[i] != other[i];
+    }
+    assert_true(different > POINTS / 10);
+}
+
+static void rounds_of_samples_add_up(void **state)
+{
+    (void)state;
+    // More samples than one round holds: a prefix of the sequence of a longer run is not lost.
+    alp_context *context = test_context(2);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){0, 1, 0}, (double[]){1, 0, 0}, (double[]){0, 0, 1});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    alp_occlusion_options options = alp_occlusion_options_default();
+    options.distance = 1e30f;
+    options.falloff = ALP_FALLOFF_NONE;
+    options.samples = (1u << 17) + 12345;
+    double value = test_occlusion(scene, (double[]){0, 0, 0}, (double[]){0, 1, 0}, &options);
+    ASSERT_NEAR(value, 1.0 - 0.138531606, 1e-4);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
+        cmocka_unit_test(another_seed_gives_other_bits),
+        cmocka_unit_test(rounds_of_samples_add_up),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

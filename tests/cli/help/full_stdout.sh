@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: MIT
+# a full disk behind standard output is a failure
+alpenglow --help >/dev/full

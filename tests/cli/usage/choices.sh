@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# words that are none of the choices, and choices of the contract that are not built yet
+. "$(dirname "$0")/helpers.bash"
+for option in --maps --atlas --ao-falloff --ao-distribution --existing-ao --progress; do
+    try bake scene.glb -o out.glb $option wrong
+done
+for map in bent light direction sh probes ao,bent ao, ,ao AO; do
+    try bake scene.glb -o out.glb --maps $map
+done
+for mode in blend vertex; do
+    try bake scene.glb -o out.glb --atlas $mode
+done
+for method in reference radiosity lightmap probes ambience lpv hemisphere cube raytrace; do
+    try render scene.glb -o out.png --with $method
+done
+try bake scene.glb -o out.glb --ao-distance inf --ao-falloff linear
+try bake scene.glb -o out.glb --ao-distance=inf --ao-falloff=exp

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# every option and command of the contract that is not built yet is refused by name
+. "$(dirname "$0")/helpers.bash"
+for option in --only --occluders --ao-bleed --ao-self --bounces --direct --gather --samples --units \
+    --layers --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as --quality --error \
+    --time-limit --memory-limit --adaptive --denoise --stitch --checkpoint --resume --report; do
+    try bake scene.glb -o out.glb $option
+    try bake scene.glb -o out.glb $option=1
+done
+for option in --bounces --exposure --tone --white-balance; do
+    try render scene.glb -o out.png --with ao $option 1
+done
+try info scene.glb --pictures folder
+for command in probes lpv ambience sh view bench; do
+    try $command
+    try $command scene.glb --help
+done
+try bake scene.glb -o out.dae
+try bake scene.glb -o out.obj

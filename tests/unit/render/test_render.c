@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Pictures with known content: where things appear, what a pixel holds, same bits for any workers.
+#include "test_scenes.h"
+
+#include "scene/scene.h"
+
+#include <math.h>
+
+static alp_scene *make_scene(alp_context *context)
+{
+    // A red panel on the left of the view axis, at distance 4, one metre wide; floor below.
+    static const float red[4][3] = {{-1, 0, -4}, {0, 0, -4}, {0, 1, -4}, {-1, 1, -4}};
+    static const float floor[4][3] = {{-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}};
+    static const uint32_t quad[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const alp_mesh meshes[] = {{.name = "red",
+                                .vertex_count = 4,
+                                .positions = red[0],
+                                .triangle_count = 2,
+                                .indices = quad[0],
+                                .base_color = {0.8f, 0.1f, 0.2f}},
+                               {.name = "floor",
+                                .vertex_count = 4,
+                                .positions = floor[0],
+                                .triangle_count = 2,
+                                .indices = quad[0],
+                                .base_color = {0.5f, 0.5f, 0.5f}}};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    return scene;
+}
+
+static alp_render_options look_ahead(void)
+{
+    alp_render_options options = alp_render_options_default();
+    options.width = 80;
+    options.height = 40;
+    options.method = ALP_RENDER_CONSTANT;
+    // At distance 4 the picture is 4 m high and 8 m wide: 10 pixels a metre.
+    options.camera = (alp_camera){.position = {0, 0, 0},
+                                  .target = {0, 0, -1},
+                                  .up = {0, 1, 0},
+                                  .vertical_fov = 2.0f * atanf(0.5f)};
+    return options;
+}
+
+static void things_appear_where_the_camera_says(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = make_scene(context);
+    alp_render_options options = look_ahead();
+    alp_image *image = NULL;
+    ASSERT_OK(context, alp_render(scene, &options, &image));
+    const float(*pixels)[4] = (const float(*)[4])alp_image_floats(image);
+    for (int y = 0; y < 40; y++) {
+        for (int x = 0; x < 80; x++) {
+            const float *p = pixels[80 * y + x];
+            bool red = x >= 30 && x < 40 && y >= 10 && y < 20;
+            if (red) { // left of the axis and above it: right-handed, rows from the top
+                ASSERT_NEAR(p[0], 0.8, 1e-6);
+                ASSERT_NEAR(p[1], 0.1, 1e-6);
+                ASSERT_NEAR(p[3], 1.0, 0.0);
+            } else if (y >= 30) { // the floor: y = −1 at the picture's lower edge is 2 m ahead
+                ASSERT_NEAR(p[0], 0.5, 1e-6);
+                ASSERT_NEAR(p[3], 1.0, 0.0);
+            } else if (y < 20) {
+                ASSERT_NEAR(p[3], 0.0, 0.0);
+            }
+        }
+    }
+    alp_image_destroy(image);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void occlusion_by_rays_meets_the_closed_form(void **state)
+{
+    (void)state;
+    // Seen from above, the floor beside a long wall of height 2 at distance 1: 1 − .276393202.
+    alp_context *context = test_context(2);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){-50, 0, 900}, (double[]){100, 0, 0}, (double[]){0, 0, -1800});
+    test_mesh_quad(mesh, (double[]){1, 0, -900}, (double[]){0, 0, 1800}, (double[]){0, 2, 0});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    alp_render_options options = alp_render_options_default();
+    options.width = options.height = 1;
+    options.samples = 64;
+    options.occlusion.samples = 1u << 16;
+    options.occlusion.distance = INFINITY;
+    options.camera = (alp_camera){
+        .position = {0, 5, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov = 0.002f};
+    alp_image *image = NULL;
+    ASSERT_OK(context, alp_render(scene, &options, &image));
+    ASSERT_NEAR(alp_image_floats(image)[0], 1.0 - 0.276393202, 1e-3);
+    alp_image_destroy(image);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void workers_change_no_bit(void **state)
+{
+    (void)state;
+    static float first[40 * 80 * 4];
+    const uint32_t workers[] = {1, 2, 7};
+    for (int i = 0; i < 3; i++) {
+        alp_context *context = test_context(workers[i]);
+        alp_scene *scene = make_scene(context);
+        alp_render_options options = look_ahead();
+        options.method = ALP_RENDER_AO;
+        options.occlusion.samples = 32;
+        alp_image *image = NULL;
+        ASSERT_OK(context, alp_render(scene, &options, &image));
+        if (i == 0) {
+            memcpy(first, alp_image_floats(image), sizeof first);
+        }
+        assert_memory_equal(first, alp_image_floats(image), sizeof first);
+        alp_image_destroy(image);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+static void bad_cameras_are_refused(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_scene(context);
+    alp_image *image = NULL;
+    alp_render_options options = look_ahead();
+    options.camera.target[2] = 0.0f; // the position itself
+    assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
+    options = look_ahead();
+    options.camera.up[1] = 0.0f;
+    assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
+    options = look_ahead();
+    options.camera.vertical_fov = 3.2f;
+    assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
+    options = look_ahead();
+    options.width = 0;
+    assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
+    options = look_ahead();
+    options.samples = 5000;
+    assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
+    assert_null(image);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void the_automatic_camera_sees_the_scene(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    const char *const names[] = {"builtin:sphere-plane", "builtin:cornell", "builtin:furnace"};
+    for (int i = 0; i < 3; i++) {
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alp_scene_load(context, names[i], &scene));
+        alp_render_options options = alp_render_options_default();
+        options.width = options.height = 32;
+        options.samples = 8;
+        options.method = ALP_RENDER_CONSTANT;
+        options.camera_index = 1000;
+        alp_image *image = NULL;
+        ASSERT_OK(context, alp_render(scene, &options, &image));
+        double covered = 0.0;
+        for (int p = 0; p < 32 * 32; p++) {
+            covered += (double)alp_image_floats(image)[4 * p + 3];
+        }
+        assert_true(covered > 0.15 * 32 * 32);
+        alp_image_destroy(image);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(things_appear_where_the_camera_says),
+        cmocka_unit_test(occlusion_by_rays_meets_the_closed_form),
+        cmocka_unit_test(workers_change_no_bit),
+        cmocka_unit_test(bad_cameras_are_refused),
+        cmocka_unit_test(the_automatic_camera_sees_the_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// The tracer against brute force: nearest hit, occlusion, alpha cuts, one-sidedness, limits.
+#include "test_scenes.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "trace/trace.h"
+
+#include <math.h>
+
+enum { PACKETS = 400 };
+
+/// A soup of triangles of all sizes, half of them with a material of its own.
+static alp_scene *make_soup(alp_context *context)
+{
+    test_mesh *mesh = test_mesh_start();
+    for (uint32_t i = 0; i < 600; i++) {
+        float center[3], edge[2][3];
+        float size = 0.02f + alpi_unit_float(alpi_hash32(7 * i)) * 0.4f;
+        for (uint32_t k = 0; k < 3; k++) {
+            center[k] = alpi_unit_float(alpi_hash32(100 * i + k)) * 2.0f - 1.0f;
+            edge[0][k] = size * (alpi_unit_float(alpi_hash32(100 * i + k + 10)) - 0.5f);
+            edge[1][k] = size * (alpi_unit_float(alpi_hash32(100 * i + k + 20)) - 0.5f);
+        }
+        uint32_t v[3];
+        for (int c = 0; c < 3; c++) {
+            double p[3];
+            for (int k = 0; k < 3; k++) {
+                p[k] = (double)center[k] + (c > 0 ? (double)edge[c - 1][k] : 0.0);
+            }
+            v[c] = test_mesh_vertex(mesh, p[0], p[1], p[2]);
+        }
+        test_mesh_triangle(mesh, v[0], v[1], v[2]);
+    }
+    return test_mesh_scene(context, mesh, 0);
+}
+
+static void fill_rays(alpi_rays *rays, uint32_t packet)
+{
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        uint32_t key = 1000 * packet + 10 * i;
+        vec3 d = {alpi_unit_float(alpi_hash32(key)) - 0.5f,
+                  alpi_unit_float(alpi_hash32(key + 1)) - 0.5f,
+                  alpi_unit_float(alpi_hash32(key + 2)) - 0.5f};
+        d = vec3_normalize_or(d, (vec3){0, 0, 1});
+        rays->origin_x[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 3)) - 1.0f;
+        rays->origin_y[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 4)) - 1.0f;
+        rays->origin_z[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 5)) - 1.0f;
+        rays->direction_x[i] = d.x;
+        rays->direction_y[i] = d.y;
+        rays->direction_z[i] = d.z;
+        rays->minimum[i] = 0.0f;
+        rays->maximum[i] = i % 3 == 0 ? 0.7f : INFINITY;
+    }
+}
+
+static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, int *hit_count)
+{
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(scene->context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    *hit_count = 0;
+    for (uint32_t packet = 0; packet < PACKETS; packet++) {
+        alpi_rays rays;
+        alpi_hits fast, slow;
+        fill_rays(&rays, packet);
+        uint32_t active = packet % 4 == 0 ? 0x5bu : 0xffu; // lanes left out too
+        memset(&fast, 0x55, sizeof fast);
+        memset(&slow, 0x55, sizeof slow);
+        alpi_trace_nearest(tracer, &rays, active, filter, &fast);
+        alpi_brute_force_nearest(scene, &rays, active, filter, &slow);
+        uint32_t occluded = alpi_trace_occluded(tracer, &rays, active, filter);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            assert_int_equal(fast.triangle[i], slow.triangle[i]);
+            if ((active >> i & 1u) == 0) {
+                assert_int_equal(occluded >> i & 1u, 0);
+                continue;
+            }
+            bool hit = slow.triangle[i] != ALPI_NONE;
+            *hit_count += hit;
+            assert_int_equal(occluded >> i & 1u, hit);
+            if (hit) {
+                ASSERT_NEAR(fast.distance[i], slow.distance[i], 2e-5);
+                ASSERT_NEAR(fast.b1[i], slow.b1[i], 2e-3);
+                ASSERT_NEAR(fast.b2[i], slow.b2[i], 2e-3);
+            } else {
+                assert_true(isinf(fast.distance[i]));
+            }
+        }
+    }
+}
+
+static void random_rays_hit_what_brute_force_hits(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_soup(context);
+    int both = 0, front = 0;
+    agrees_with_brute_force(scene, (alpi_trace_filter){0}, &both);
+    agrees_with_brute_force(scene, (alpi_trace_filter){.one_sided = true}, &front);
+    print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
+    assert_true(both > PACKETS / 2 && front > PACKETS / 4 && front < both);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// Gives every second triangle a surface whose material is cut by a checkered alpha texture.
+static void cut_half(alp_scene *scene)
+{
+    alp_context *context = scene->context;
+    alpi_material *materials = ALPI_NEW(context, alpi_material, 2);
+    alpi_surface *surfaces = ALPI_NEW(context, alpi_surface, 2);
+    materials[0] = materials[1] = alpi_material_default();
+    materials[0].name = alpi_copy_string(context, "solid");
+    materials[1].name = alpi_copy_string(context, "cut");
+    materials[1].alpha_mode = ALPI_ALPHA_MASK;
+    materials[1].base_color_texture.image = 0;
+    for (uint32_t s = 0; s < 2; s++) {
+        surfaces[s] = scene->surfaces[0];
+        surfaces[s].name = alpi_copy_string(context, s ? "cut" : "solid");
+        surfaces[s].material = s;
+    }
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        scene->triangle_surface[t] = t % 2;
+        const float corner[3][2] = {{0, 0}, {4, 0}, {0, 4}};
+        for (int k = 0; k < 3; k++) {
+            memcpy(scene->uvs[0][scene->triangles[t][k]], corner[k], sizeof corner[k]);
+        }
+    }
+    alpi_release(context, scene->surfaces[0].name);
+    alpi_release(context, scene->surfaces);
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        alpi_release(context, scene->materials[m].name);
+    }
+    alpi_release(context, scene->materials);
+    scene->surfaces = surfaces;
+    scene->surface_count = 2;
+    scene->materials = materials;
+    scene->material_count = 2;
+    scene->images = ALPI_NEW(context, alp_image *, 1);
+    scene->image_count = 1;
+    ASSERT_OK(context, alp_image_create(context, (alp_image_info){2, 2, 4, ALP_COMPONENT_U8},
+                                        &scene->images[0]));
+    uint8_t *pixels = alp_image_bytes(scene->images[0]);
+    memset(pixels, 255, 16);
+    pixels[3] = pixels[15] = 0;
+}
+
+static void alpha_cuts_let_rays_through(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_soup(context);
+    int solid = 0, cut = 0;
+    if (scene->uvs[0] == NULL) {
+        scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof *scene->uvs[0]);
+    }
+    agrees_with_brute_force(scene, (alpi_trace_filter){0}, &solid);
+    alp_scene_destroy(scene);
+    scene = make_soup(context);
+    if (scene->uvs[0] == NULL) {
+        scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof *scene->uvs[0]);
+    }
+    cut_half(scene);
+    agrees_with_brute_force(scene, (alpi_trace_filter){0}, &cut);
+    print_message("%d hits, %d with cuts\n", solid, cut);
+    assert_true(cut < solid - PACKETS / 10);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void an_empty_scene_is_never_hit(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    uint32_t v = test_mesh_vertex(mesh, 0, 0, 0);
+    test_mesh_triangle(mesh, v, v, v);
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    int hits = 0;
+    agrees_with_brute_force(scene, (alpi_trace_filter){0}, &hits);
+    assert_int_equal(hits, 0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static bool refuse(void *user, const alp_progress *progress)
+{
+    (void)user;
+    (void)progress;
+    return false;
+}
+
+static void building_can_be_cancelled(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 500, 390, 1.0, 1); // 0.1 s to build
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alpi_tracer *tracer = NULL;
+    alp_result result = alpi_tracer_for_scene(scene, refuse, NULL, &tracer, NULL);
+    // A machine fast enough to finish before the first report is no fault.
+    assert_true(result == ALP_ERROR_CANCELLED || result == ALP_OK);
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_rays_hit_what_brute_force_hits),
+        cmocka_unit_test(alpha_cuts_let_rays_through),
+        cmocka_unit_test(an_empty_scene_is_never_hit),
+        cmocka_unit_test(building_can_be_cancelled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
