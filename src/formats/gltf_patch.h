@@ -51,9 +51,9 @@ typedef struct alpi_gltf_plan {
     uint32_t surface;
     size_t user; // node, or mesh with kept coordinates
     size_t mesh, primitive;
-    size_t material;   // in the document, ALPI_GLTF_NONE = none
-    uint32_t uv_set;   // n of the TEXCOORD_n that the map is read with
-    bool in_a_copy;    // the mesh is copied for this node, because others use it too
+    size_t material; // in the document, ALPI_GLTF_NONE = none
+    uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
+    bool in_a_copy;  // the mesh is copied for this node, because others use it too
     size_t piece_first, piece_count;
 } alpi_gltf_plan;
 
@@ -87,6 +87,7 @@ typedef struct alpi_gltf_patcher {
     // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
     size_t *page_textures;  // [page_count]
     char *const *page_uris; // [page_count], or NULL: embed
+    bool *image_embedded;   // [images of the document] moved into the new data
 } alpi_gltf_patcher;
 
 alp_result alpi_patcher_create(const alp_scene *scene, const alpi_mesh_patch *patch,
@@ -135,8 +136,8 @@ json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, siz
 
 typedef struct alpi_gltf_split_input {
     uint32_t vertex_count, triangle_count;
-    const uint32_t (*indices)[3]; // of the primitive, in file order
-    const float (*corner_uvs)[3][2];
+    uint32_t (*indices)[3]; // of the primitive, in file order
+    float (*corner_uvs)[3][2];
     const bool *usable; // [triangle_count] triangles without area part no vertices
 } alpi_gltf_split_input;
 
@@ -174,10 +175,10 @@ void alpi_gltf_files_destroy(alpi_gltf_files *files);
 
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {
-    char *bin, *data;    // paths: the BIN chunk of a .glb, what the bake adds
-    char **pages;        // [page_count] paths
+    char *bin, *data; // paths: what was the BIN chunk, what the bake adds
+    char **pages;     // [page_count] paths
     char *bin_uri, *data_uri;
-    char **page_uris;    // [page_count]
+    char **page_uris; // [page_count]
     uint32_t page_count;
 } alpi_gltf_names;
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,

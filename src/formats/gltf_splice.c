@@ -98,8 +98,7 @@ void alpi_bytes_align(alpi_bytes *bytes, char filler)
 
 alpi_edits alpi_edits_create(alp_context *context, const char *text)
 {
-    return (alpi_edits){
-        .context = context, .text = text, .inserted = alpi_bytes_create(context)};
+    return (alpi_edits){.context = context, .text = text, .inserted = alpi_bytes_create(context)};
 }
 
 void alpi_edits_destroy(alpi_edits *edits)
@@ -113,18 +112,16 @@ void alpi_edits_destroy(alpi_edits *edits)
 static void note_edit(alpi_edits *edits, alpi_json_span span, size_t text_begin)
 {
     void *items = edits->items;
-    if (edits->inserted.failed ||
-        alpi_grow(edits->context, &items, &edits->capacity, edits->count + 1, sizeof(alpi_edit)) !=
-            ALP_OK) {
+    if (edits->inserted.failed || alpi_grow(edits->context, &items, &edits->capacity,
+                                            edits->count + 1, sizeof(alpi_edit)) != ALP_OK) {
         edits->inserted.failed = true;
         return;
     }
     edits->items = items;
-    edits->items[edits->count] =
-        (alpi_edit){.span = span,
-                    .text_begin = text_begin,
-                    .text_end = edits->inserted.size,
-                    .order = edits->count};
+    edits->items[edits->count] = (alpi_edit){.span = span,
+                                             .text_begin = text_begin,
+                                             .text_end = edits->inserted.size,
+                                             .order = edits->count};
     edits->count++;
 }
 
