@@ -28,7 +28,7 @@ static void print_scene(const char *path, const alp_scene_info *i)
            (double)high[1] - (double)low[1], (double)high[2] - (double)low[2]);
     printf("area       %.6g m2\n", i->area);
     if (i->area > 0.0) {
-        printf("estimate   --size 1024 gives about %.2g texels per metre\n", estimate_density(i));
+        printf("estimate   --size 1024 gives about %.4g texels per metre\n", estimate_density(i));
     }
 }
 

@@ -67,6 +67,12 @@ static int dispatch(int count, char **words)
     if (is_help(words[0])) {
         return help_print();
     }
+    if (strcmp(words[0], "help") == 0) {
+        command_id id = count > 1 ? find_command(words[1]) : COMMAND_COUNT;
+        return count == 1            ? help_print()
+               : id == COMMAND_COUNT ? EXIT_USAGE
+                                     : help_print_command(id);
+    }
     if (strcmp(words[0], "--version") == 0) {
         printf("alpenglow %s\n", alp_version());
         return EXIT_DONE;

@@ -37,12 +37,9 @@ static int fail_path(const char *path, const char *format, ...)
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    if (slash == NULL) {
-        return strcpy(allocate_or_exit(NULL, 2), ".");
-    }
-    size_t length = slash == path ? 1 : (size_t)(slash - path);
+    size_t length = slash == NULL || slash == path ? 1 : (size_t)(slash - path);
     char *folder = allocate_or_exit(NULL, length + 1);
-    memcpy(folder, path, length);
+    memcpy(folder, slash == NULL ? "." : path, length);
     folder[length] = '\0';
     return folder;
 }
@@ -57,14 +54,16 @@ int output_check(const char *path, bool overwrite)
         if (!overwrite) {
             return fail_path(path, "exists already; -f overwrites it");
         }
+        if (!S_ISREG(about.st_mode)) { // a rename would put a file in the place of a device
+            return fail_path(path, "is not an ordinary file");
+        }
     }
     char *folder = folder_of(path);
     int code = EXIT_DONE;
-    if (stat(folder, &about) != 0) {
-        code = fail_path(path, "cannot be written: its folder: %s", strerror(errno));
-    } else if (!S_ISDIR(about.st_mode)) {
+    bool there = stat(folder, &about) == 0;
+    if (there && !S_ISDIR(about.st_mode)) {
         code = fail_path(path, "cannot be written: its folder is a file");
-    } else if (access(folder, W_OK | X_OK) != 0) {
+    } else if (!there || access(folder, W_OK | X_OK) != 0) {
         code = fail_path(path, "cannot be written: its folder: %s", strerror(errno));
     }
     free(folder);

@@ -346,7 +346,7 @@ static alp_result fill_uvs(const plan *p, const part *from, const alpi_surface *
         uint32_t v = surface->first_vertex + i;
         for (uint32_t k = 0; k < 2; k++) {
             float value = alpi_gltf_values_float(&values, scene->vertex_source[v], k);
-            bad += !isfinite(value);
+            bad += isfinite(value) ? 0 : 1;
             scene->uvs[set][v][k] = isfinite(value) ? value : 0.0f;
         }
     }
