@@ -21,6 +21,9 @@ fi
 tools=${1:?usage: run.sh [--update] TOOLS [AREA/CASE ...]}
 shift
 export PATH="$tools:$PATH" LC_ALL=C
+for tool in alpenglow json_shape; do
+    command -v $tool >/dev/null || { echo "run.sh: no $tool in $tools" >&2; exit 2; }
+done
 
 matches_glob() { # actual, glob file
     local actual pattern number=0
