@@ -218,10 +218,13 @@ static alp_result check_extensions(const alpi_gltf_document *document)
                                   i);
         }
         if (!extension_is_known(name)) {
+            char shown[100];
+            snprintf(shown, sizeof shown, "%s", name);
+            alpi_gltf_clean(shown);
             return alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: requires the extension %.100s, which this build does not read; "
+                             "%s: requires the extension %s, which this build does not read; "
                              "export without it",
-                             document->path, name);
+                             document->path, shown);
         }
     }
     return ALP_OK;

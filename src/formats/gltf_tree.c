@@ -15,6 +15,7 @@ alp_result alpi_gltf_fail(const alpi_gltf_document *document, const char *owner,
     va_start(arguments, format);
     vsnprintf(fault, sizeof fault, format, arguments);
     va_end(arguments);
+    alpi_gltf_clean(fault);
     return alpi_fail(document->context, ALP_ERROR_INVALID_DATA, "%s: %s: %s", document->path, owner,
                      fault);
 }
@@ -139,6 +140,15 @@ bool alpi_gltf_lists(const alpi_gltf_document *document, const char *list, const
         }
     }
     return false;
+}
+
+void alpi_gltf_clean(char *text)
+{
+    for (char *c = text; *c != '\0'; c++) {
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) {
+            *c = '?';
+        }
+    }
 }
 
 float alpi_gltf_float(double value)

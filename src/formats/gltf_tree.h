@@ -36,6 +36,9 @@ json_t *alpi_gltf_extension(json_t *object, const char *name);
 /// Whether `name` is in the root array of strings `list`.
 bool alpi_gltf_lists(const alpi_gltf_document *document, const char *list, const char *name);
 
+/// Replaces control characters by '?': names from a file reach terminals.
+void alpi_gltf_clean(char *text);
+
 /// Double to float without overflow: ±FLT_MAX at most.
 float alpi_gltf_float(double value);
 

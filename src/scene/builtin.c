@@ -1,8 +1,46 @@
 // SPDX-License-Identifier: MIT
-#include "scene/scene.h"
+// The table of built-in scenes.
+#include "scene/builtin.h"
+
+#include <string.h>
+
+typedef struct builtin {
+    const char *name; // with "builtin:", as users write it
+    void (*build)(alpi_builder *builder);
+} builtin;
+
+static const char PREFIX[] = "builtin:";
+static const builtin BUILTINS[] = {
+    {"builtin:cornell", alpi_builtin_cornell},
+    {"builtin:furnace", alpi_builtin_furnace},
+    {"builtin:bowl", alpi_builtin_bowl},
+    {"builtin:sphere-plane", alpi_builtin_sphere_plane},
+    {"builtin:torus-plane", alpi_builtin_torus_plane},
+    {"builtin:teapot-room", alpi_builtin_teapot_room},
+};
+enum { BUILTIN_COUNT = sizeof BUILTINS / sizeof *BUILTINS };
+
+static alp_result fail_unknown(alp_context *context, const char *name)
+{
+    char list[BUILTIN_COUNT * 40] = "";
+    for (int i = 0; i < BUILTIN_COUNT; i++) {
+        strcat(list, i == 0 ? "" : ", ");
+        strcat(list, BUILTINS[i].name + sizeof PREFIX - 1);
+    }
+    return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                     "builtin:%s: no such built-in scene; there are: %s", name, list);
+}
 
 alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene **scene)
 {
     *scene = NULL;
-    return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT, "builtin:%s: no such scene", name);
+    for (int i = 0; i < BUILTIN_COUNT; i++) {
+        if (strcmp(name, BUILTINS[i].name + sizeof PREFIX - 1) == 0) {
+            alpi_builder builder;
+            alpi_builder_start(&builder, context, BUILTINS[i].name);
+            BUILTINS[i].build(&builder);
+            return alpi_builder_finish(&builder, scene);
+        }
+    }
+    return fail_unknown(context, name);
 }

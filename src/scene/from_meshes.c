@@ -2,6 +2,7 @@
 // A scene from arrays that a program hands over: one surface and one material per mesh.
 #include "scene/scene.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 
 #include <stdio.h>
@@ -139,32 +140,28 @@ static alp_result append_mesh(alp_scene *scene, const alp_mesh *mesh, uint32_t i
     return ALP_OK;
 }
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+static uint64_t hash_floats(uint64_t hash, const float *values, size_t count)
 {
-    const uint8_t *b = bytes;
-    for (size_t i = 0; b != NULL && i < size; i++) {
-        hash = (hash ^ b[i]) * 0x100000001b3u;
-    }
-    return hash;
+    return values == NULL ? hash : alpi_hash_bytes(hash, values, count * sizeof *values);
 }
 
 static uint64_t hash_mesh(uint64_t hash, const alp_mesh *mesh)
 {
     const uint32_t header[] = {mesh->vertex_count, mesh->triangle_count, mesh->normals != NULL,
                                mesh->uvs != NULL, mesh->double_sided};
-    hash = hash_bytes(hash, header, sizeof header);
-    hash = hash_bytes(hash, mesh->base_color, sizeof mesh->base_color);
-    hash = hash_bytes(hash, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof(float));
-    hash = hash_bytes(hash, mesh->normals, (size_t)mesh->vertex_count * 3 * sizeof(float));
-    hash = hash_bytes(hash, mesh->uvs, (size_t)mesh->vertex_count * 2 * sizeof(float));
-    return hash_bytes(hash, mesh->indices, (size_t)mesh->triangle_count * 3 * sizeof(uint32_t));
+    size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
+    hash = alpi_hash_bytes(hash, header, sizeof header);
+    hash = hash_floats(hash, mesh->base_color, 3);
+    hash = hash_floats(hash, mesh->positions, 3 * vertices);
+    hash = hash_floats(hash, mesh->normals, 3 * vertices);
+    hash = hash_floats(hash, mesh->uvs, 2 * vertices);
+    return alpi_hash_bytes(hash, mesh->indices, 3 * triangles * sizeof *mesh->indices);
 }
 
 static alp_result fill(alp_scene *scene, const alp_mesh *meshes, uint32_t mesh_count)
 {
     ALP_TRY(allocate(scene, meshes, mesh_count));
-    scene->input_hash = 0xcbf29ce484222325u;
+    scene->input_hash = ALPI_HASH_START;
     for (uint32_t i = 0; i < mesh_count; i++) {
         ALP_TRY(append_mesh(scene, &meshes[i], i));
         scene->input_hash = hash_mesh(scene->input_hash, &meshes[i]);

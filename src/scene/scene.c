@@ -150,8 +150,8 @@ static void mark_triangles(alp_scene *scene)
     }
 }
 
-/// Unit normals everywhere: those that are zero or not finite are taken from a triangle at the
-/// vertex.
+/// Unit normals everywhere: those that are zero or not finite are taken from the first usable
+/// triangle at the vertex.
 static void repair_normals(alp_scene *scene)
 {
     for (uint32_t s = 0; s < scene->surface_count; s++) {
@@ -159,6 +159,9 @@ static void repair_normals(alp_scene *scene)
         uint32_t bad = 0;
         for (uint32_t i = 0; i < surface->triangle_count; i++) {
             uint32_t t = surface->first_triangle + i;
+            if (!scene->triangle_usable[t]) {
+                continue;
+            }
             vec3 c[3];
             alpi_triangle_corners(scene, t, c);
             vec3 face = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
@@ -166,7 +169,7 @@ static void repair_normals(alp_scene *scene)
                 float *normal = scene->normals[scene->triangles[t][k]];
                 vec3 unit = vec3_normalize_or(vec3_load(normal), (vec3){0.0f, 0.0f, 0.0f});
                 bool usable = unit.x != 0.0f || unit.y != 0.0f || unit.z != 0.0f;
-                bad += !usable && scene->triangle_usable[t];
+                bad += !usable;
                 vec3_store(normal, usable ? unit : face);
             }
         }
@@ -175,7 +178,7 @@ static void repair_normals(alp_scene *scene)
                       "%u normals are zero or not finite: the triangle's own is used", bad);
         }
     }
-    for (uint32_t v = 0; v < scene->vertex_count; v++) { // vertices of no triangle
+    for (uint32_t v = 0; v < scene->vertex_count; v++) { // vertices of no usable triangle
         vec3_store(scene->normals[v],
                    vec3_normalize_or(vec3_load(scene->normals[v]), (vec3){0.0f, 1.0f, 0.0f}));
     }
@@ -233,8 +236,8 @@ alp_result alpi_scene_finish(alp_scene *scene)
     if (scene->triangle_usable == NULL) {
         ALPI_TRY_NEW(scene->context, scene->triangle_usable, scene->triangle_count);
     }
-    repair_normals(scene);
     mark_triangles(scene);
+    repair_normals(scene); // asks which triangles are usable
     clamp_materials(scene);
     warn_of_precision(scene);
     return ALP_OK;

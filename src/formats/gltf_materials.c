@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Materials: what a bake of diffuse light needs — base colour, metalness, emission, alpha, existing
+// occlusion. KHR_materials_pbrSpecularGlossiness gives its diffuse colour.
+#include "formats/gltf_read.h"
+
+#include "base/memory.h"
+#include "formats/gltf_tree.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// A material's JSON and its name for messages.
+typedef struct source {
+    const alpi_gltf_reader *reader;
+    json_t *object;
+    const char *owner;
+} source;
+
+static alpi_wrap read_wrap(json_t *sampler, const char *member)
+{
+    enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 };
+    json_int_t value = json_integer_value(json_object_get(sampler, member));
+    return value == CLAMP_TO_EDGE     ? ALPI_WRAP_CLAMP
+           : value == MIRRORED_REPEAT ? ALPI_WRAP_MIRROR
+                                      : ALPI_WRAP_REPEAT;
+}
+
+static alp_result read_transform(const source *from, json_t *info, alpi_texture *texture,
+                                 size_t *uv_set)
+{
+    const alpi_gltf_document *document = from->reader->document;
+    json_t *transform = alpi_gltf_extension(info, "KHR_texture_transform");
+    double offset[2] = {0.0, 0.0}, scale[2] = {1.0, 1.0}, rotation = 0.0;
+    ALP_TRY(alpi_gltf_numbers(document, transform, "offset", from->owner, 2, offset));
+    ALP_TRY(alpi_gltf_numbers(document, transform, "scale", from->owner, 2, scale));
+    ALP_TRY(alpi_gltf_number(document, transform, "rotation", from->owner, &rotation));
+    for (int k = 0; k < 2; k++) {
+        texture->offset[k] = alpi_gltf_float(offset[k]);
+        texture->scale[k] = alpi_gltf_float(scale[k]);
+    }
+    texture->rotation = alpi_gltf_float(rotation);
+    return alpi_gltf_size_or(document, transform, "texCoord", from->owner, *uv_set, uv_set);
+}
+
+/// The textureInfo `member` of an object; no texture when absent or not readable (with a warning).
+static alp_result read_texture(const source *from, json_t *object, const char *member,
+                               alpi_texture *texture)
+{
+    const alpi_gltf_document *document = from->reader->document;
+    json_t *info = json_object_get(object, member);
+    *texture = alpi_texture_none();
+    if (info == NULL) {
+        return ALP_OK;
+    }
+    if (!json_is_object(info)) {
+        return alpi_gltf_fail(document, from->owner, "%s must be an object", member);
+    }
+    size_t index, image, sampler, uv_set;
+    ALP_TRY(alpi_gltf_needed_index(document, info, "index", "textures", from->owner, &index));
+    ALP_TRY(alpi_gltf_size_or(document, info, "texCoord", from->owner, 0, &uv_set));
+    ALP_TRY(read_transform(from, info, texture, &uv_set));
+    json_t *entry = alpi_gltf_item(document, "textures", index);
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "texture %zu", index);
+    ALP_TRY(alpi_gltf_index(document, entry, "source", "images", owner, &image));
+    ALP_TRY(alpi_gltf_index(document, entry, "sampler", "samplers", owner, &sampler));
+    if (image == ALPI_GLTF_NONE) {
+        alpi_warn(from->reader->context, "image", owner,
+                  "has no PNG or JPEG image; the factor of %s is used alone", from->owner);
+        return ALP_OK;
+    }
+    if (uv_set >= ALPI_UV_SET_LIMIT) {
+        alpi_warn(from->reader->context, "uv-set", from->owner,
+                  "%s uses TEXCOORD_%zu, only 0 to %d are read: the factor is used alone", member,
+                  uv_set, ALPI_UV_SET_LIMIT - 1);
+        return ALP_OK;
+    }
+    json_t *wrap = sampler == ALPI_GLTF_NONE ? NULL : alpi_gltf_item(document, "samplers", sampler);
+    texture->image = (uint32_t)image;
+    texture->uv_set = (uint32_t)uv_set;
+    texture->wrap_u = read_wrap(wrap, "wrapS");
+    texture->wrap_v = read_wrap(wrap, "wrapT");
+    return ALP_OK;
+}
+
+static alp_result read_color(const source *from, json_t *object, const char *member, float rgba[4])
+{
+    double values[4] = {1.0, 1.0, 1.0, 1.0};
+    ALP_TRY(alpi_gltf_numbers(from->reader->document, object, member, from->owner, 4, values));
+    for (int k = 0; k < 4; k++) {
+        rgba[k] = alpi_gltf_float(values[k]);
+    }
+    return ALP_OK;
+}
+
+static alp_result read_metallic_roughness(const source *from, alpi_material *material)
+{
+    json_t *object = json_object_get(from->object, "pbrMetallicRoughness");
+    double metallic = 1.0;
+    ALP_TRY(read_color(from, object, "baseColorFactor", material->base_color));
+    ALP_TRY(read_texture(from, object, "baseColorTexture", &material->base_color_texture));
+    ALP_TRY(
+        alpi_gltf_number(from->reader->document, object, "metallicFactor", from->owner, &metallic));
+    material->metallic = alpi_gltf_float(metallic);
+    return read_texture(from, object, "metallicRoughnessTexture", &material->metallic_texture);
+}
+
+static alp_result read_specular_glossiness(const source *from, json_t *object,
+                                           alpi_material *material)
+{
+    material->metallic = 0.0f;
+    material->metallic_texture = alpi_texture_none();
+    ALP_TRY(read_color(from, object, "diffuseFactor", material->base_color));
+    return read_texture(from, object, "diffuseTexture", &material->base_color_texture);
+}
+
+static alp_result read_emission(const source *from, alpi_material *material)
+{
+    const alpi_gltf_document *document = from->reader->document;
+    double factor[3] = {0.0, 0.0, 0.0}, strength = 1.0;
+    json_t *extension = alpi_gltf_extension(from->object, "KHR_materials_emissive_strength");
+    ALP_TRY(alpi_gltf_numbers(document, from->object, "emissiveFactor", from->owner, 3, factor));
+    ALP_TRY(alpi_gltf_number(document, extension, "emissiveStrength", from->owner, &strength));
+    for (int k = 0; k < 3; k++) {
+        material->emission[k] = alpi_gltf_float(factor[k] * strength);
+    }
+    return read_texture(from, from->object, "emissiveTexture", &material->emission_texture);
+}
+
+static alp_result read_alpha(const source *from, alpi_material *material)
+{
+    static const char *const names[] = {"OPAQUE", "MASK", "BLEND"};
+    static const alpi_alpha_mode modes[] = {ALPI_ALPHA_OPAQUE, ALPI_ALPHA_MASK, ALPI_ALPHA_BLEND};
+    double cutoff = 0.5;
+    ALP_TRY(alpi_gltf_number(from->reader->document, from->object, "alphaCutoff", from->owner,
+                             &cutoff));
+    material->alpha_cutoff = alpi_gltf_float(cutoff);
+    material->alpha_mode = ALPI_ALPHA_OPAQUE;
+    json_t *mode = json_object_get(from->object, "alphaMode");
+    for (size_t i = 0; mode != NULL && i < 3; i++) {
+        if (json_is_string(mode) && strcmp(json_string_value(mode), names[i]) == 0) {
+            material->alpha_mode = modes[i];
+            return ALP_OK;
+        }
+    }
+    return mode == NULL ? ALP_OK
+                        : alpi_gltf_fail(from->reader->document, from->owner,
+                                         "alphaMode must be OPAQUE, MASK or BLEND");
+}
+
+static alp_result read_occlusion(const source *from, alpi_material *material)
+{
+    double strength = 1.0;
+    ALP_TRY(alpi_gltf_number(from->reader->document,
+                             json_object_get(from->object, "occlusionTexture"), "strength",
+                             from->owner, &strength));
+    material->occlusion_strength = alpi_gltf_float(strength);
+    return read_texture(from, from->object, "occlusionTexture", &material->occlusion_texture);
+}
+
+static alp_result read_material(const source *from, alpi_material *material)
+{
+    char *name = alpi_gltf_copy_name(from->reader->context, from->object);
+    if (name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    *material = alpi_material_default();
+    material->name = name;
+    material->double_sided = json_is_true(json_object_get(from->object, "doubleSided"));
+    json_t *glossiness = alpi_gltf_extension(from->object, "KHR_materials_pbrSpecularGlossiness");
+    ALP_TRY(glossiness != NULL ? read_specular_glossiness(from, glossiness, material)
+                               : read_metallic_roughness(from, material));
+    ALP_TRY(read_emission(from, material));
+    ALP_TRY(read_alpha(from, material));
+    return read_occlusion(from, material);
+}
+
+alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)
+{
+    size_t count = alpi_gltf_count(reader->document, "materials");
+    if (count >= ALPI_NONE || alpi_gltf_count(reader->document, "images") >= ALPI_NONE) {
+        return alpi_fail(reader->context, ALP_ERROR_LIMIT, "%s: too many materials or images",
+                         reader->document->path);
+    }
+    ALPI_TRY_NEW(reader->context, reader->material_used, count);
+    ALPI_TRY_NEW(reader->context, reader->scene->materials, count);
+    reader->scene->material_count = (uint32_t)count;
+    for (size_t i = 0; i < count; i++) {
+        char owner[ALPI_GLTF_OWNER_SIZE];
+        snprintf(owner, sizeof owner, "material %zu", i);
+        source from = {reader, alpi_gltf_item(reader->document, "materials", i), owner};
+        ALP_TRY(read_material(&from, &reader->scene->materials[i]));
+    }
+    return ALP_OK;
+}

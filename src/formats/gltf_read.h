@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The steps of reading a glTF document into a scene, in the order they run.
+#ifndef ALPI_FORMATS_GLTF_READ_H
+#define ALPI_FORMATS_GLTF_READ_H
+
+#include "base/vec.h"
+#include "formats/gltf_document.h"
+#include "scene/scene.h"
+
+typedef struct alpi_gltf_reader {
+    alp_context *context;
+    const alpi_gltf_document *document;
+    alp_scene *scene; // being filled
+    uint32_t node_count;
+    mat4 *world;     // [node_count] node → world, of the nodes in `order`
+    uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
+    uint32_t order_count;
+    bool *material_used; // [scene.material_count]
+} alpi_gltf_reader;
+
+/// gltf_nodes.c: checks that the nodes are trees and fills world and order.
+alp_result alpi_gltf_read_nodes(alpi_gltf_reader *reader);
+/// gltf_materials.c: scene.materials, one for each of the file, at the same index.
+alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader);
+/// gltf_mesh.c: surfaces, vertices and triangles; marks the materials that they use.
+alp_result alpi_gltf_read_meshes(alpi_gltf_reader *reader);
+/// gltf_images.c: scene.images, one for each of the file; decodes those that used materials need.
+alp_result alpi_gltf_read_images(alpi_gltf_reader *reader);
+/// gltf_cameras.c
+alp_result alpi_gltf_read_cameras(alpi_gltf_reader *reader);
+/// gltf_lights.c
+alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader);
+
+/// gltf_read.c: all of them. The scene takes the document over (also on failure).
+alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene **scene);
+
+/// object.name with control characters replaced; "" when there is none. Released by the caller.
+char *alpi_gltf_copy_name(alp_context *context, json_t *object);
+
+#endif
