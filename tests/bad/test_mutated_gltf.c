@@ -56,7 +56,7 @@ static parts make_parts(alp_context *context)
     alp_image_destroy(image);
     parts p = {.bin_size = 96 + png_size};
     for (uint32_t i = 0; i < 4; i++) {
-        float position[3] = {(float)(i % 2), (float)(i / 2), 0.0f};
+        float position[3] = {(float)(i & 1), (float)(i >> 1), 0.0f};
         memcpy(p.bin + (size_t)20 * i, position, sizeof position);
         p.bin[20 * i + 14] = 127;
     }
@@ -234,14 +234,13 @@ static void failing_allocations(void **state)
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allowed = 0;
     for (; result != ALP_OK; allowed++) {
-        meter m = {.left = 1};
+        meter m = {.left = 2}; // the context and the copy
         alp_context_options options = alp_context_options_default();
         options.allocate = metered_allocate;
         options.release = metered_release;
         options.allocator_user = &m;
         alp_context *context = NULL;
         ASSERT_OK(plain, alp_context_create(&options, &context));
-        m.left = 1;
         uint8_t *copy = alpi_allocate(context, size, 1);
         memcpy(copy, good, size);
         m.left = allowed;
