@@ -33,8 +33,8 @@ ROOMS = {
 # which bake.h declares, live in maps.
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
-    "scene": "scene", "atlas": "atlas", "occlusion": "transport", "bake": "maps",
-    "render": "render", "alpenglow": "bake",
+    "display": "film", "scene": "scene", "atlas": "atlas", "occlusion": "transport",
+    "bake": "maps", "render": "render", "alpenglow": "bake",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)

@@ -6,6 +6,7 @@
 #include <alpenglow/atlas.h>
 #include <alpenglow/bake.h>
 #include <alpenglow/context.h>
+#include <alpenglow/display.h>
 #include <alpenglow/image.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/render.h>

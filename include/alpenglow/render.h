@@ -4,6 +4,7 @@
 #define ALPENGLOW_RENDER_H
 
 #include <alpenglow/bake.h>
+#include <alpenglow/display.h>
 #include <alpenglow/image.h>
 #include <alpenglow/scene.h>
 
@@ -22,7 +23,8 @@ typedef struct alp_render_options {
     uint32_t samples;       ///< camera rays per pixel, [1, 4096]; default 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     uint32_t camera_index;  ///< default 0; past the last: the automatic camera
-    alp_occlusion_options occlusion; ///< for AO by rays, `samples` per pixel; its progress is ignored
+    alp_occlusion_options
+        occlusion; ///< for AO by rays, `samples` per pixel; its progress is ignored
     const alp_lightmap
         *lightmap; ///< NULL, or maps of this scene that are read instead of its textures
     alp_progress_fn *progress;
@@ -34,10 +36,6 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
-
-/// 8-bit sRGB picture of a linear float image (values clamped to [0,1]), over a grey background
-/// where alpha is 0.
-ALP_API ALP_NODISCARD alp_result alp_image_to_display(const alp_image *linear, alp_image **display);
 
 ALP_END_DECLS
 

@@ -7,8 +7,8 @@
 
 ALP_BEGIN_DECLS
 
-/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. Calls that take a
-/// scene run on the context it was made with: one at a time.
+/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. Calls that take
+/// a scene run on the context it was made with: one at a time.
 typedef struct alp_scene alp_scene;
 
 /// Reads a scene file (.gltf, .glb) or makes a built-in one ("builtin:cornell", "builtin:furnace",

@@ -154,12 +154,14 @@ const char *alp_result_name(alp_result result)
 
 alp_result alpi_fail(alp_context *context, alp_result code, const char *format, ...)
 {
+    char text[MESSAGE_SIZE]; // an argument may be the old message, to which more is said
     va_list arguments;
     va_start(arguments, format);
-    pthread_mutex_lock(&context->message_lock);
-    vsnprintf(context->message, sizeof context->message, format, arguments);
-    pthread_mutex_unlock(&context->message_lock);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    pthread_mutex_lock(&context->message_lock);
+    memcpy(context->message, text, sizeof text);
+    pthread_mutex_unlock(&context->message_lock);
     return code;
 }
 

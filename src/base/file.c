@@ -5,12 +5,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum { NAME_LIMIT = 1000 }; // temporary names tried
 
 static alp_result fail_io(alp_context *context, const char *verb, const char *path)
 {
@@ -94,9 +95,15 @@ bool alpi_path_has_ending(const char *path, const char *ending)
 alp_result alpi_file_check_writable(alp_context *context, const char *path, bool overwrite)
 {
     struct stat status;
+    if (alpi_path_name(path)[0] == '\0') {
+        return alpi_fail(context, ALP_ERROR_IO, "\"%s\": a file name is needed", path);
+    }
     if (stat(path, &status) == 0) {
         if (S_ISDIR(status.st_mode)) {
             return alpi_fail(context, ALP_ERROR_IO, "%s: is a folder, a file name is needed", path);
+        }
+        if (!S_ISREG(status.st_mode)) { // renaming onto a device would replace the device
+            return alpi_fail(context, ALP_ERROR_IO, "%s: is not a regular file", path);
         }
         if (!overwrite) {
             return alpi_fail(context, ALP_ERROR_IO,
@@ -118,27 +125,42 @@ alp_result alpi_file_check_writable(alp_context *context, const char *path, bool
     return result;
 }
 
+/// Opens a temporary file beside the final place, under the first name that is free.
+static alp_result open_temporary(alpi_file_writer *writer)
+{
+    for (unsigned number = 0; number < NAME_LIMIT; number++) {
+        writer->temporary =
+            alpi_format(writer->context, "%s.part-%ld-%u", writer->path, (long)getpid(), number);
+        if (writer->temporary == NULL) {
+            return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        writer->descriptor =
+            open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)0666);
+        if (writer->descriptor >= 0) {
+            return ALP_OK;
+        }
+        bool taken = errno == EEXIST; // by another thread, or by a run that was killed
+        alp_result result = fail_io(writer->context, "create", writer->temporary);
+        alpi_release(writer->context, writer->temporary);
+        writer->temporary = NULL; // it is not ours to remove
+        if (!taken) {
+            return result;
+        }
+    }
+    return ALP_ERROR_IO;
+}
+
 alp_result alpi_file_open(alp_context *context, const char *path, bool overwrite,
                           alpi_file_writer *writer)
 {
-    static _Atomic uint32_t counter; // distinct names for threads of one process
     *writer = (alpi_file_writer){.context = context, .descriptor = -1, .overwrite = overwrite};
     ALP_TRY(alpi_file_check_writable(context, path, overwrite));
     writer->path = alpi_copy_string(context, path);
-    writer->temporary =
-        alpi_format(context, "%s.part-%ld-%u", path, (long)getpid(), atomic_fetch_add(&counter, 1));
-    if (writer->path == NULL || writer->temporary == NULL) {
+    alp_result result = writer->path ? open_temporary(writer) : ALP_ERROR_OUT_OF_MEMORY;
+    if (result != ALP_OK) {
         alpi_file_abandon(writer);
-        return ALP_ERROR_OUT_OF_MEMORY;
     }
-    writer->descriptor =
-        open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)0666);
-    if (writer->descriptor < 0) {
-        alp_result result = fail_io(context, "create", writer->temporary);
-        alpi_file_abandon(writer);
-        return result;
-    }
-    return ALP_OK;
+    return result;
 }
 
 alp_result alpi_file_append(alpi_file_writer *writer, const void *bytes, size_t size)

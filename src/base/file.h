@@ -35,7 +35,7 @@ alp_result alpi_file_write(alp_context *context, const char *path, bool overwrit
                            const void *bytes, size_t size);
 
 /// Fails with IO and the reason if `path` could not be written at the end of a long job: it exists
-/// and !overwrite, it is a folder, or its folder is missing or not writable.
+/// and !overwrite, it is a folder or a device, or its folder is missing or not writable.
 alp_result alpi_file_check_writable(alp_context *context, const char *path, bool overwrite);
 
 /// Makes a folder and its parents where missing. @return ALP_OK; IO; OUT_OF_MEMORY

@@ -101,8 +101,9 @@ void alpi_image_sample(const alp_image *image, float u, float v, alpi_wrap wrap_
 {
     // Coordinates far outside a 2^40-fold repeat have lost all their texels anyway.
     double limit = 0x1p40;
-    double x = isfinite(u) && fabs((double)u) < limit ? (double)u * image->info.width - 0.5 : 0.0;
-    double y = isfinite(v) && fabs((double)v) < limit ? (double)v * image->info.height - 0.5 : 0.0;
+    double known_u = fabs((double)u) < limit ? (double)u : 0.0; // NaN is not below it either
+    double known_v = fabs((double)v) < limit ? (double)v : 0.0;
+    double x = known_u * image->info.width - 0.5, y = known_v * image->info.height - 0.5;
     double fx = floor(x), fy = floor(y);
     float wx = (float)(x - fx), wy = (float)(y - fy);
     uint32_t x0 = wrap_index((int64_t)fx, image->info.width, wrap_u);

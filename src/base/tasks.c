@@ -13,11 +13,10 @@ static const double PROGRESS_INTERVAL = 0.05; // seconds between two calls of a 
 /// One running loop. The body's failures are kept by range number, so that the one reported is the
 /// lowest whatever the order in which ranges ran.
 typedef struct loop {
-    alp_context *context;
     alpi_task_fn *body;
     void *user;
     uint32_t count, grain;
-    _Atomic uint32_t next;
+    _Atomic uint64_t next; // every worker steps past the end once: 32 bits could wrap
     _Atomic uint32_t done;
     _Atomic bool stop;
     pthread_mutex_t lock; // guards the failure
@@ -97,10 +96,11 @@ static void loop_run_range(loop *l, uint32_t begin, uint32_t end, uint32_t worke
 static void loop_work(loop *l, uint32_t worker)
 {
     while (!atomic_load_explicit(&l->stop, memory_order_relaxed)) {
-        uint32_t begin = atomic_fetch_add_explicit(&l->next, l->grain, memory_order_relaxed);
-        if (begin >= l->count) {
+        uint64_t next = atomic_fetch_add_explicit(&l->next, l->grain, memory_order_relaxed);
+        if (next >= l->count) {
             break;
         }
+        uint32_t begin = (uint32_t)next;
         uint32_t end = l->count - begin < l->grain ? l->count : begin + l->grain;
         loop_run_range(l, begin, end, worker);
         if (pthread_equal(pthread_self(), l->caller)) {
@@ -230,8 +230,7 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
     if (count == 0) {
         return ALP_OK;
     }
-    loop l = {.context = context,
-              .body = body,
+    loop l = {.body = body,
               .user = user,
               .count = count,
               .grain = grain > 0 ? grain : 1,

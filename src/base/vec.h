@@ -185,7 +185,7 @@ static inline double mat4_determinant3(const mat4 *a)
 
 /// Transforms a normal by the cofactor matrix of the upper 3×3 block: right for non-uniform scale
 /// and finite for a singular one; the sign of the determinant is kept out, so a mirrored normal
-/// still points outside. Not normalised.
+/// still points outside. Unit length, or zero where the matrix leaves the normal no direction.
 static inline vec3 mat4_transform_normal(const mat4 *a, vec3 n)
 {
     const double *m = a->m;
@@ -196,9 +196,11 @@ static inline vec3 mat4_transform_normal(const mat4 *a, vec3 n)
                 (m[4] * m[2] - m[0] * m[6]) * z;
     double cz = (m[4] * m[9] - m[8] * m[5]) * x + (m[8] * m[1] - m[0] * m[9]) * y +
                 (m[0] * m[5] - m[4] * m[1]) * z;
-    double sign = mat4_determinant3(a) < 0.0 ? -1.0 : 1.0;
     double length = sqrt(cx * cx + cy * cy + cz * cz);
-    double scale = length > 0.0 && isfinite(length) ? sign / length : 0.0;
+    if (!(length > 0.0) || !isfinite(length)) {
+        return (vec3){0.0f, 0.0f, 0.0f};
+    }
+    double scale = (mat4_determinant3(a) < 0.0 ? -1.0 : 1.0) / length;
     return (vec3){(float)(cx * scale), (float)(cy * scale), (float)(cz * scale)};
 }
 

@@ -2,7 +2,7 @@
 // Linear light to what a screen shows.
 #include "base/image.h"
 
-#include <alpenglow/render.h>
+#include <alpenglow/display.h>
 
 #include <math.h>
 

@@ -37,8 +37,7 @@ static alp_result find_bytes(const alpi_gltf_reader *reader, size_t index, const
     const alpi_gltf_document *document = reader->document;
     json_t *object = alpi_gltf_item(document, "images", index);
     size_t buffer_view;
-    ALP_TRY(
-        alpi_gltf_index(document, object, "bufferView", "bufferViews", owner, &buffer_view));
+    ALP_TRY(alpi_gltf_index(document, object, "bufferView", "bufferViews", owner, &buffer_view));
     if (buffer_view != ALPI_GLTF_NONE) {
         return alpi_gltf_view_read(document, buffer_view, view);
     }
@@ -60,9 +59,9 @@ static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_i
     alp_result result = find_bytes(reader, index, owner, &view, &owned);
     if (result == ALP_OK) {
         char *name = alpi_format(reader->context, "%s: %s", reader->document->path, owner);
-        result = name == NULL ? ALP_ERROR_OUT_OF_MEMORY
-                              : alpi_image_decode(reader->context, name, view.bytes, view.size,
-                                                  image);
+        result = name == NULL
+                     ? ALP_ERROR_OUT_OF_MEMORY
+                     : alpi_image_decode(reader->context, name, view.bytes, view.size, image);
         alpi_release(reader->context, name);
     }
     alpi_release(reader->context, owned);

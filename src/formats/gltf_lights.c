@@ -60,9 +60,9 @@ static alp_result read_strength(const alpi_gltf_reader *reader, json_t *object, 
                   "none");
     }
     light->intensity = alpi_gltf_float(fmax(intensity, 0.0));
-    light->color = (vec3){alpi_gltf_float(fmax(color[0], 0.0)),
-                          alpi_gltf_float(fmax(color[1], 0.0)),
-                          alpi_gltf_float(fmax(color[2], 0.0))};
+    light->color =
+        (vec3){alpi_gltf_float(fmax(color[0], 0.0)), alpi_gltf_float(fmax(color[1], 0.0)),
+               alpi_gltf_float(fmax(color[2], 0.0))};
     light->range = range > 0.0 && isfinite(range) ? alpi_gltf_float(range) : INFINITY;
     return ALP_OK;
 }
@@ -78,9 +78,8 @@ static alp_result read_light(const alpi_gltf_reader *reader, json_t *object, con
         ALP_TRY(read_cone(reader, object, owner, light));
     }
     light->position = mat4_transform_point(world, (vec3){0.0f, 0.0f, 0.0f});
-    light->direction =
-        vec3_normalize_or(mat4_transform_direction(world, (vec3){0.0f, 0.0f, -1.0f}),
-                          (vec3){0.0f, 0.0f, 0.0f});
+    light->direction = vec3_normalize_or(mat4_transform_direction(world, (vec3){0.0f, 0.0f, -1.0f}),
+                                         (vec3){0.0f, 0.0f, 0.0f});
     light->name = alpi_gltf_copy_name(reader->context, object);
     return light->name == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }

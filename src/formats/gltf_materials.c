@@ -99,8 +99,8 @@ static alp_result read_metallic_roughness(const source *from, alpi_material *mat
     double metallic = 1.0;
     ALP_TRY(read_color(from, object, "baseColorFactor", material->base_color));
     ALP_TRY(read_texture(from, object, "baseColorTexture", &material->base_color_texture));
-    ALP_TRY(alpi_gltf_number(from->reader->document, object, "metallicFactor", from->owner,
-                             &metallic));
+    ALP_TRY(
+        alpi_gltf_number(from->reader->document, object, "metallicFactor", from->owner, &metallic));
     material->metallic = alpi_gltf_float(metallic);
     return read_texture(from, object, "metallicRoughnessTexture", &material->metallic_texture);
 }

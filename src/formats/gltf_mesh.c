@@ -203,8 +203,7 @@ static alp_result plan_node(plan *p, uint32_t node)
     }
     p->skinned += json_object_get(object, "skin") != NULL;
     p->instanced += alpi_gltf_extension(object, "EXT_mesh_gpu_instancing") != NULL;
-    json_t *primitives =
-        json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
+    json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
     if (!json_is_array(primitives)) {
         snprintf(owner, sizeof owner, "mesh %zu", mesh);
         return alpi_gltf_fail(document, owner, "primitives must be an array");
@@ -347,7 +346,7 @@ static alp_result fill_uvs(const plan *p, const part *from, const alpi_surface *
         uint32_t v = surface->first_vertex + i;
         for (uint32_t k = 0; k < 2; k++) {
             float value = alpi_gltf_values_float(&values, scene->vertex_source[v], k);
-            bad += !isfinite(value);
+            bad += isfinite(value) ? 0 : 1;
             scene->uvs[set][v][k] = isfinite(value) ? value : 0.0f;
         }
     }

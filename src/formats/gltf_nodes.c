@@ -97,10 +97,10 @@ static mat4 compose(const double t[3], const double q[4], const double s[3])
 {
     double x = q[0], y = q[1], z = q[2], w = q[3];
     return (mat4){{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + w * z),
-                   s[0] * 2 * (x * z - w * y), 0,                                            //
-                   s[1] * 2 * (x * y - w * z), s[1] * (1 - 2 * (x * x + z * z)),             //
-                   s[1] * 2 * (y * z + w * x), 0,                                            //
-                   s[2] * 2 * (x * z + w * y), s[2] * 2 * (y * z - w * x),                   //
+                   s[0] * 2 * (x * z - w * y), 0,                                //
+                   s[1] * 2 * (x * y - w * z), s[1] * (1 - 2 * (x * x + z * z)), //
+                   s[1] * 2 * (y * z + w * x), 0,                                //
+                   s[2] * 2 * (x * z + w * y), s[2] * 2 * (y * z - w * x),       //
                    s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1}};
 }
 
@@ -187,9 +187,8 @@ static alp_result walk(alpi_gltf_reader *reader, const uint32_t *parent, node_st
         uint32_t node = stack->nodes[--stack->count];
         mat4 local;
         ALP_TRY(read_transform(reader, node, &local));
-        reader->world[node] = parent[node] == ALPI_NONE
-                                  ? local
-                                  : mat4_multiply(&reader->world[parent[node]], &local);
+        reader->world[node] =
+            parent[node] == ALPI_NONE ? local : mat4_multiply(&reader->world[parent[node]], &local);
         reader->order[reader->order_count++] = node;
         json_t *children;
         ALP_TRY(read_children(reader, node, &children));

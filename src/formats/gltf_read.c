@@ -20,12 +20,10 @@ char *alpi_gltf_copy_name(alp_context *context, json_t *object)
 
 static uint64_t hash_document(const alpi_gltf_document *document)
 {
-    uint64_t hash =
-        alpi_hash_bytes(ALPI_HASH_START, document->file_bytes, document->file_size);
+    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, document->file_bytes, document->file_size);
     for (size_t i = 0; i < document->buffer_count; i++) {
         if (document->buffers[i].owned != NULL) { // the others are inside file_bytes
-            hash =
-                alpi_hash_bytes(hash, document->buffers[i].bytes, document->buffers[i].size);
+            hash = alpi_hash_bytes(hash, document->buffers[i].bytes, document->buffers[i].size);
         }
     }
     return hash;

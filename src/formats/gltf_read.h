@@ -12,8 +12,8 @@ typedef struct alpi_gltf_reader {
     const alpi_gltf_document *document;
     alp_scene *scene; // being filled
     uint32_t node_count;
-    mat4 *world;      // [node_count] node → world, of the nodes in `order`
-    uint32_t *order;  // [order_count] nodes of the scene, parents first, in file order
+    mat4 *world;     // [node_count] node → world, of the nodes in `order`
+    uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
     uint32_t order_count;
     bool *material_used; // [scene.material_count]
 } alpi_gltf_reader;
