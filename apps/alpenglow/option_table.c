@@ -341,8 +341,8 @@ static const option options[] = {
      .value = "auto|plain|json|off",
      .choices = "auto|plain|json|off",
      .initial = "auto",
-     .help = "On standard error. auto: one updating line on a terminal, else plain. plain: a line "
-             "now and then. json: one object a line."},
+     .help = "On standard error. auto: one updating line on a terminal, else a line every 5 "
+             "seconds. plain: a line at every stage and every 5 seconds. json: one object a line."},
     {.id = OPTION_WARNINGS_AS_ERRORS,
      .commands = RAY_COMMANDS,
      .group = GROUP_RUN,

@@ -49,10 +49,11 @@ int output_check(const char *path, bool overwrite)
     struct stat about;
     if (stat(path, &about) == 0) {
         if (S_ISDIR(about.st_mode)) {
-            return fail_path(path, "is a folder; name a file in it");
+            return fail_path(path, "is a folder, a file name is needed");
         }
         if (!overwrite) {
-            return fail_path(path, "exists already; -f overwrites it");
+            return fail_path(path, "exists already and would be overwritten; force it (-f) or name "
+                                   "another file");
         }
         if (!S_ISREG(about.st_mode)) { // a rename would put a file in the place of a device
             return fail_path(path, "is not an ordinary file");
@@ -61,10 +62,9 @@ int output_check(const char *path, bool overwrite)
     char *folder = folder_of(path);
     int code = EXIT_DONE;
     bool there = stat(folder, &about) == 0;
-    if (there && !S_ISDIR(about.st_mode)) {
-        code = fail_path(path, "cannot be written: its folder is a file");
-    } else if (!there || access(folder, W_OK | X_OK) != 0) {
-        code = fail_path(path, "cannot be written: its folder: %s", strerror(errno));
+    if (!there || !S_ISDIR(about.st_mode) || access(folder, W_OK | X_OK) != 0) {
+        int fault = there && !S_ISDIR(about.st_mode) ? ENOTDIR : errno;
+        code = fail_path(path, "its folder cannot be written: %s", strerror(fault));
     }
     free(folder);
     return code;

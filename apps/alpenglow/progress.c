@@ -18,10 +18,9 @@ double clock_seconds(void)
 
 progress_display progress_start(progress_mode mode)
 {
-    progress_display p = {.mode = mode, .last = clock_seconds()};
-    if (mode == PROGRESS_AUTO && !isatty(STDERR_FILENO)) {
-        p.mode = PROGRESS_PLAIN;
-    }
+    bool terminal = mode == PROGRESS_AUTO && isatty(STDERR_FILENO);
+    progress_display p = {.mode = mode, .terminal = terminal, .last = clock_seconds()};
+    p.interval = terminal ? 0.1 : mode == PROGRESS_JSON ? 0.5 : 5.0;
     return p;
 }
 
@@ -77,10 +76,9 @@ void progress_show(progress_display *p, const alp_progress *state)
     if (p->mode == PROGRESS_OFF) {
         return;
     }
-    double interval = p->mode == PROGRESS_PLAIN ? 5.0 : p->mode == PROGRESS_JSON ? 0.5 : 0.1;
     double now = clock_seconds();
     bool new_stage = strncmp(p->stage, state->stage, sizeof p->stage - 1) != 0;
-    if (now - p->last < interval && !(new_stage && p->mode != PROGRESS_AUTO)) {
+    if (now - p->last < p->interval && !(new_stage && p->mode != PROGRESS_AUTO)) {
         return;
     }
     p->last = now;
@@ -89,11 +87,11 @@ void progress_show(progress_display *p, const alp_progress *state)
     format_line(state, line, sizeof line);
     if (p->mode == PROGRESS_JSON) {
         show_json(state);
-    } else if (p->mode == PROGRESS_PLAIN) {
-        fprintf(stderr, "%s\n", line);
-    } else {
+    } else if (p->terminal) {
         fprintf(stderr, "\r%.78s\033[K", line);
         p->line_open = true;
+    } else {
+        fprintf(stderr, "%s\n", line);
     }
     fflush(stderr);
 }

@@ -7,16 +7,18 @@
 
 /// In the order of the choices of --progress.
 typedef enum progress_mode {
-    PROGRESS_AUTO, // a line that is written over on a terminal, else PLAIN
-    PROGRESS_PLAIN,
+    PROGRESS_AUTO,  // a line that is written over on a terminal, else one now and then
+    PROGRESS_PLAIN, // one at every stage, and now and then
     PROGRESS_JSON,
     PROGRESS_OFF
 } progress_mode;
 
 typedef struct progress_display {
-    progress_mode mode; // AUTO here means: a terminal
-    bool line_open;     // the terminal's line holds text
-    double last;        // when something was shown, seconds
+    progress_mode mode;
+    bool terminal;   // AUTO: the line is written over
+    bool line_open;  // the terminal's line holds text
+    double interval; // seconds between two lines
+    double last;     // when something was shown, seconds
     char stage[32];
 } progress_display;
 

@@ -20,7 +20,14 @@ if [ "${1:-}" = --update ]; then
 fi
 tools=${1:?usage: run.sh [--update] TOOLS [AREA/CASE ...]}
 shift
-export PATH="$tools:$PATH" LC_ALL=C
+absolute=
+while IFS= read -r folder; do # cases run in a folder of their own
+    absolute+=$(cd "$folder" && pwd): || exit 2
+done < <(tr ':' '\n' <<<"$tools")
+export PATH="$absolute$PATH" LC_ALL=C
+for tool in alpenglow json_shape; do
+    command -v $tool >/dev/null || { echo "run.sh: no $tool in $tools" >&2; exit 2; }
+done
 
 matches_glob() { # actual, glob file
     local actual pattern number=0
