@@ -1,3 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "test_support.h"
-int main(void) { return 0; }
+int main(void)
+{
+    return 0;
+}
