@@ -46,12 +46,20 @@ void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 /// (−0 equals +0). Linear in triangles: hashed. [triangle_count][3], released by the caller.
 alp_result alpi_adjacency_create(const alp_scene *scene, uint32_t (**neighbours)[3]);
 
-/// clusters[t] = cluster of each usable triangle, else ALPI_NONE. Grown breadth-first from the
-/// largest free triangle while the normal stays within max_angle of the seed's plane and the
-/// projection does not fold over itself. Triangles of one cluster belong to one mesh instance
-/// (node).
+/// Triangles that can be projected together on one plane without folding.
+typedef struct alpi_clusters {
+    uint32_t count;
+    uint32_t *of_triangle; // [triangle_count], ALPI_NONE for unusable triangles
+    float (*planes)[3];    // [count] unit normal of the plane of each
+} alpi_clusters;
+typedef struct alpi_atlas_clock alpi_atlas_clock; // see stages.h
+/// Clusters of all usable triangles. Grown breadth-first from the largest free triangle while the
+/// normal stays within max_angle of the cluster's plane and the projection does not fold over
+/// itself. Triangles of one cluster belong to one mesh instance (node).
+/// @param clock NULL = runs to its end; else may end the call with CANCELLED
 alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
-                                float max_angle, uint32_t **clusters, uint32_t *cluster_count);
+                                float max_angle, alpi_atlas_clock *clock, alpi_clusters *clusters);
+void alpi_clusters_destroy(alp_context *context, alpi_clusters *clusters);
 
 /// A rectangle to be packed and where it went, in texels.
 typedef struct alpi_pack_item {

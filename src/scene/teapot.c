@@ -129,9 +129,14 @@ static uint32_t add_vertex(alpi_builder *builder, const alpi_teapot *teapot, con
                                vec3_normalize_or(turned(teapot, normal), (vec3){0.0f, 1.0f, 0.0f}));
 }
 
+/// Whether a row of control points is one point.
 static bool is_pole(const point row[4])
 {
-    return row[0].x == row[3].x && row[0].z == row[3].z && row[0].x == row[1].x;
+    bool pole = true;
+    for (int k = 1; k < 4; k++) {
+        pole &= row[k].x == row[0].x && row[k].y == row[0].y && row[k].z == row[0].z;
+    }
+    return pole;
 }
 
 static void add_patch(alpi_builder *builder, const alpi_teapot *teapot, const patch *control)

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Making an atlas: the stages in a row, and the questions one can ask it.
+#include "atlas/stages.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <math.h>
+
+alp_atlas_options alp_atlas_options_default(void)
+{
+    return (alp_atlas_options){.struct_size = sizeof(alp_atlas_options),
+                               .mode = ALP_ATLAS_AUTO,
+                               .size = 1024,
+                               .padding = 2,
+                               .max_angle = (float)(ALPI_PI / 4.0)};
+}
+
+alp_result alpi_atlas_tick(alpi_atlas_clock *clock, const char *stage, uint64_t done,
+                           uint64_t total)
+{
+    if (clock->callback == NULL) {
+        return ALP_OK;
+    }
+    double now = alpi_seconds();
+    if (now - clock->last < 0.05) {
+        return ALP_OK;
+    }
+    clock->last = now;
+    alp_progress report = {.stage = stage, .done = done, .total = total, .seconds_left = -1.0};
+    return clock->callback(clock->user, &report)
+               ? ALP_OK
+               : alpi_fail(clock->context, ALP_ERROR_CANCELLED, "cancelled");
+}
+
+static alp_result check_options(const alp_scene *scene, const alp_atlas_options *o)
+{
+    alp_context *context = scene->context;
+    if (o->struct_size != sizeof *o || o->mode < ALP_ATLAS_AUTO || o->mode > ALP_ATLAS_CHARTS) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "atlas options must come from alp_atlas_options_default()");
+    }
+    if (o->size < 1 || o->size > ALPI_ATLAS_SIZE_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "a page of %u texels: the size must be in [1, %d]", o->size,
+                         ALPI_ATLAS_SIZE_LIMIT);
+    }
+    if (!(o->texels_per_metre >= 0.0) || !isfinite(o->texels_per_metre)) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "%g texels per metre: must be positive, or 0 to fill one page",
+                         o->texels_per_metre);
+    }
+    if (o->padding > ALPI_ATLAS_PADDING_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "padding of %u texels: must be in [0, %d]", o->padding,
+                         ALPI_ATLAS_PADDING_LIMIT);
+    }
+    if (!(o->max_angle > 0.0f && o->max_angle <= 1.2f)) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "a chart angle of %g radians: must be in (0, 1.2]", (double)o->max_angle);
+    }
+    if (scene->usable_count == 0) {
+        return alpi_fail(context, ALP_ERROR_INVALID_DATA,
+                         "%s: nothing to bake: no triangle has an area", scene->name);
+    }
+    return ALP_OK;
+}
+
+/// Gives every unusable triangle a point of the page, so that no coordinate is left undefined: the
+/// middle of the nearest usable triangle before it in the scene, else after it.
+static void place_unusable(alp_atlas *atlas)
+{
+    const alp_scene *scene = atlas->scene;
+    uint32_t nearest = 0;
+    while (!scene->triangle_usable[nearest]) {
+        nearest++; // there is one
+    }
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (scene->triangle_usable[t]) {
+            nearest = t;
+            continue;
+        }
+        uint32_t from = nearest, surface = scene->triangle_surface[t];
+        for (uint32_t next = t + 1;
+             scene->triangle_surface[from] != surface && next < scene->triangle_count &&
+             scene->triangle_surface[next] == surface;
+             next++) {
+            from = scene->triangle_usable[next] ? next : from; // the same surface is better
+        }
+        const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[from];
+        for (int k = 0; k < 3; k++) {
+            for (int i = 0; i < 2; i++) {
+                atlas->corner_uvs[t][k][i] = (uv[0][i] + uv[1][i] + uv[2][i]) / 3.0f;
+            }
+        }
+        atlas->triangle_pages[t] = atlas->triangle_pages[from];
+        atlas->triangle_charts[t] = ALPI_NONE;
+    }
+}
+
+static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                              alpi_atlas_clock *clock)
+{
+    alpi_clusters clusters;
+    ALP_TRY(
+        alpi_clusters_create(atlas->scene, neighbours, atlas->options.max_angle, clock, &clusters));
+    alpi_charts charts;
+    alp_result result = alpi_charts_create(atlas, neighbours, &clusters, &charts);
+    alpi_clusters_destroy(atlas->context, &clusters);
+    if (result == ALP_OK) {
+        result = alpi_layout(atlas, &charts, clock);
+    }
+    atlas->info.mode = ALP_ATLAS_CHARTS;
+    atlas->info.charts = charts.count;
+    alpi_charts_destroy(atlas->context, &charts);
+    return result;
+}
+
+/// Keeps the second UV set where the mode asks for it and it can hold a bake, else makes charts.
+static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_atlas_clock *clock)
+{
+    alp_atlas_mode mode = atlas->options.mode;
+    if (mode == ALP_ATLAS_KEEP || (mode == ALP_ATLAS_AUTO && atlas->scene->uvs[1] != NULL)) {
+        char *reason = NULL;
+        alp_result result = alpi_keep(atlas, neighbours, &reason);
+        if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {
+            alpi_fail(atlas->context, result, "%s", reason);
+        } else if (result == ALP_ERROR_INVALID_DATA) {
+            alpi_note(atlas->context, "atlas-charts", atlas->scene->name, "new charts: %s", reason);
+        }
+        alpi_release(atlas->context, reason);
+        if (result != ALP_ERROR_INVALID_DATA || mode == ALP_ATLAS_KEEP) {
+            return result;
+        }
+    }
+    return make_charts(atlas, neighbours, clock);
+}
+
+static alp_result build(alp_atlas *atlas)
+{
+    const alp_scene *scene = atlas->scene;
+    alpi_atlas_clock clock = {.context = atlas->context,
+                              .callback = atlas->options.progress,
+                              .user = atlas->options.progress_user};
+    ALPI_TRY_NEW(atlas->context, atlas->corner_uvs, scene->triangle_count);
+    ALPI_TRY_NEW(atlas->context, atlas->triangle_pages, scene->triangle_count);
+    ALPI_TRY_NEW(atlas->context, atlas->triangle_charts, scene->triangle_count);
+    ALP_TRY(alpi_atlas_tick(&clock, "atlas", 0, scene->triangle_count));
+    uint32_t(*neighbours)[3] = NULL;
+    ALP_TRY(alpi_adjacency_create(scene, &neighbours));
+    alp_result result = choose(atlas, (const uint32_t(*)[3])neighbours, &clock);
+    alpi_release(atlas->context, neighbours);
+    ALP_TRY(result);
+    place_unusable(atlas);
+    ALP_TRY(alpi_measure(atlas));
+    if (atlas->info.shared_triangles > 0) {
+        alpi_note(atlas->context, "tiny-triangles", scene->name,
+                  "%u of %u triangles are smaller than a texel: they share the texels of their "
+                  "neighbours",
+                  atlas->info.shared_triangles, scene->usable_count);
+    }
+    return ALP_OK;
+}
+
+alp_result alp_atlas_create(const alp_scene *scene, const alp_atlas_options *options,
+                            alp_atlas **atlas)
+{
+    if (atlas == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    *atlas = NULL;
+    if (scene == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
+    ALP_TRY(check_options(scene, &chosen));
+    alp_atlas *made = ALPI_NEW(scene->context, alp_atlas, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    made->scene = scene;
+    made->context = scene->context;
+    made->options = chosen;
+    made->info.width = made->info.height = chosen.size;
+    alp_result result = build(made);
+    if (result != ALP_OK) {
+        alp_atlas_destroy(made);
+        return result;
+    }
+    *atlas = made;
+    return ALP_OK;
+}
+
+void alp_atlas_destroy(alp_atlas *atlas)
+{
+    if (atlas != NULL) {
+        alp_context *context = atlas->context;
+        alpi_release(context, atlas->corner_uvs);
+        alpi_release(context, atlas->triangle_pages);
+        alpi_release(context, atlas->triangle_charts);
+        alpi_release(context, atlas);
+    }
+}
+
+alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas)
+{
+    return atlas == NULL ? (alp_atlas_info){0} : atlas->info;
+}
+
+const float *alp_atlas_corner_uvs(const alp_atlas *atlas)
+{
+    return atlas == NULL ? NULL : &atlas->corner_uvs[0][0][0];
+}
+
+const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas)
+{
+    return atlas == NULL ? NULL : atlas->triangle_pages;
+}

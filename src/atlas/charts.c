@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Clusters become charts: projected on their plane and turned to the tightest box; and charts that
+// are larger than a page are cut into pieces that fit.
+#include "atlas/box.h"
+#include "atlas/stages.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+/// Scratch that is kept from chart to chart.
+typedef struct turner {
+    alp_context *context;
+    alpi_point *points, *hull;
+    size_t point_capacity, hull_capacity;
+} turner;
+
+static void turner_destroy(turner *t)
+{
+    alpi_release(t->context, t->points);
+    alpi_release(t->context, t->hull);
+}
+
+static void project_chart(alp_atlas *atlas, const alpi_chart *chart, const uint32_t *triangles,
+                          const float normal[3])
+{
+    vec3 corner[3];
+    alpi_triangle_corners(atlas->scene, triangles[chart->first], corner);
+    alpi_plane plane = alpi_plane_make(vec3_load(normal), corner[0]);
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        alpi_triangle_corners(atlas->scene, triangles[i], corner);
+        for (int k = 0; k < 3; k++) {
+            double x, y;
+            alpi_plane_project(&plane, corner[k], &x, &y);
+            atlas->corner_uvs[triangles[i]][k][0] = (float)x;
+            atlas->corner_uvs[triangles[i]][k][1] = (float)y;
+        }
+    }
+}
+
+/// The corners of a chart that its hull can have: those at edges with no triangle of the chart
+/// across (neighbours NULL: all).
+static alp_result collect_points(const alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                                 const alpi_chart *chart, const uint32_t *triangles, turner *turn,
+                                 size_t *count)
+{
+    *count = 0;
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        uint32_t t = triangles[i];
+        ALP_TRY(alpi_grow(turn->context, (void **)&turn->points, &turn->point_capacity, *count + 6,
+                          sizeof *turn->points));
+        for (int k = 0; k < 3; k++) {
+            uint32_t across = neighbours == NULL ? ALPI_NONE : neighbours[t][k];
+            if (across != ALPI_NONE &&
+                atlas->triangle_charts[across] == atlas->triangle_charts[t]) {
+                continue;
+            }
+            for (int end = 0; end < 2; end++) {
+                const float *uv = atlas->corner_uvs[t][(k + end) % 3];
+                turn->points[(*count)++] = (alpi_point){(double)uv[0], (double)uv[1]};
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+/// Turns the coordinates of a chart to its tightest box, whose corner becomes the origin.
+static alp_result turn_chart(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_chart *chart,
+                             const uint32_t *triangles, turner *turn)
+{
+    size_t count = 0;
+    ALP_TRY(collect_points(atlas, neighbours, chart, triangles, turn, &count));
+    ALP_TRY(alpi_grow(turn->context, (void **)&turn->hull, &turn->hull_capacity, 2 * count + 2,
+                      sizeof *turn->hull));
+    alpi_box box = alpi_tightest_box(turn->points, count, turn->hull);
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            float *uv = atlas->corner_uvs[triangles[i]][k];
+            double u = (double)uv[0], v = (double)uv[1];
+            double x = box.axis.x * u + box.axis.y * v - box.low_x;
+            double y = box.axis.x * v - box.axis.y * u - box.low_y;
+            uv[0] = (float)fmin(fmax(x, 0.0), box.width);
+            uv[1] = (float)fmin(fmax(y, 0.0), box.height);
+        }
+    }
+    chart->width = box.width;
+    chart->height = box.height;
+    return ALP_OK;
+}
+
+/// Lists the triangles of each cluster together, in the order of the scene.
+static alp_result group_triangles(alp_atlas *atlas, const alpi_clusters *clusters,
+                                  alpi_charts *charts)
+{
+    const alp_scene *scene = atlas->scene;
+    ALPI_TRY_NEW(atlas->context, charts->triangles, scene->usable_count);
+    ALP_TRY(alpi_grow(atlas->context, (void **)&charts->charts, &charts->capacity, clusters->count,
+                      sizeof *charts->charts));
+    charts->count = clusters->count;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        atlas->triangle_charts[t] = clusters->of_triangle[t];
+        if (clusters->of_triangle[t] != ALPI_NONE) {
+            charts->charts[clusters->of_triangle[t]].count++;
+        }
+    }
+    uint32_t first = 0;
+    for (uint32_t c = 0; c < charts->count; c++) {
+        charts->charts[c].first = first;
+        first += charts->charts[c].count;
+        charts->charts[c].count = 0;
+    }
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (clusters->of_triangle[t] != ALPI_NONE) {
+            alpi_chart *chart = &charts->charts[clusters->of_triangle[t]];
+            charts->triangles[chart->first + chart->count++] = t;
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                              const alpi_clusters *clusters, alpi_charts *charts)
+{
+    *charts = (alpi_charts){0};
+    ALP_TRY(group_triangles(atlas, clusters, charts));
+    turner turn = {.context = atlas->context};
+    alp_result result = ALP_OK;
+    for (uint32_t c = 0; c < charts->count && result == ALP_OK; c++) {
+        project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
+        result = turn_chart(atlas, neighbours, &charts->charts[c], charts->triangles, &turn);
+    }
+    turner_destroy(&turn);
+    return result;
+}
+
+void alpi_charts_destroy(alp_context *context, alpi_charts *charts)
+{
+    alpi_release(context, charts->charts);
+    alpi_release(context, charts->triangles);
+    *charts = (alpi_charts){0};
+}
+
+// --- charts larger than a page -------------------------------------------------------------------
+
+static double centroid(const alp_atlas *atlas, uint32_t triangle, int side)
+{
+    const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
+    return ((double)uv[0][side] + (double)uv[1][side] + (double)uv[2][side]) / 3.0;
+}
+
+/// Reorders the chart's triangles so that those in the lower half of its longer side come first;
+/// how many those are (at least one, at most all but one).
+static uint32_t part_triangles(const alp_atlas *atlas, const alpi_chart *chart, uint32_t *triangles)
+{
+    int side = chart->height > chart->width;
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        low = fmin(low, centroid(atlas, triangles[i], side));
+        high = fmax(high, centroid(atlas, triangles[i], side));
+    }
+    if (!(low < high)) {
+        return chart->count / 2;
+    }
+    double middle = 0.5 * (low + high);
+    uint32_t begin = chart->first, end = chart->first + chart->count;
+    while (begin < end) {
+        if (centroid(atlas, triangles[begin], side) < middle) {
+            begin++;
+        } else {
+            uint32_t swapped = triangles[begin];
+            triangles[begin] = triangles[--end];
+            triangles[end] = swapped;
+        }
+    }
+    uint32_t count = begin - chart->first;
+    return count == 0 ? 1 : count == chart->count ? count - 1 : count;
+}
+
+static alp_result fail_too_large(const alp_atlas *atlas, const alpi_chart *chart, uint32_t triangle,
+                                 double density)
+{
+    const alpi_surface *surface = &atlas->scene->surfaces[atlas->scene->triangle_surface[triangle]];
+    double longest = fmax(chart->width, chart->height);
+    return alpi_fail(atlas->context, ALP_ERROR_LIMIT,
+                     "%s: %s: triangle %u is %.4g m long: at %.4g texels per metre it is larger "
+                     "than a page of %u texels; use at most %.4g texels per metre or a larger size",
+                     atlas->scene->name, surface->name, triangle - surface->first_triangle, longest,
+                     density, atlas->options.size, 0.999 * atlas->options.size / longest);
+}
+
+/// Cuts chart c in two; the second piece goes to the end of the list.
+static alp_result cut_chart(alp_atlas *atlas, alpi_charts *charts, uint32_t c, turner *turn)
+{
+    ALP_TRY(alpi_grow(atlas->context, (void **)&charts->charts, &charts->capacity,
+                      (size_t)charts->count + 1, sizeof *charts->charts));
+    alpi_chart *low = &charts->charts[c], *high = &charts->charts[charts->count];
+    uint32_t count = part_triangles(atlas, low, charts->triangles);
+    *high = (alpi_chart){.first = low->first + count, .count = low->count - count};
+    low->count = count;
+    for (uint32_t i = high->first; i < high->first + high->count; i++) {
+        atlas->triangle_charts[charts->triangles[i]] = charts->count;
+    }
+    charts->count++;
+    ALP_TRY(turn_chart(atlas, NULL, low, charts->triangles, turn));
+    return turn_chart(atlas, NULL, high, charts->triangles, turn);
+}
+
+alp_result alpi_charts_split(alp_atlas *atlas, double density, alpi_charts *charts)
+{
+    turner turn = {.context = atlas->context};
+    alp_result result = ALP_OK;
+    double limit = (double)atlas->options.size * (1.0 + 1e-6);
+    for (uint32_t c = 0; c < charts->count && result == ALP_OK;) {
+        const alpi_chart *chart = &charts->charts[c];
+        if (fmax(chart->width, chart->height) * density <= limit) {
+            c++; // pieces are looked at again when the loop comes to them
+        } else if (chart->count == 1) {
+            result = fail_too_large(atlas, chart, charts->triangles[chart->first], density);
+        } else {
+            result = cut_chart(atlas, charts, c, &turn);
+        }
+    }
+    turner_destroy(&turn);
+    return result;
+}

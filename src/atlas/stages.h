@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What the files of this room share with each other and with nobody else.
+#ifndef ALPI_ATLAS_STAGES_H
+#define ALPI_ATLAS_STAGES_H
+
+#include "atlas/atlas.h"
+
+enum { ALPI_ATLAS_PAGE_LIMIT = 4096, ALPI_ATLAS_SIZE_LIMIT = 16384, ALPI_ATLAS_PADDING_LIMIT = 64 };
+
+/// When to ask the caller whether to go on.
+struct alpi_atlas_clock {
+    alp_context *context;
+    alp_progress_fn *callback; // NULL: never asks
+    void *user;
+    double last;
+};
+/// Tells how far a stage is, at most 20 times a second; cheap enough for every thousandth item.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_atlas_tick(alpi_atlas_clock *clock, const char *stage, uint64_t done,
+                           uint64_t total);
+
+// --- planes
+// ---------------------------------------------------------------------------------------
+
+/// A plane with axes t × b = n, in double: shared vertices project to the same bits.
+typedef struct alpi_plane {
+    double origin[3], t[3], b[3];
+} alpi_plane;
+alpi_plane alpi_plane_make(vec3 normal, vec3 origin);
+void alpi_plane_project(const alpi_plane *plane, vec3 point, double *x, double *y);
+
+// --- clusters → charts ---------------------------------------------------------------------------
+
+/// Triangles that are unwrapped together, turned to their tightest box. Their coordinates are in
+/// atlas.corner_uvs: first in metres from the corner of that box, at the end in pages.
+typedef struct alpi_chart {
+    uint32_t first, count; // in alpi_charts.triangles
+    double width, height;  // of the tightest box, metres
+} alpi_chart;
+
+typedef struct alpi_charts {
+    uint32_t count;
+    size_t capacity;
+    alpi_chart *charts;
+    uint32_t *triangles; // [usable triangles] grouped by chart
+} alpi_charts;
+
+/// Projects every cluster on its plane, turns it to its tightest box and writes corner_uvs (metres)
+/// and triangle_charts. On failure the caller destroys what was made.
+alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                              const alpi_clusters *clusters, alpi_charts *charts);
+/// Cuts every chart that is larger than a page at `density` texels per metre into pieces that fit.
+/// @return ALP_OK; LIMIT: one triangle alone is larger than a page
+alp_result alpi_charts_split(alp_atlas *atlas, double density, alpi_charts *charts);
+void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
+
+/// Finds the density, packs, and turns corner_uvs from metres into page coordinates; sets
+/// triangle_pages and info.pages.
+alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
+
+/// Packs into one page, or says that it cannot; that is no failure and leaves no message.
+alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint32_t count,
+                              uint32_t size, uint32_t padding, bool *fits);
+
+// --- the second UV set ---------------------------------------------------------------------------
+
+/// Takes the scene's second UV set as it is. Where it cannot hold a bake, `reason` (released by the
+/// caller) says why and names triangles, and the call gives INVALID_DATA without a message.
+alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **reason);
+
+// --- texels --------------------------------------------------------------------------------------
+
+/// What the triangles leave in one texel. coverage == 0: nothing.
+typedef struct alpi_cell {
+    double coverage;   // Σ area inside, in texels; above 1 where triangles overlap
+    double area;       // the same in the world, m²
+    double piece;      // area of the largest piece so far
+    double depth;      // of the centre inside the triangle it is deepest in, texels
+    double x, y;       // the receiver, in texels
+    uint32_t triangle; // the one it lies on; ALPI_NONE = none yet
+    uint32_t other;    // a triangle that covers what another covers already, else ALPI_NONE
+    bool center;       // the receiver is the texel's centre
+} alpi_cell;
+
+/// A finished row: cells[first] … cells[last] may hold something, the rest is not set.
+typedef struct alpi_row {
+    uint32_t page, y, first, last;
+    const alpi_cell *cells; // by column
+} alpi_row;
+typedef alp_result alpi_row_fn(void *user, const alpi_row *row);
+
+/// Clips every usable triangle of the pages [first_page, end_page) against the texels and hands out
+/// the rows that hold something, page by page from the top. Memory: the triangles and one row.
+alp_result alpi_raster(const alp_atlas *atlas, uint32_t first_page, uint32_t end_page,
+                       alpi_row_fn *finish, void *user);
+
+/// Fills info.texels, utilisation, texels_per_metre and shared_triangles.
+alp_result alpi_measure(alp_atlas *atlas);
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Between the files that write glTF: a document, what is changed in it, and what is added to it.
+//
+//   gltf_patch.c           the patcher: root arrays that grow, new binary data, the whole sequence
+//   gltf_patch_plan.c      which primitives get what: coordinate set, pages, in place or in a copy
+//   gltf_patch_material.c  one material per (old material, page, coordinate set)
+//   gltf_split.c           vertices that chart borders part
+//   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
+//   gltf_container.c       where binary data lives: BIN chunk, files, data URIs
+//   gltf_write.c           file names, files
+#ifndef ALPI_FORMATS_GLTF_PATCH_H
+#define ALPI_FORMATS_GLTF_PATCH_H
+
+#include "formats/formats.h"
+#include "formats/gltf_document.h"
+#include "formats/gltf_splice.h"
+
+// --- root arrays that grow -----------------------------------------------------------------------
+
+typedef enum alpi_gltf_kind {
+    ALPI_GLTF_ACCESSORS,
+    ALPI_GLTF_BUFFERS,
+    ALPI_GLTF_BUFFER_VIEWS,
+    ALPI_GLTF_IMAGES,
+    ALPI_GLTF_MATERIALS,
+    ALPI_GLTF_MESHES,
+    ALPI_GLTF_NODES,
+    ALPI_GLTF_SAMPLERS,
+    ALPI_GLTF_TEXTURES,
+    ALPI_GLTF_KIND_COUNT
+} alpi_gltf_kind;
+
+typedef struct alpi_gltf_list {
+    size_t count;          // elements in the document
+    alpi_json_span *spans; // [count]
+    size_t added;          // new elements
+    alpi_bytes text;       // of the new ones, with commas between
+} alpi_gltf_list;
+
+// --- the plan ------------------------------------------------------------------------------------
+
+/// A part of a primitive whose triangles lie on one page; it becomes a primitive of its own.
+typedef struct alpi_gltf_piece {
+    uint32_t page;
+    size_t material; // in the written file
+} alpi_gltf_piece;
+
+/// One surface that gets a map. Plans with the same `user` are neighbours: the primitives of one
+/// node (with kept coordinates: of one mesh).
+typedef struct alpi_gltf_plan {
+    uint32_t surface;
+    size_t user; // node, or mesh with kept coordinates
+    size_t mesh, primitive;
+    size_t material; // in the document, ALPI_GLTF_NONE = none
+    uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
+    bool in_a_copy;  // the mesh is copied for this node, because others use it too
+    size_t piece_first, piece_count;
+} alpi_gltf_plan;
+
+// --- the patcher ---------------------------------------------------------------------------------
+
+typedef struct alpi_gltf_patcher {
+    alp_context *context;
+    const alp_scene *scene;
+    const alpi_mesh_patch *patch;
+    const alpi_gltf_document *document;
+    bool exported; // the document was made from the scene: vertex i of a surface is its vertex i
+    alpi_json_span root;
+    alpi_gltf_list lists[ALPI_GLTF_KIND_COUNT];
+    alpi_edits edits; // of the document's text
+
+    // New binary data: it begins at byte `data_base` of buffer `data_buffer`.
+    alpi_bytes data;
+    size_t data_buffer, data_base;
+    struct alpi_gltf_known *known; // accessors made so far, to find equal ones again
+    size_t known_count, known_capacity;
+    uint32_t *known_table;
+    size_t known_table_size;
+
+    // The plan.
+    uint32_t *triangle_pages; // [scene triangles] page of each; zero-area ones follow a neighbour
+    alpi_gltf_plan *plans;
+    size_t plan_count;
+    alpi_gltf_piece *pieces;
+    size_t piece_count, piece_capacity;
+
+    // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
+    size_t *page_textures;  // [page_count]
+    char *const *page_uris; // [page_count], or NULL: embed
+    bool *image_embedded;   // [images of the document] moved into the new data
+} alpi_gltf_patcher;
+
+alp_result alpi_patcher_create(const alp_scene *scene, const alpi_mesh_patch *patch,
+                               const alpi_gltf_document *document, alpi_gltf_patcher *patcher);
+void alpi_patcher_destroy(alpi_gltf_patcher *patcher);
+
+/// Makes the edits for the patch; data_buffer, data_base and page_uris must be set. Buffers are
+/// left to the caller, and so is alpi_patcher_finish.
+alp_result alpi_patcher_run(alpi_gltf_patcher *patcher);
+
+/// Inserts what the lists gained and gives the new text.
+alp_result alpi_patcher_finish(alpi_gltf_patcher *patcher, alpi_bytes *text);
+
+/// Appends an element to a root array and gives its index in the written file.
+size_t alpi_patcher_append(alpi_gltf_patcher *patcher, alpi_gltf_kind kind, const void *text,
+                           size_t size);
+
+/// New binary data as a bufferView. @param target 34962 vertices, 34963 indices, 0 none
+/// @param stride 0 = packed
+size_t alpi_patcher_add_view(alpi_gltf_patcher *patcher, const void *bytes, size_t size,
+                             size_t stride, uint32_t target);
+
+/// Values for a new accessor, packed as in alpi_gltf_values.
+typedef struct alpi_gltf_array {
+    const void *bytes;
+    uint32_t count, components, component_type;
+    size_t element_size;
+    bool normalized, has_bounds, is_indices;
+    const char *type; // NULL: SCALAR … VEC4 by components
+} alpi_gltf_array;
+/// A new accessor, or an equal one made before.
+alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *patcher, const alpi_gltf_array *array,
+                                     size_t *accessor);
+
+/// Fills plans, pieces and triangle_pages.
+alp_result alpi_patcher_plan(alpi_gltf_patcher *patcher);
+/// Decides the material of every piece and adds those that are needed.
+alp_result alpi_patcher_materials(alpi_gltf_patcher *patcher);
+/// Edits the meshes of the plan and the nodes that use copies.
+alp_result alpi_patcher_meshes(alpi_gltf_patcher *patcher);
+
+/// The JSON object of a primitive, NULL when there is none such.
+json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, size_t primitive);
+
+// --- vertex splits -------------------------------------------------------------------------------
+
+typedef struct alpi_gltf_split_input {
+    uint32_t vertex_count, triangle_count;
+    uint32_t (*indices)[3]; // of the primitive, in file order
+    float (*corner_uvs)[3][2];
+    const bool *usable; // [triangle_count] triangles without area part no vertices
+} alpi_gltf_split_input;
+
+/// Vertices such that each has one bake coordinate.
+typedef struct alpi_gltf_split {
+    bool changed; // false: the vertices are the old ones and so are the indices
+    uint32_t vertex_count;
+    uint32_t *sources;      // [vertex_count] old vertex of each
+    float (*uvs)[2];        // [vertex_count]
+    uint32_t (*indices)[3]; // [triangle_count]
+} alpi_gltf_split;
+
+alp_result alpi_gltf_split_create(alp_context *context, const alpi_gltf_split_input *input,
+                                  alpi_gltf_split *split);
+void alpi_gltf_split_destroy(alp_context *context, alpi_gltf_split *split);
+
+// --- containers ----------------------------------------------------------------------------------
+
+/// Files to be written, all or none.
+typedef struct alpi_gltf_file {
+    char *path;
+    const uint8_t *bytes;
+    size_t size;
+    uint8_t *owned; // released with the list, or NULL
+} alpi_gltf_file;
+typedef struct alpi_gltf_files {
+    alp_context *context;
+    alpi_gltf_file *items;
+    size_t count, capacity;
+} alpi_gltf_files;
+
+/// Takes over path and owned, also on failure.
+alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file);
+void alpi_gltf_files_destroy(alpi_gltf_files *files);
+
+/// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
+typedef struct alpi_gltf_names {
+    char *bin, *data; // paths: what was the BIN chunk, what the bake adds
+    char **pages;     // [page_count] paths
+    char *bin_uri, *data_uri;
+    char **page_uris; // [page_count]
+    uint32_t page_count;
+} alpi_gltf_names;
+alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
+                                  const char *path, uint32_t page_count, alpi_gltf_names *names);
+void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names);
+
+/// Where the data of the written file lives.
+typedef enum alpi_gltf_home {
+    ALPI_HOME_BIN,      // the BIN chunk of a GLB, behind what is there
+    ALPI_HOME_MERGED,   // .gltf → .glb: all buffers in one BIN chunk, ours last
+    ALPI_HOME_FILE,     // a .gltf: a file of its own
+    ALPI_HOME_DATA_URI, // a .glb whose buffer 0 is another file: a data: URI
+} alpi_gltf_home;
+alpi_gltf_home alpi_gltf_choose_home(const alpi_gltf_document *document, bool to_glb);
+
+/// Sets data_buffer and data_base of a patcher.
+alp_result alpi_gltf_prepare_home(alpi_gltf_patcher *patcher, alpi_gltf_home home);
+/// After alpi_patcher_run: embeds external images (MERGED), edits buffers and bufferViews, and puts
+/// the bytes of the BIN chunk into `bin` (empty for a .gltf).
+alp_result alpi_gltf_settle_home(alpi_gltf_patcher *patcher, alpi_gltf_home home,
+                                 const alpi_gltf_names *names, alpi_bytes *bin);
+
+#endif

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Materials: each (old material, page, coordinate set) in use needs one. The first of an old
+// material is that material itself, unless something that gets no map uses it too.
+#include "formats/gltf_patch.h"
+
+#include "base/memory.h"
+#include "formats/gltf_tree.h"
+
+#include <stdio.h>
+
+/// A material that the written file needs.
+typedef struct need {
+    size_t old; // ALPI_GLTF_NONE = the primitive had none
+    uint32_t page, uv_set;
+    size_t written;
+} need;
+
+typedef struct needs {
+    need *items;
+    size_t count, capacity;
+    bool *has_other_users; // [materials of the document]
+    bool *edited;          // [materials of the document] has become one of the needs
+} needs;
+
+// --- who else uses a material --------------------------------------------------------------------
+
+static void mark_user(const alpi_gltf_patcher *p, json_t *object, bool *marks)
+{
+    json_t *index = json_object_get(object, "material");
+    if (json_is_number(index)) {
+        double value = json_number_value(index);
+        if (value >= 0.0 && value < (double)p->lists[ALPI_GLTF_MATERIALS].count) {
+            marks[(size_t)value] = true;
+        }
+    }
+}
+
+/// Materials that a variant of a primitive can switch to stay as they are.
+static void mark_variants(const alpi_gltf_patcher *p, json_t *primitive, bool *marks)
+{
+    json_t *variants = alpi_gltf_extension(primitive, "KHR_materials_variants");
+    json_t *mappings = json_object_get(variants, "mappings");
+    for (size_t i = 0; i < json_array_size(mappings); i++) {
+        mark_user(p, json_array_get(mappings, i), marks);
+    }
+}
+
+/// Marks the materials of primitives that will still be there unpatched. `patched` tells for each
+/// primitive, counted through all meshes, whether it is edited in place.
+static void mark_other_users(const alpi_gltf_patcher *p, const bool *patched, bool *marks)
+{
+    size_t at = 0, count = p->lists[ALPI_GLTF_MESHES].count;
+    for (size_t m = 0; m < count; m++) {
+        json_t *primitives =
+            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives");
+        for (size_t i = 0; i < json_array_size(primitives); i++, at++) {
+            json_t *primitive = json_array_get(primitives, i);
+            if (!patched[at]) {
+                mark_user(p, primitive, marks);
+            }
+            mark_variants(p, primitive, marks);
+        }
+    }
+}
+
+static alp_result find_other_users(const alpi_gltf_patcher *p, bool *marks)
+{
+    size_t count = p->lists[ALPI_GLTF_MESHES].count, total = 0;
+    size_t *first = ALPI_NEW(p->context, size_t, count);
+    if (first == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (size_t m = 0; m < count; m++) {
+        first[m] = total;
+        total += json_array_size(
+            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives"));
+    }
+    bool *patched = ALPI_NEW(p->context, bool, total);
+    for (size_t i = 0; patched != NULL && i < p->plan_count; i++) {
+        const alpi_gltf_plan *plan = &p->plans[i];
+        patched[first[plan->mesh] + plan->primitive] |= !plan->in_a_copy;
+    }
+    if (patched != NULL) {
+        mark_other_users(p, patched, marks);
+    }
+    alp_result result = patched == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+    alpi_release(p->context, patched);
+    alpi_release(p->context, first);
+    return result;
+}
+
+// --- images and textures -------------------------------------------------------------------------
+
+static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
+{
+    alpi_bytes image = alpi_bytes_create(p->context);
+    alpi_bytes_print(&image, "{\"name\":\"occlusion %u\",", page);
+    if (p->page_uris != NULL) {
+        alpi_bytes_print(&image, "\"uri\":");
+        alpi_bytes_quote(&image, p->page_uris[page]);
+        alpi_bytes_print(&image, "}");
+    } else {
+        size_t view = alpi_patcher_add_view(p, p->patch->page_pngs[page],
+                                            p->patch->page_png_sizes[page], 0, 0);
+        alpi_bytes_print(&image, "\"bufferView\":%zu,\"mimeType\":\"image/png\"}", view);
+    }
+    p->data.failed |= image.failed;
+    size_t index = alpi_patcher_append(p, ALPI_GLTF_IMAGES, image.bytes, image.size);
+    alpi_bytes_destroy(&image);
+    return index;
+}
+
+/// The texture of a page, made at its first use. Not mipmapped: charts are padded by few texels.
+static size_t page_texture(alpi_gltf_patcher *p, uint32_t page)
+{
+    if (p->page_textures[page] == ALPI_GLTF_NONE) {
+        alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
+        static const char sampler[] = "{\"magFilter\":9729,\"minFilter\":9729," // linear
+                                      "\"wrapS\":33071,\"wrapT\":33071}";       // clamp to edge
+        if (samplers->added == 0) {
+            alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
+        }
+        char texture[96];
+        int length = snprintf(texture, sizeof texture, "{\"sampler\":%zu,\"source\":%zu}",
+                              samplers->count, add_page_image(p, page));
+        p->page_textures[page] =
+            alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
+    }
+    return p->page_textures[page];
+}
+
+// --- materials -----------------------------------------------------------------------------------
+
+static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value)
+{
+    alpi_bytes_print(value, "{\"index\":%zu", page_texture(p, n->page));
+    if (n->uv_set != 0) {
+        alpi_bytes_print(value, ",\"texCoord\":%u", n->uv_set);
+    }
+    if (p->patch->occlusion_strength != 1.0f) {
+        alpi_bytes_print(value, ",\"strength\":");
+        alpi_bytes_number(value, (double)p->patch->occlusion_strength, 9);
+    }
+    alpi_bytes_print(value, "}");
+}
+
+/// Puts the map into a material: the one of the document, a copy of it, or a new one. The whole
+/// occlusionTexture is replaced, so that no KHR_texture_transform of the old one remains.
+static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
+{
+    alpi_bytes value = alpi_bytes_create(p->context), text = alpi_bytes_create(p->context);
+    print_texture(p, n, &value);
+    alp_result result = ALP_OK;
+    if (n->old == ALPI_GLTF_NONE) {
+        alpi_bytes_print(&text, "{\"occlusionTexture\":%s}", (const char *)value.bytes);
+        n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
+    } else {
+        alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];
+        if (!all->has_other_users[n->old] && !all->edited[n->old]) {
+            n->written = n->old;
+            alpi_edits_set(&p->edits, span, "occlusionTexture", value.bytes, value.size);
+        } else {
+            alpi_edits copy = alpi_edits_create(p->context, p->document->text);
+            alpi_edits_set(&copy, span, "occlusionTexture", value.bytes, value.size);
+            result = alpi_edits_apply(&copy, span, &text);
+            n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
+            alpi_edits_destroy(&copy);
+        }
+        all->edited[n->old] = true;
+    }
+    p->data.failed |= value.failed || text.failed;
+    alpi_bytes_destroy(&value);
+    alpi_bytes_destroy(&text);
+    return result;
+}
+
+static alp_result find_material(alpi_gltf_patcher *p, needs *all, const need *wanted,
+                                size_t *written)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        const need *n = &all->items[i];
+        if (n->old == wanted->old && n->page == wanted->page && n->uv_set == wanted->uv_set) {
+            *written = n->written;
+            return ALP_OK;
+        }
+    }
+    void *items = all->items;
+    ALP_TRY(alpi_grow(p->context, &items, &all->capacity, all->count + 1, sizeof *all->items));
+    all->items = items;
+    need *n = &all->items[all->count++];
+    *n = *wanted;
+    ALP_TRY(write_material(p, all, n));
+    *written = n->written;
+    return ALP_OK;
+}
+
+static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
+{
+    size_t count = p->lists[ALPI_GLTF_MATERIALS].count;
+    ALPI_TRY_NEW(p->context, all->has_other_users, count);
+    ALPI_TRY_NEW(p->context, all->edited, count);
+    ALP_TRY(find_other_users(p, all->has_other_users));
+    for (size_t i = 0; i < p->plan_count; i++) {
+        const alpi_gltf_plan *plan = &p->plans[i];
+        for (size_t k = 0; k < plan->piece_count; k++) {
+            alpi_gltf_piece *piece = &p->pieces[plan->piece_first + k];
+            need wanted = {.old = plan->material, .page = piece->page, .uv_set = plan->uv_set};
+            ALP_TRY(find_material(p, all, &wanted, &piece->material));
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_patcher_materials(alpi_gltf_patcher *p)
+{
+    needs all = {0};
+    alp_result result = write_materials(p, &all);
+    alpi_release(p->context, all.items);
+    alpi_release(p->context, all.has_other_users);
+    alpi_release(p->context, all.edited);
+    return result;
+}

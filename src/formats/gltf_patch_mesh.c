@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: MIT
+// Edits of meshes: a coordinate set for each primitive, vertices split where charts meet, one
+// primitive a page, and copies of meshes that several nodes use.
+#include "formats/gltf_patch.h"
+
+#include "base/memory.h"
+#include "formats/gltf_accessor.h"
+#include "formats/gltf_bytes.h"
+#include "formats/gltf_tree.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MODE_TRIANGLES = 4 };
+
+/// An attribute whose accessor changes.
+typedef struct attribute_edit {
+    alpi_json_span span; // of the index
+    size_t accessor;
+} attribute_edit;
+
+/// One primitive of the document and what becomes of it.
+typedef struct rewrite {
+    const alpi_gltf_plan *plan;
+    const alpi_surface *surface;
+    json_t *primitive;
+    alpi_json_span span, attributes;
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    uint32_t vertex_count;
+    uint32_t (*indices)[3]; // of the file
+    uint32_t triangle_count;
+    float (*corner_uvs)[3][2]; // in the file's order
+    alpi_gltf_split split;
+    size_t uv_accessor; // ALPI_GLTF_NONE: kept coordinates
+    attribute_edit *attribute_edits;
+    size_t attribute_count, attribute_capacity;
+} rewrite;
+
+static void destroy_rewrite(alpi_gltf_patcher *p, rewrite *r)
+{
+    alpi_gltf_split_destroy(p->context, &r->split);
+    alpi_release(p->context, r->indices);
+    alpi_release(p->context, r->corner_uvs);
+    alpi_release(p->context, r->attribute_edits);
+}
+
+// --- corners -------------------------------------------------------------------------------------
+
+static uint32_t source_vertex(const alpi_gltf_patcher *p, const rewrite *r, uint32_t vertex)
+{
+    return p->exported ? vertex - r->surface->first_vertex : p->scene->vertex_source[vertex];
+}
+
+/// Which corner of the scene's triangle each corner of the file's is: a mirrored surface was turned
+/// when it was read.
+static bool match_corners(const alpi_gltf_patcher *p, const rewrite *r, uint32_t i, int order[3])
+{
+    static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {2, 1, 0},
+                                     {1, 0, 2}, {1, 2, 0}, {2, 0, 1}};
+    const uint32_t *corners = p->scene->triangles[r->surface->first_triangle + i];
+    for (int o = 0; o < 6; o++) {
+        bool same = true;
+        for (int k = 0; k < 3; k++) {
+            same &= source_vertex(p, r, corners[orders[o][k]]) == r->indices[i][k];
+        }
+        if (same) {
+            memcpy(order, orders[o], sizeof orders[o]);
+            return true;
+        }
+    }
+    return false;
+}
+
+static alp_result turn_corners(alpi_gltf_patcher *p, rewrite *r)
+{
+    ALPI_TRY_NEW(p->context, r->corner_uvs, r->triangle_count);
+    for (uint32_t i = 0; i < r->triangle_count; i++) {
+        int order[3];
+        if (!match_corners(p, r, i, order)) {
+            return alpi_gltf_fail(p->document, r->owner, "triangle %u is not the one that was read",
+                                  i);
+        }
+        for (int k = 0; k < 3; k++) {
+            for (int axis = 0; axis < 2; axis++) {
+                float value = p->patch->corner_uvs[r->surface->first_triangle + i][order[k]][axis];
+                r->corner_uvs[i][k][axis] = isfinite(value) ? value + 0.0f : 0.0f; // −0 → 0
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+// --- attributes ----------------------------------------------------------------------------------
+
+/// An index in the text, read as the parser reads numbers.
+static size_t read_index(const alpi_gltf_patcher *p, alpi_json_span span)
+{
+    json_t *number =
+        json_loadb(p->document->text + span.begin, span.end - span.begin, JSON_DECODE_ANY, NULL);
+    double value = json_number_value(number);
+    bool fits = json_is_number(number) && value >= 0.0 &&
+                value < (double)p->lists[ALPI_GLTF_ACCESSORS].count;
+    json_decref(number);
+    return fits ? (size_t)value : ALPI_GLTF_NONE;
+}
+
+/// Bytes of a matrix element: columns begin at multiples of 4 (glTF 2.0, section 3.6.2.4).
+static size_t matrix_size(const char *type, uint32_t component_type)
+{
+    size_t side = type[3] >= '2' && type[3] <= '4' ? (size_t)(type[3] - '0') : 0;
+    size_t component = component_type <= 5121 ? 1 : component_type <= 5123 ? 2 : 4;
+    return side * ((side * component + 3) / 4 * 4);
+}
+
+/// A matrix for each vertex: only attributes of somebody's own ("_NAME") can be that. `packed` is
+/// released by the caller.
+static alp_result read_matrices(alpi_gltf_patcher *p, size_t accessor, alpi_gltf_array *array,
+                                uint8_t **packed)
+{
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "accessor %zu", accessor);
+    json_t *object = alpi_gltf_item(p->document, "accessors", accessor);
+    size_t index, offset, count, component;
+    ALP_TRY(
+        alpi_gltf_needed_index(p->document, object, "bufferView", "bufferViews", owner, &index));
+    ALP_TRY(alpi_gltf_size_or(p->document, object, "byteOffset", owner, 0, &offset));
+    ALP_TRY(alpi_gltf_size(p->document, object, "count", owner, &count));
+    ALP_TRY(alpi_gltf_size(p->document, object, "componentType", owner, &component));
+    alpi_gltf_view view;
+    ALP_TRY(alpi_gltf_view_read(p->document, index, &view));
+    array->type = alpi_gltf_text(object, "type");
+    array->component_type = (uint32_t)component;
+    size_t size = matrix_size(array->type, array->component_type);
+    size_t stride = view.stride != 0 ? view.stride : size;
+    if (size == 0 || stride < size || count == 0 || count > UINT32_MAX || offset > view.size ||
+        view.size - offset < size || (view.size - offset - size) / stride < count - 1 ||
+        json_object_get(object, "sparse") != NULL) {
+        return alpi_gltf_fail(p->document, owner, "its matrices do not fit into bufferView %zu",
+                              index);
+    }
+    ALPI_TRY_NEW(p->context, *packed, count * size);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(*packed + i * size, view.bytes + offset + i * stride, size);
+    }
+    array->count = (uint32_t)count;
+    array->element_size = size;
+    array->normalized = json_is_true(json_object_get(object, "normalized"));
+    return ALP_OK;
+}
+
+static alp_result read_attribute(alpi_gltf_patcher *p, size_t accessor, alpi_gltf_array *array,
+                                 uint8_t **packed)
+{
+    const char *type = alpi_gltf_text(alpi_gltf_item(p->document, "accessors", accessor), "type");
+    if (type != NULL && strncmp(type, "MAT", 3) == 0) {
+        return read_matrices(p, accessor, array, packed);
+    }
+    alpi_gltf_values values;
+    ALP_TRY(alpi_gltf_accessor_read(p->document, accessor, &values));
+    *packed = values.bytes;
+    array->count = values.count;
+    array->components = values.components;
+    array->component_type = values.component_type;
+    array->element_size = (size_t)values.components * values.component_size;
+    array->normalized = values.normalized;
+    return ALP_OK;
+}
+
+/// The attribute's values at the split vertices, raw.
+static alp_result gather(alpi_gltf_patcher *p, const rewrite *r, size_t accessor,
+                         alpi_gltf_array *array, const uint8_t *packed, size_t *written)
+{
+    if (array->count != r->vertex_count) {
+        return alpi_gltf_fail(p->document, r->owner, "accessor %zu has %u elements for %u vertices",
+                              accessor, array->count, r->vertex_count);
+    }
+    size_t size = array->element_size;
+    uint8_t *gathered = alpi_allocate(p->context, r->split.vertex_count, size);
+    if (gathered == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t v = 0; v < r->split.vertex_count; v++) {
+        memcpy(gathered + v * size, packed + r->split.sources[v] * size, size);
+    }
+    array->count = r->split.vertex_count;
+    array->bytes = gathered;
+    alp_result result = alpi_patcher_add_accessor(p, array, written);
+    alpi_release(p->context, gathered);
+    return result;
+}
+
+static alp_result split_attribute(alpi_gltf_patcher *p, rewrite *r, alpi_json_span span,
+                                  bool is_position)
+{
+    size_t accessor = read_index(p, span);
+    if (accessor == ALPI_GLTF_NONE) {
+        return alpi_gltf_fail(p->document, r->owner, "an attribute names no accessor");
+    }
+    json_t *object = alpi_gltf_item(p->document, "accessors", accessor);
+    alpi_gltf_array array = {.has_bounds = is_position || json_object_get(object, "min") != NULL};
+    uint8_t *packed = NULL;
+    ALP_TRY(read_attribute(p, accessor, &array, &packed));
+    attribute_edit edit = {.span = span};
+    alp_result result = gather(p, r, accessor, &array, packed, &edit.accessor);
+    alpi_release(p->context, packed);
+    ALP_TRY(result);
+    void *items = r->attribute_edits;
+    ALP_TRY(
+        alpi_grow(p->context, &items, &r->attribute_capacity, r->attribute_count + 1, sizeof edit));
+    r->attribute_edits = items;
+    r->attribute_edits[r->attribute_count++] = edit;
+    return ALP_OK;
+}
+
+static alp_result split_attributes(alpi_gltf_patcher *p, rewrite *r, alpi_json_span object)
+{
+    const char *text = p->document->text;
+    alpi_json_cursor cursor = alpi_json_open(text, object);
+    while (alpi_json_next(&cursor)) {
+        ALP_TRY(
+            split_attribute(p, r, cursor.value, alpi_json_key_is(text, cursor.key, "POSITION")));
+    }
+    return ALP_OK;
+}
+
+static alp_result split_targets(alpi_gltf_patcher *p, rewrite *r)
+{
+    alpi_json_span targets;
+    if (!alpi_json_find(p->document->text, r->span, "targets", &targets)) {
+        return ALP_OK;
+    }
+    alpi_json_cursor cursor = alpi_json_open(p->document->text, targets);
+    while (alpi_json_next(&cursor)) {
+        ALP_TRY(split_attributes(p, r, cursor.value));
+    }
+    return ALP_OK;
+}
+
+// --- vertices and indices ------------------------------------------------------------------------
+
+static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
+{
+    ALP_TRY(turn_corners(p, r));
+    alpi_gltf_split_input input = {.vertex_count = r->vertex_count,
+                                   .triangle_count = r->triangle_count,
+                                   .indices = r->indices,
+                                   .corner_uvs = r->corner_uvs,
+                                   .usable =
+                                       p->scene->triangle_usable + r->surface->first_triangle};
+    ALP_TRY(alpi_gltf_split_create(p->context, &input, &r->split));
+    if (r->split.changed) {
+        ALP_TRY(split_attributes(p, r, r->attributes));
+        ALP_TRY(split_targets(p, r));
+    }
+    alpi_gltf_array uvs = {.bytes = r->split.uvs,
+                           .count = r->split.vertex_count,
+                           .components = 2,
+                           .component_type = 5126,
+                           .element_size = sizeof *r->split.uvs};
+    return alpi_patcher_add_accessor(p, &uvs, &r->uv_accessor);
+}
+
+/// The triangles of one page, as a new index accessor. The largest index of a type is no vertex:
+/// it restarts primitives.
+static alp_result write_indices(alpi_gltf_patcher *p, const rewrite *r, uint32_t page,
+                                size_t *accessor)
+{
+    uint32_t(*indices)[3] = r->split.changed ? r->split.indices : r->indices;
+    uint32_t vertex_count = r->split.changed ? r->split.vertex_count : r->vertex_count;
+    bool is_short = vertex_count <= 65535;
+    alpi_bytes bytes = alpi_bytes_create(p->context);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->triangle_count; i++) {
+        for (int k = 0; k < 3 && p->triangle_pages[r->surface->first_triangle + i] == page; k++) {
+            uint16_t small = (uint16_t)indices[i][k];
+            alpi_bytes_add(&bytes, is_short ? (const void *)&small : (const void *)&indices[i][k],
+                           is_short ? 2 : 4);
+            count++;
+        }
+    }
+    alpi_gltf_array array = {.bytes = bytes.bytes,
+                             .count = count,
+                             .components = 1,
+                             .component_type = is_short ? 5123 : 5125,
+                             .element_size = is_short ? 2 : 4,
+                             .is_indices = true};
+    alp_result result =
+        bytes.failed ? ALP_ERROR_OUT_OF_MEMORY : alpi_patcher_add_accessor(p, &array, accessor);
+    alpi_bytes_destroy(&bytes);
+    return result;
+}
+
+// --- the text of a primitive ---------------------------------------------------------------------
+
+/// Compressed copies of attributes that change are taken out: their order of vertices is another.
+static void drop_compression(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r)
+{
+    static const char name[] = "KHR_draco_mesh_compression";
+    json_t *extensions = json_object_get(r->primitive, "extensions");
+    alpi_json_span span;
+    if (json_object_get(extensions, name) == NULL ||
+        !alpi_json_find(p->document->text, r->span, "extensions", &span)) {
+        return;
+    }
+    if (json_object_size(extensions) == 1) {
+        alpi_edits_remove(edits, r->span, "extensions");
+    } else {
+        alpi_edits_remove(edits, span, name);
+    }
+    alpi_note(p->context, "compression", r->owner,
+              "its compressed copy is left out, because the plain one gained coordinates");
+}
+
+static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
+                                 const alpi_gltf_piece *piece)
+{
+    for (size_t i = 0; i < r->attribute_count; i++) {
+        alpi_edits_replace(edits, r->attribute_edits[i].span, "%zu",
+                           r->attribute_edits[i].accessor);
+    }
+    if (r->uv_accessor != ALPI_GLTF_NONE) {
+        char name[32];
+        snprintf(name, sizeof name, "TEXCOORD_%u", r->plan->uv_set);
+        alpi_edits_set_index(edits, r->attributes, name, r->uv_accessor);
+        drop_compression(p, edits, r);
+    }
+    if (r->split.changed || r->plan->piece_count > 1) {
+        size_t accessor, mode;
+        ALP_TRY(write_indices(p, r, piece->page, &accessor));
+        alpi_edits_set_index(edits, r->span, "indices", accessor);
+        ALP_TRY(
+            alpi_gltf_size_or(p->document, r->primitive, "mode", r->owner, MODE_TRIANGLES, &mode));
+        if (mode != MODE_TRIANGLES) { // a strip or fan
+            alpi_edits_set_index(edits, r->span, "mode", MODE_TRIANGLES);
+        }
+    }
+    if (piece->material != r->plan->material) {
+        alpi_edits_set_index(edits, r->span, "material", piece->material);
+    }
+    return ALP_OK;
+}
+
+/// The first piece is the primitive itself; the others are copies behind the last primitive.
+static alp_result write_pieces(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
+                               alpi_json_span primitives)
+{
+    const alpi_gltf_piece *pieces = &p->pieces[r->plan->piece_first];
+    ALP_TRY(edit_primitive(p, edits, r, &pieces[0]));
+    for (size_t k = 1; k < r->plan->piece_count; k++) {
+        alpi_edits copy = alpi_edits_create(p->context, p->document->text);
+        alpi_bytes text = alpi_bytes_create(p->context);
+        alp_result result = edit_primitive(p, &copy, r, &pieces[k]);
+        if (result == ALP_OK) {
+            result = alpi_edits_apply(&copy, r->span, &text);
+        }
+        alpi_edits_add(edits, primitives, NULL, text.bytes, text.size);
+        alpi_bytes_destroy(&text);
+        alpi_edits_destroy(&copy);
+        ALP_TRY(result);
+    }
+    return ALP_OK;
+}
+
+static alp_result read_triangles(alpi_gltf_patcher *p, rewrite *r)
+{
+    const char *text = p->document->text;
+    alpi_json_span position;
+    alpi_gltf_values values;
+    if (!alpi_json_find(text, r->span, "attributes", &r->attributes) ||
+        !alpi_json_find(text, r->attributes, "POSITION", &position) ||
+        read_index(p, position) == ALPI_GLTF_NONE) {
+        return alpi_gltf_fail(p->document, r->owner, "has no POSITION");
+    }
+    ALP_TRY(alpi_gltf_accessor_check(p->document, read_index(p, position), &values));
+    r->vertex_count = values.count;
+    uint32_t leftover;
+    ALP_TRY(alpi_gltf_primitive_triangles(p->document, r->primitive, r->owner, r->vertex_count,
+                                          &r->indices, &r->triangle_count, &leftover));
+    if (r->triangle_count != r->surface->triangle_count) {
+        return alpi_gltf_fail(p->document, r->owner, "has %u triangles, but %u were read",
+                              r->triangle_count, r->surface->triangle_count);
+    }
+    return ALP_OK;
+}
+
+static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
+                                    const alpi_gltf_plan *plan, alpi_json_span span,
+                                    alpi_json_span primitives)
+{
+    rewrite r = {.plan = plan,
+                 .surface = &p->scene->surfaces[plan->surface],
+                 .primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive),
+                 .span = span,
+                 .uv_accessor = ALPI_GLTF_NONE};
+    snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
+    alp_result result = read_triangles(p, &r);
+    if (result == ALP_OK && p->patch->corner_uvs != NULL) {
+        result = split_vertices(p, &r);
+    }
+    if (result == ALP_OK) {
+        result = write_pieces(p, edits, &r, primitives);
+    }
+    destroy_rewrite(p, &r);
+    return result;
+}
+
+// --- meshes --------------------------------------------------------------------------------------
+
+/// Edits the primitives of plans [first, end), which belong to one mesh.
+static alp_result rewrite_mesh(alpi_gltf_patcher *p, alpi_edits *edits, size_t first, size_t end)
+{
+    alpi_json_span mesh = p->lists[ALPI_GLTF_MESHES].spans[p->plans[first].mesh], primitives;
+    if (!alpi_json_find(p->document->text, mesh, "primitives", &primitives)) {
+        return alpi_fail(p->context, ALP_ERROR_INVALID_DATA, "%s: mesh %zu has no primitives",
+                         p->document->path, p->plans[first].mesh);
+    }
+    alpi_json_cursor cursor = alpi_json_open(p->document->text, primitives);
+    for (size_t i = first; i < end && alpi_json_next(&cursor);) {
+        if (cursor.index == p->plans[i].primitive) {
+            ALP_TRY(rewrite_primitive(p, edits, &p->plans[i], cursor.value, primitives));
+            i++;
+        }
+    }
+    return ALP_OK;
+}
+
+/// The node gets a copy of its mesh; what the copy does not change it shares with the original.
+static alp_result copy_mesh(alpi_gltf_patcher *p, size_t first, size_t end)
+{
+    const alpi_gltf_plan *plan = &p->plans[first];
+    alpi_edits edits = alpi_edits_create(p->context, p->document->text);
+    alpi_bytes text = alpi_bytes_create(p->context);
+    alp_result result = rewrite_mesh(p, &edits, first, end);
+    if (result == ALP_OK) {
+        result = alpi_edits_apply(&edits, p->lists[ALPI_GLTF_MESHES].spans[plan->mesh], &text);
+    }
+    if (result == ALP_OK) {
+        size_t mesh = alpi_patcher_append(p, ALPI_GLTF_MESHES, text.bytes, text.size);
+        alpi_edits_set_index(&p->edits, p->lists[ALPI_GLTF_NODES].spans[plan->user], "mesh", mesh);
+    }
+    alpi_bytes_destroy(&text);
+    alpi_edits_destroy(&edits);
+    return result;
+}
+
+alp_result alpi_patcher_meshes(alpi_gltf_patcher *p)
+{
+    for (size_t first = 0, end; first < p->plan_count; first = end) {
+        for (end = first + 1; end < p->plan_count && p->plans[end].user == p->plans[first].user;) {
+            end++;
+        }
+        ALP_TRY(p->plans[first].in_a_copy ? copy_mesh(p, first, end)
+                                          : rewrite_mesh(p, &p->edits, first, end));
+    }
+    return ALP_OK;
+}

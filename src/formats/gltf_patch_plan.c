@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// Which primitives get a map: their coordinate set, their pages, and whether their mesh can be
+// edited where it stands or must be copied for the node.
+#include "formats/gltf_patch.h"
+
+#include "base/memory.h"
+#include "formats/gltf_tree.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, size_t primitive)
+{
+    json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
+    json_t *item = json_array_get(primitives, primitive);
+    return json_is_object(item) ? item : NULL;
+}
+
+static bool keeps_uvs(const alpi_gltf_patcher *p)
+{
+    return p->patch->corner_uvs == NULL;
+}
+
+// --- pages of triangles --------------------------------------------------------------------------
+
+/// A triangle without area is seen by nobody: it goes where the one before it goes, so that no
+/// primitive is split for its sake.
+static alp_result fill_pages(alpi_gltf_patcher *p)
+{
+    const alp_scene *scene = p->scene;
+    const uint32_t *given = p->patch->triangle_pages;
+    ALPI_TRY_NEW(p->context, p->triangle_pages, scene->triangle_count);
+    for (uint32_t s = 0; given != NULL && s < scene->surface_count; s++) {
+        uint32_t first = scene->surfaces[s].first_triangle;
+        uint32_t end = first + scene->surfaces[s].triangle_count;
+        uint32_t page = first < end ? given[first] : 0;
+        for (uint32_t t = first; t < end; t++) {
+            if (scene->triangle_usable[t]) {
+                page = given[t];
+                break;
+            }
+        }
+        for (uint32_t t = first; t < end; t++) {
+            page = scene->triangle_usable[t] ? given[t] : page;
+            p->triangle_pages[t] = page;
+            if (page >= p->patch->page_count) {
+                return alpi_fail(p->context, ALP_ERROR_INVALID_ARGUMENT,
+                                 "%s: triangle %u lies on page %u of %u", scene->name, t, page,
+                                 p->patch->page_count);
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+// --- one plan a surface --------------------------------------------------------------------------
+
+static bool has_texcoord(json_t *primitive, uint32_t set)
+{
+    char name[32];
+    snprintf(name, sizeof name, "TEXCOORD_%u", set);
+    return json_object_get(json_object_get(primitive, "attributes"), name) != NULL;
+}
+
+/// The set that the map is read with; false when there is none (kept coordinates that are absent).
+static bool choose_uv_set(const alpi_gltf_patcher *p, json_t *primitive, uint32_t *set)
+{
+    if (keeps_uvs(p)) {
+        *set = p->patch->kept_uv_set;
+        return has_texcoord(primitive, *set);
+    }
+    *set = 0;
+    while (has_texcoord(primitive, *set)) {
+        ++*set;
+    }
+    return true;
+}
+
+static bool keeps_its_map(const alpi_gltf_patcher *p, size_t material)
+{
+    return p->patch->existing_ao == ALPI_EXISTING_AO_KEEP && material != ALPI_GLTF_NONE &&
+           json_object_get(alpi_gltf_item(p->document, "materials", material),
+                           "occlusionTexture") != NULL;
+}
+
+/// Plans one surface; *wanted is false when it stays as it is.
+static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_plan *plan,
+                               bool *wanted)
+{
+    const alpi_surface *surface = &p->scene->surfaces[index];
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    *wanted = false;
+    if (surface->triangle_count == 0) {
+        return ALP_OK;
+    }
+    size_t node = p->exported ? index : surface->node;
+    *plan = (alpi_gltf_plan){.surface = index, .primitive = p->exported ? 0 : surface->primitive};
+    snprintf(owner, sizeof owner, "node %zu", node);
+    ALP_TRY(alpi_gltf_needed_index(p->document, alpi_gltf_item(p->document, "nodes", node), "mesh",
+                                   "meshes", owner, &plan->mesh));
+    plan->user = keeps_uvs(p) ? plan->mesh : node;
+    json_t *primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive);
+    snprintf(owner, sizeof owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
+    if (primitive == NULL) {
+        return alpi_gltf_fail(p->document, owner, "is in the scene, but not in the file");
+    }
+    ALP_TRY(
+        alpi_gltf_index(p->document, primitive, "material", "materials", owner, &plan->material));
+    if (keeps_its_map(p, plan->material)) {
+        return ALP_OK;
+    }
+    *wanted = choose_uv_set(p, primitive, &plan->uv_set);
+    if (!*wanted) {
+        alpi_warn(p->context, "no-uv-set", surface->name,
+                  "%s has no TEXCOORD_%u: it gets no occlusion map", owner, plan->uv_set);
+    }
+    return ALP_OK;
+}
+
+static int compare_plans(const void *left, const void *right)
+{
+    const alpi_gltf_plan *a = left, *b = right;
+    if (a->user != b->user) {
+        return a->user < b->user ? -1 : 1;
+    }
+    if (a->primitive != b->primitive) {
+        return a->primitive < b->primitive ? -1 : 1;
+    }
+    return a->surface < b->surface ? -1 : a->surface > b->surface;
+}
+
+/// Drops second plans for the same primitive of the same user: the other nodes of a mesh whose
+/// coordinates are kept see the map of the first.
+static void drop_repeated(alpi_gltf_patcher *p)
+{
+    size_t kept = 0, told = ALPI_GLTF_NONE;
+    for (size_t i = 0; i < p->plan_count; i++) {
+        const alpi_gltf_plan *plan = &p->plans[i];
+        const alpi_gltf_plan *last = kept > 0 ? &p->plans[kept - 1] : NULL;
+        if (last == NULL || plan->user != last->user || plan->primitive != last->primitive) {
+            p->plans[kept++] = *plan;
+        } else if (plan->mesh != told) {
+            told = plan->mesh;
+            char owner[ALPI_GLTF_OWNER_SIZE];
+            snprintf(owner, sizeof owner, "mesh %zu", plan->mesh);
+            alpi_note(p->context, "shared-mesh", owner,
+                      "several nodes use this mesh with kept coordinates: all show the same map");
+        }
+    }
+    p->plan_count = kept;
+}
+
+// --- in place or in a copy -----------------------------------------------------------------------
+
+/// How often nodes of the document use each mesh, those outside the read scene included.
+static alp_result count_mesh_users(const alpi_gltf_patcher *p, size_t *users)
+{
+    size_t count = p->lists[ALPI_GLTF_NODES].count;
+    for (size_t i = 0; i < count; i++) {
+        char owner[ALPI_GLTF_OWNER_SIZE];
+        snprintf(owner, sizeof owner, "node %zu", i);
+        size_t mesh;
+        ALP_TRY(alpi_gltf_index(p->document, alpi_gltf_item(p->document, "nodes", i), "mesh",
+                                "meshes", owner, &mesh));
+        if (mesh != ALPI_GLTF_NONE) {
+            users[mesh]++;
+        }
+    }
+    return ALP_OK;
+}
+
+/// The first node of a mesh may have the original, if every node that uses it gets a map.
+static void choose_copies(alpi_gltf_patcher *p, const size_t *users, size_t *ours, bool *taken)
+{
+    for (size_t i = 0; i < p->plan_count; i++) {
+        if (i == 0 || p->plans[i].user != p->plans[i - 1].user) {
+            ours[p->plans[i].mesh]++;
+        }
+    }
+    for (size_t i = 0; i < p->plan_count; i++) {
+        alpi_gltf_plan *plan = &p->plans[i];
+        if (i > 0 && plan->user == plan[-1].user) {
+            plan->in_a_copy = plan[-1].in_a_copy;
+        } else {
+            plan->in_a_copy =
+                !keeps_uvs(p) && (taken[plan->mesh] || users[plan->mesh] != ours[plan->mesh]);
+            taken[plan->mesh] = true;
+        }
+    }
+}
+
+static alp_result plan_copies(alpi_gltf_patcher *p)
+{
+    size_t count = p->lists[ALPI_GLTF_MESHES].count;
+    size_t *users = ALPI_NEW(p->context, size_t, count);
+    size_t *ours = ALPI_NEW(p->context, size_t, count);
+    bool *taken = ALPI_NEW(p->context, bool, count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (users != NULL && ours != NULL && taken != NULL) {
+        result = count_mesh_users(p, users);
+        if (result == ALP_OK) {
+            choose_copies(p, users, ours, taken);
+        }
+    }
+    alpi_release(p->context, users);
+    alpi_release(p->context, ours);
+    alpi_release(p->context, taken);
+    return result;
+}
+
+// --- pieces --------------------------------------------------------------------------------------
+
+static alp_result add_piece(alpi_gltf_patcher *p, uint32_t page)
+{
+    void *items = p->pieces;
+    ALP_TRY(
+        alpi_grow(p->context, &items, &p->piece_capacity, p->piece_count + 1, sizeof *p->pieces));
+    p->pieces = items;
+    p->pieces[p->piece_count++] = (alpi_gltf_piece){.page = page, .material = ALPI_GLTF_NONE};
+    return ALP_OK;
+}
+
+/// One piece for each page that the plan's triangles lie on, in ascending order.
+static alp_result plan_pieces(alpi_gltf_patcher *p, alpi_gltf_plan *plan, bool *used)
+{
+    const alpi_surface *surface = &p->scene->surfaces[plan->surface];
+    memset(used, 0, p->patch->page_count * sizeof *used);
+    for (uint32_t i = 0; i < surface->triangle_count; i++) {
+        used[p->triangle_pages[surface->first_triangle + i]] = true;
+    }
+    plan->piece_first = p->piece_count;
+    for (uint32_t page = 0; page < p->patch->page_count; page++) {
+        if (used[page]) {
+            ALP_TRY(add_piece(p, page));
+        }
+    }
+    plan->piece_count = p->piece_count - plan->piece_first;
+    return ALP_OK;
+}
+
+alp_result alpi_patcher_plan(alpi_gltf_patcher *p)
+{
+    if (p->patch->page_count == 0) {
+        return alpi_fail(p->context, ALP_ERROR_INVALID_ARGUMENT, "%s: a patch without pages",
+                         p->scene->name);
+    }
+    ALP_TRY(fill_pages(p));
+    ALPI_TRY_NEW(p->context, p->plans, p->scene->surface_count);
+    for (uint32_t s = 0; s < p->scene->surface_count; s++) {
+        bool wanted;
+        ALP_TRY(plan_surface(p, s, &p->plans[p->plan_count], &wanted));
+        p->plan_count += wanted;
+    }
+    if (p->plan_count > 0) {
+        qsort(p->plans, p->plan_count, sizeof *p->plans, compare_plans);
+    }
+    drop_repeated(p);
+    ALP_TRY(plan_copies(p));
+    bool *used = ALPI_NEW(p->context, bool, p->patch->page_count);
+    alp_result result = used == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+    for (size_t i = 0; result == ALP_OK && i < p->plan_count; i++) {
+        result = plan_pieces(p, &p->plans[i], used);
+    }
+    alpi_release(p->context, used);
+    return result;
+}

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: MIT
+// Writes a patched document: collects the bytes of every file first, writes temporary files, and
+// renames them at the end, the asset itself last.
+#include "formats/formats.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "formats/gltf_bytes.h"
+#include "formats/gltf_patch.h"
+#include "formats/gltf_tree.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// --- a list of files -----------------------------------------------------------------------------
+
+alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file)
+{
+    void *items = files->items;
+    if (file.path == NULL || alpi_grow(files->context, &items, &files->capacity, files->count + 1,
+                                       sizeof *files->items) != ALP_OK) {
+        alpi_release(files->context, file.path);
+        alpi_release(files->context, file.owned);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    files->items = items;
+    files->items[files->count++] = file;
+    return ALP_OK;
+}
+
+void alpi_gltf_files_destroy(alpi_gltf_files *files)
+{
+    for (size_t i = 0; i < files->count; i++) {
+        alpi_release(files->context, files->items[i].path);
+        alpi_release(files->context, files->items[i].owned);
+    }
+    alpi_release(files->context, files->items);
+    *files = (alpi_gltf_files){.context = files->context};
+}
+
+static alp_result open_files(const alpi_gltf_files *files, bool overwrite,
+                             alpi_file_writer *writers, size_t *opened)
+{
+    for (size_t i = 0; i < files->count; i++) {
+        const alpi_gltf_file *file = &files->items[i];
+        ALP_TRY(alpi_file_open(files->context, file->path, overwrite, &writers[i]));
+        *opened = i + 1;
+        ALP_TRY(alpi_file_append(&writers[i], file->bytes, file->size));
+    }
+    return ALP_OK;
+}
+
+/// Nothing is renamed before the last byte of the last file is on its way to the disk.
+static alp_result write_files(const alpi_gltf_files *files, bool overwrite)
+{
+    alpi_file_writer *writers = ALPI_NEW(files->context, alpi_file_writer, files->count);
+    if (writers == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    size_t opened = 0, committed = 0;
+    alp_result result = open_files(files, overwrite, writers, &opened);
+    while (result == ALP_OK && committed < opened) {
+        result = alpi_file_commit(&writers[committed++]);
+    }
+    for (size_t i = committed; i < opened; i++) {
+        alpi_file_abandon(&writers[i]);
+    }
+    alpi_release(files->context, writers);
+    return result;
+}
+
+// --- files that the asset refers to --------------------------------------------------------------
+
+static bool same_folder(const char *a, const char *b)
+{
+    struct stat first, second;
+    return stat(a[0] != '\0' ? a : ".", &first) == 0 &&
+           stat(b[0] != '\0' ? b : ".", &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+/// Whether a file holds exactly these bytes.
+static bool file_equals(alp_context *context, const char *path, const uint8_t *bytes, size_t size)
+{
+    uint8_t *there = NULL;
+    size_t there_size = 0;
+    bool same = access(path, F_OK) == 0 &&
+                alpi_file_read(context, path, size, &there, &there_size) == ALP_OK &&
+                there_size == size && memcmp(there, bytes, size) == 0;
+    alpi_release(context, there);
+    return same;
+}
+
+/// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
+static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *document,
+                           const char *source, const char *folder)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    alp_result result = alpi_file_read(files->context, source, ALPI_GLTF_FILE_LIMIT, &bytes, &size);
+    if (result != ALP_OK) {
+        alpi_note(files->context, "missing-file", source,
+                  "the asset refers to it, but it cannot be read: the copy will miss it too");
+        return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
+    }
+    char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
+    bool repeated = path != NULL && file_equals(files->context, path, bytes, size);
+    for (size_t i = 0; path != NULL && i < files->count; i++) {
+        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
+    }
+    if (repeated) {
+        alpi_release(files->context, path);
+        alpi_release(files->context, bytes);
+        return ALP_OK;
+    }
+    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
+}
+
+static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *document,
+                             const char *kind, const bool *skipped, const char *folder)
+{
+    size_t count = alpi_gltf_count(document, kind);
+    for (size_t i = 0; i < count; i++) {
+        const char *uri = alpi_gltf_text(alpi_gltf_item(document, kind, i), "uri");
+        char *source = NULL;
+        if (uri == NULL || (skipped != NULL && skipped[i])) {
+            continue;
+        }
+        alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
+        if (result == ALP_OK && source != NULL) {
+            result = add_copy(files, document, source, folder);
+        } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
+            result = ALP_OK; // data: inside the text, or an address elsewhere that stays right
+        }
+        alpi_release(files->context, source);
+        ALP_TRY(result);
+    }
+    return ALP_OK;
+}
+
+/// Buffers and images that the written asset still refers to go where it looks for them.
+static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_document *document,
+                                 const char *path, bool merged, const bool *image_embedded)
+{
+    char *folder = alpi_path_folder(files->context, path);
+    if (folder == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = ALP_OK;
+    if (!same_folder(folder, document->folder)) {
+        if (!merged) {
+            result = add_copies(files, document, "buffers", NULL, folder);
+        }
+        if (result == ALP_OK) {
+            result = add_copies(files, document, "images", image_embedded, folder);
+        }
+    }
+    alpi_release(files->context, folder);
+    return result;
+}
+
+// --- the asset itself ----------------------------------------------------------------------------
+
+static void add_u32(alpi_bytes *bytes, uint32_t value)
+{
+    uint8_t little[4] = {(uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16),
+                         (uint8_t)(value >> 24)};
+    alpi_bytes_add(bytes, little, sizeof little);
+}
+
+static void add_chunk(alpi_bytes *glb, const char type[4], const alpi_bytes *content, char filler)
+{
+    size_t padding = (4 - content->size % 4) % 4;
+    add_u32(glb, (uint32_t)(content->size + padding));
+    alpi_bytes_add(glb, type, 4);
+    alpi_bytes_add(glb, content->bytes, content->size);
+    alpi_bytes_align(glb, filler); // chunks begin at multiples of 4
+}
+
+static alp_result assemble_glb(const alpi_gltf_document *document, const alpi_bytes *text,
+                               const alpi_bytes *bin, alpi_bytes *glb)
+{
+    bool has_bin = bin->size > 0 || document->bin != NULL;
+    size_t more = document->is_glb ? document->more_chunks_size : 0;
+    uint64_t size = 12 + 8 + ((uint64_t)text->size + 3) / 4 * 4 + more;
+    size += has_bin ? 8 + ((uint64_t)bin->size + 3) / 4 * 4 : 0;
+    if (size > UINT32_MAX) {
+        return alpi_fail(document->context, ALP_ERROR_LIMIT,
+                         "%s: the baked file would have %llu bytes, more than a .glb can hold; "
+                         "write a .gltf",
+                         document->path, (unsigned long long)size);
+    }
+    alpi_bytes_add(glb, "glTF", 4);
+    add_u32(glb, 2);
+    add_u32(glb, (uint32_t)size);
+    add_chunk(glb, "JSON", text, ' ');
+    if (has_bin) {
+        add_chunk(glb, "BIN\0", bin, '\0');
+    }
+    alpi_bytes_add(glb, document->more_chunks, more);
+    return glb->failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+/// A .gltf keeps its byte-order mark, if it had one.
+static alp_result assemble_gltf(const alpi_gltf_document *document, const alpi_bytes *text,
+                                alpi_bytes *gltf)
+{
+    if (!document->is_glb) {
+        alpi_bytes_add(gltf, document->file_bytes,
+                       (size_t)(document->text - (const char *)document->file_bytes));
+    } else if (document->more_chunks_size > 0) {
+        alpi_note(document->context, "chunks", document->path,
+                  "chunks after BIN are left out: a .gltf has no place for them");
+    }
+    alpi_bytes_add(gltf, text->bytes, text->size);
+    return gltf->failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+// --- writing -------------------------------------------------------------------------------------
+
+/// One writing: what is owned while it runs.
+typedef struct writing {
+    const alpi_gltf_document *document;
+    const alpi_mesh_patch *patch;
+    const char *path;
+    bool to_glb;
+    alpi_gltf_names names;
+    alpi_gltf_patcher patcher;
+    alpi_gltf_files files;
+    alpi_bytes bin, text, asset;
+} writing;
+
+static alp_result add_side_file(writing *w, const char *path, const void *bytes, size_t size)
+{
+    return alpi_gltf_files_add(
+        &w->files, (alpi_gltf_file){alpi_copy_string(w->files.context, path), bytes, size, NULL});
+}
+
+/// The new files beside a .gltf.
+static alp_result add_side_files(writing *w)
+{
+    const alpi_gltf_document *document = w->document;
+    if (document->bin != NULL && document->buffer_count > 0 &&
+        document->buffers[0].bytes == document->bin) {
+        size_t size;
+        ALP_TRY(alpi_gltf_size(document, alpi_gltf_item(document, "buffers", 0), "byteLength",
+                               "buffer 0", &size)); // without the padding of the chunk
+        ALP_TRY(add_side_file(w, w->names.bin, document->bin, size));
+    }
+    if (w->patcher.data.size > 0) {
+        ALP_TRY(add_side_file(w, w->names.data, w->patcher.data.bytes, w->patcher.data.size));
+    }
+    for (uint32_t i = 0; i < w->patch->page_count; i++) {
+        if (w->patcher.page_textures[i] != ALPI_GLTF_NONE) {
+            ALP_TRY(add_side_file(w, w->names.pages[i], w->patch->page_pngs[i],
+                                  w->patch->page_png_sizes[i]));
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result patch_text(writing *w, alpi_gltf_home home)
+{
+    w->patcher.page_uris = w->to_glb ? NULL : w->names.page_uris;
+    ALP_TRY(alpi_gltf_prepare_home(&w->patcher, home));
+    ALP_TRY(alpi_patcher_run(&w->patcher));
+    ALP_TRY(alpi_gltf_settle_home(&w->patcher, home, &w->names, &w->bin));
+    return alpi_patcher_finish(&w->patcher, &w->text);
+}
+
+static alp_result collect_files(writing *w, alpi_gltf_home home)
+{
+    ALP_TRY(w->to_glb ? assemble_glb(w->document, &w->text, &w->bin, &w->asset)
+                      : assemble_gltf(w->document, &w->text, &w->asset));
+    if (!w->to_glb) {
+        ALP_TRY(add_side_files(w));
+    }
+    ALP_TRY(add_references(&w->files, w->document, w->path, home == ALPI_HOME_MERGED,
+                           w->patcher.image_embedded));
+    return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
+}
+
+static alp_result make_folders(const alpi_gltf_files *files)
+{
+    for (size_t i = 0; i < files->count; i++) {
+        char *folder = alpi_path_folder(files->context, files->items[i].path);
+        alp_result result = folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+        if (result == ALP_OK && folder[0] != '\0') {
+            result = alpi_folder_create(files->context, folder);
+        }
+        alpi_release(files->context, folder);
+        ALP_TRY(result);
+    }
+    return ALP_OK;
+}
+
+static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite)
+{
+    if (!w->to_glb) {
+        ALP_TRY(alpi_gltf_names_create(scene->context, w->document, w->path, w->patch->page_count,
+                                       &w->names));
+    }
+    ALP_TRY(alpi_patcher_create(scene, w->patch, w->document, &w->patcher));
+    alpi_gltf_home home = alpi_gltf_choose_home(w->document, w->to_glb);
+    alp_result result = patch_text(w, home);
+    if (result == ALP_OK) {
+        result = collect_files(w, home);
+    }
+    if (result == ALP_OK) {
+        result = make_folders(&w->files);
+    }
+    if (result == ALP_OK) {
+        result = write_files(&w->files, overwrite);
+    }
+    alpi_patcher_destroy(&w->patcher);
+    return result;
+}
+
+static alp_result choose_container(alp_context *context, const char *path, bool *to_glb)
+{
+    *to_glb = alpi_path_has_ending(path, ".glb");
+    return *to_glb || alpi_path_has_ending(path, ".gltf")
+               ? ALP_OK
+               : alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                           "%s: a baked scene is written as .glb or .gltf", path);
+}
+
+static alp_result write_document(const alp_scene *scene, const alpi_gltf_document *document,
+                                 const alpi_mesh_patch *patch, const char *path, bool overwrite)
+{
+    alp_context *context = scene->context;
+    writing w = {.document = document,
+                 .patch = patch,
+                 .path = path,
+                 .files = {.context = context},
+                 .bin = alpi_bytes_create(context),
+                 .text = alpi_bytes_create(context),
+                 .asset = alpi_bytes_create(context)};
+    ALP_TRY(choose_container(context, path, &w.to_glb));
+    ALP_TRY(alpi_file_check_writable(context, path, overwrite));
+    alp_result result = run_writing(&w, scene, overwrite);
+    alpi_gltf_files_destroy(&w.files);
+    alpi_gltf_names_destroy(context, &w.names);
+    alpi_bytes_destroy(&w.bin);
+    alpi_bytes_destroy(&w.text);
+    alpi_bytes_destroy(&w.asset);
+    return result;
+}
+
+alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                   const char *path, bool overwrite)
+{
+    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    if (document != NULL) {
+        return write_document(scene, document, patch, path, overwrite);
+    }
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    alpi_gltf_document *exported = NULL;
+    ALP_TRY(alpi_gltf_export_scene(scene, &bytes, &size));
+    ALP_TRY(alpi_gltf_document_parse(scene->context, scene->name, bytes, size, &exported));
+    alp_result result = write_document(scene, exported, patch, path, overwrite);
+    alpi_gltf_document_destroy(exported);
+    return result;
+}
+
+// --- before the long work ------------------------------------------------------------------------
+
+/// Copies of referenced files, as far as their folders are there already.
+static alp_result check_references(const alpi_gltf_document *document, const char *path,
+                                   bool merged, bool overwrite)
+{
+    alpi_gltf_files files = {.context = document->context};
+    alp_result result = ALP_OK;
+    if (!merged) { // merging embeds all
+        result = add_references(&files, document, path, merged, NULL);
+    }
+    for (size_t i = 0; result == ALP_OK && i < files.count; i++) {
+        if (access(files.items[i].path, F_OK) == 0) {
+            result = alpi_file_check_writable(files.context, files.items[i].path, overwrite);
+        }
+    }
+    alpi_gltf_files_destroy(&files);
+    return result;
+}
+
+alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
+                                  bool overwrite)
+{
+    alp_context *context = scene->context;
+    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    bool to_glb;
+    ALP_TRY(choose_container(context, path, &to_glb));
+    ALP_TRY(alpi_file_check_writable(context, path, overwrite));
+    if (document != NULL) {
+        ALP_TRY(check_references(document, path, to_glb && !document->is_glb, overwrite));
+    }
+    if (to_glb) {
+        return ALP_OK;
+    }
+    alpi_gltf_names names;
+    ALP_TRY(alpi_gltf_names_create(context, document, path, page_count, &names));
+    alp_result result = alpi_file_check_writable(context, names.data, overwrite);
+    if (result == ALP_OK && (document == NULL || document->is_glb)) {
+        result = alpi_file_check_writable(context, names.bin, overwrite);
+    }
+    for (uint32_t i = 0; result == ALP_OK && i < page_count; i++) {
+        result = alpi_file_check_writable(context, names.pages[i], overwrite);
+    }
+    alpi_gltf_names_destroy(context, &names);
+    return result;
+}
