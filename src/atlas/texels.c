@@ -11,6 +11,7 @@ typedef struct carrier {
     uint32_t triangle;
     double x, y, e1x, e1y, e2x, e2y, area; // corner 0, edges and twice the area in texels
     double corner[3][3], normal[3][3];     // positions and shading normals
+    vec3 place[3];                         // the corners as they are
     vec3 geometric;
 } carrier;
 
@@ -40,9 +41,9 @@ static carrier load_carrier(const alp_atlas *atlas, uint32_t triangle)
             c.normal[k][axis] = (double)scene->normals[vertex][axis];
         }
     }
-    vec3 corner[3];
-    alpi_triangle_corners(scene, triangle, corner);
-    c.geometric = vec3_triangle_normal(corner[0], corner[1], corner[2], (vec3){0.0f, 1.0f, 0.0f});
+    alpi_triangle_corners(scene, triangle, c.place);
+    c.geometric =
+        vec3_triangle_normal(c.place[0], c.place[1], c.place[2], (vec3){0.0f, 1.0f, 0.0f});
     return c;
 }
 
@@ -78,6 +79,8 @@ static void place_receiver(const carrier *c, const double b[2], alpi_receivers *
     }
     vec3_store(receivers->geometric_normals[index], c->geometric);
     vec3_store(receivers->shading_normals[index], shading);
+    receivers->offsets[index] =
+        alpi_receiver_offset(vec3_load(receivers->positions[index]), c->place);
 }
 
 static alp_result write_row(void *user, const alpi_row *row)
