@@ -94,7 +94,7 @@ static void put_u32(FILE *file, size_t value)
     fwrite(bytes, 1, 4, file);
 }
 
-static const char *folder_for_files(void)
+const char *quad_folder(void)
 {
     const char *kept = getenv("ALPENGLOW_WRITTEN");
     static char folder[600];
@@ -119,7 +119,7 @@ const char *quad_write_glb(const char *asset, const char *rest)
     while (size % 4 != 0) {
         json[size++] = ' ';
     }
-    snprintf(path, sizeof path, "%s/quad.glb", folder_for_files());
+    snprintf(path, sizeof path, "%s/quad.glb", quad_folder());
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     static const char extra[] = "\4\0\0\0EXTRmore"; // a chunk that nobody knows
@@ -143,7 +143,7 @@ const char *quad_write_gltf(const char *asset, const char *rest)
     char json[16384];
     quad_data data;
     fill_data(&data);
-    const char *folder = folder_for_files();
+    const char *folder = quad_folder();
     size_t size = print_json(json, sizeof json, "\"uri\":\"quad%20data.bin\",", asset, rest);
     snprintf(path, sizeof path, "%s/quad data.bin", folder);
     FILE *file = fopen(path, "wb");

@@ -14,6 +14,8 @@
 /// One quad with everything, as a primitive's attributes.
 #define QUAD_ATTRIBUTES "\"POSITION\":0,\"NORMAL\":1"
 
+/// A new folder; with $ALPENGLOW_WRITTEN inside that, where the validator finds it.
+const char *quad_folder(void);
 /// Writes a GLB: `asset` is the value of "asset" and `rest` the root members behind the arrays that
 /// the quad needs. Gives its path (static).
 const char *quad_write_glb(const char *asset, const char *rest);

