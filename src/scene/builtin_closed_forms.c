@@ -18,8 +18,8 @@ void alpi_builtin_bowl(alpi_builder *builder)
 {
     uint32_t clay = alpi_builder_material(builder, "clay", (vec3){0.7f, 0.6f, 0.5f}, NO_EMISSION);
     alpi_builder_surface(builder, "bowl", clay);
-    // 88 stacks from the pole to the rim at 120°, one of them at the equator. Such facets change the
-    // openness by .003 at most.
+    // 88 stacks from the pole to the rim at 120°, one of them at the equator. Such facets change
+    // the openness by .003 at most.
     alpi_builder_ball(
         builder,
         &(alpi_ball){.radius = 1.0f, .top = 0.5f, .slices = 256, .stacks = 88, .inside = true});
