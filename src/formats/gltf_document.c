@@ -188,14 +188,26 @@ static alp_result check_version(const alpi_gltf_document *document)
     return ALP_OK;
 }
 
-/// Whether a bake of geometry and diffuse colour is right although an asset requires `name`.
+/// Whether a bake is right although an asset requires `name`: what we read, and materials that
+/// change neither geometry nor diffuse colour.
 static bool extension_is_known(const char *name)
 {
     static const char *const known[] = {
-        "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-        "KHR_materials_ior",     "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_unlit",   "KHR_materials_specular",
-        "KHR_mesh_quantization", "KHR_texture_transform",
+        "KHR_lights_punctual",
+        "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat",
+        "KHR_materials_dispersion",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_iridescence",
+        "KHR_materials_pbrSpecularGlossiness",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_unlit",
+        "KHR_materials_volume",
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         if (strcmp(name, known[i]) == 0) {

@@ -80,7 +80,10 @@ alp_result alpi_gltf_read_images(alpi_gltf_reader *reader)
 {
     alp_scene *scene = reader->scene;
     size_t count = alpi_gltf_count(reader->document, "images");
-    ALPI_TRY_NEW(reader->context, scene->images, count);
+    scene->images = ALPI_NEW(reader->context, alp_image *, count);
+    if (scene->images == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
     scene->image_count = (uint32_t)count;
     bool *needed = ALPI_NEW(reader->context, bool, count);
     if (needed == NULL) {

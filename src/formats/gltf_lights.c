@@ -49,7 +49,7 @@ static alp_result read_cone(const alpi_gltf_reader *reader, json_t *object, cons
 static alp_result read_strength(const alpi_gltf_reader *reader, json_t *object, const char *owner,
                                 alpi_light *light)
 {
-    double color[3] = {1.0, 1.0, 1.0}, intensity = 1.0, range = INFINITY;
+    double color[3] = {1.0, 1.0, 1.0}, intensity = 1.0, range = HUGE_VAL;
     ALP_TRY(alpi_gltf_numbers(reader->document, object, "color", owner, 3, color));
     ALP_TRY(alpi_gltf_number(reader->document, object, "intensity", owner, &intensity));
     ALP_TRY(alpi_gltf_number(reader->document, object, "range", owner, &range));

@@ -430,9 +430,9 @@ static void check_texture_sets(const plan *p, const alpi_surface *surface, const
         return;
     }
     const alpi_material *m = &p->reader->scene->materials[surface->material];
-    const alpi_texture *textures[] = {&m->base_color_texture, &m->metallic_texture,
-                                      &m->emission_texture, &m->occlusion_texture};
-    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+    const alpi_texture *textures[4] = {&m->base_color_texture, &m->metallic_texture,
+                                       &m->emission_texture, &m->occlusion_texture};
+    for (size_t i = 0; i < 4; i++) {
         if (textures[i]->image != ALPI_NONE && from->uvs[textures[i]->uv_set] == ALPI_GLTF_NONE) {
             alpi_warn(p->reader->context, "no-uv", surface->name,
                       "its material \"%s\" reads a texture by TEXCOORD_%u, which it does not have",
@@ -449,7 +449,7 @@ static alp_result read_surfaces(plan *p)
         ALP_TRY(plan_node(p, p->reader->order[i]));
     }
     ALP_TRY(allocate_arrays(p));
-    for (uint32_t s = 0; s < scene->surface_count; s++) {
+    for (uint32_t s = 0; p->parts != NULL && s < scene->surface_count; s++) {
         ALP_TRY(fill_surface(p, &p->parts[s], &scene->surfaces[s]));
         check_texture_sets(p, &scene->surfaces[s], &p->parts[s]);
     }

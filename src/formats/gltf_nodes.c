@@ -54,7 +54,7 @@ static alp_result find_parents(const alpi_gltf_reader *reader, uint32_t *parent)
         json_t *children;
         ALP_TRY(read_children(reader, i, &children));
         for (size_t k = 0; k < json_array_size(children); k++) {
-            uint32_t child;
+            uint32_t child = 0;
             ALP_TRY(read_node_index(reader, children, k, owner, &child));
             if (parent[child] != ALPI_NONE) {
                 return alpi_gltf_fail(reader->document, owner,
@@ -165,7 +165,7 @@ static alp_result push_roots(const alpi_gltf_reader *reader, const uint32_t *par
         return alpi_gltf_fail(document, owner, "nodes must be an array");
     }
     for (size_t i = json_array_size(nodes); i-- > 0;) {
-        uint32_t node;
+        uint32_t node = 0;
         ALP_TRY(read_node_index(reader, nodes, i, owner, &node));
         if (seen[node]) {
             return alpi_gltf_fail(document, owner, "names node %u twice", node);

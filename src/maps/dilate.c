@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 
+#include <assert.h>
 #include <string.h>
 
 typedef struct wave {
@@ -46,6 +47,7 @@ static void spread(wave *w)
 
 alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32_t height)
 {
+    assert(width > 0 && height > 0);
     size_t count = (size_t)width * height;
     wave w = {.page = page, .width = width, .height = height};
     w.filled = ALPI_NEW(context, uint8_t, count);

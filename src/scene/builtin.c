@@ -2,6 +2,7 @@
 // The table of built-in scenes.
 #include "scene/builtin.h"
 
+#include <stdio.h>
 #include <string.h>
 
 typedef struct builtin {
@@ -9,7 +10,7 @@ typedef struct builtin {
     void (*build)(alpi_builder *builder);
 } builtin;
 
-static const char PREFIX[] = "builtin:";
+enum { PREFIX_LENGTH = sizeof "builtin:" - 1 };
 static const builtin BUILTINS[] = {
     {"builtin:cornell", alpi_builtin_cornell},
     {"builtin:furnace", alpi_builtin_furnace},
@@ -24,8 +25,9 @@ static alp_result fail_unknown(alp_context *context, const char *name)
 {
     char list[BUILTIN_COUNT * 40] = "";
     for (int i = 0; i < BUILTIN_COUNT; i++) {
-        strcat(list, i == 0 ? "" : ", ");
-        strcat(list, BUILTINS[i].name + sizeof PREFIX - 1);
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i == 0 ? "" : ", ",
+                 BUILTINS[i].name + PREFIX_LENGTH);
     }
     return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                      "builtin:%s: no such built-in scene; there are: %s", name, list);
@@ -35,7 +37,7 @@ alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene
 {
     *scene = NULL;
     for (int i = 0; i < BUILTIN_COUNT; i++) {
-        if (strcmp(name, BUILTINS[i].name + sizeof PREFIX - 1) == 0) {
+        if (strcmp(name, BUILTINS[i].name + PREFIX_LENGTH) == 0) {
             alpi_builder builder;
             alpi_builder_start(&builder, context, BUILTINS[i].name);
             BUILTINS[i].build(&builder);

@@ -284,6 +284,22 @@ alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
                               .normals_generated = s->normals_generated};
 }
 
+/// Distance from the centre of a box, along `view`, at which a square picture of half-width
+/// `tangent` at distance 1 just holds all its corners, with a margin of 5 %.
+static float fitting_distance(vec3 size, vec3 view, float tangent)
+{
+    vec3 right = vec3_normalize_or(vec3_cross((vec3){0.0f, 1.0f, 0.0f}, view), view);
+    vec3 up = vec3_cross(view, right);
+    float distance = 1e-6f;
+    for (int i = 0; i < 8; i++) {
+        vec3 corner = {size.x * ((i & 1) ? 0.5f : -0.5f), size.y * ((i & 2) ? 0.5f : -0.5f),
+                       size.z * ((i & 4) ? 0.5f : -0.5f)};
+        float aside = fmaxf(fabsf(vec3_dot(corner, right)), fabsf(vec3_dot(corner, up)));
+        distance = fmaxf(distance, vec3_dot(corner, view) + 1.05f * aside / tangent);
+    }
+    return distance;
+}
+
 /// Looks at the whole bounding box from above one of its corners. A scene that is seen mostly from
 /// behind there (a room) is looked at from inside, from near one upper corner towards the opposite
 /// lower one.
@@ -314,8 +330,8 @@ static alp_camera automatic_camera(const alp_scene *scene)
         vec3_store(camera.position, eye);
         vec3_store(camera.target, target);
     } else {
-        float radius = 0.5f * vec3_length(size);
-        vec3_store(camera.position, vec3_mad(center, fmaxf(radius, 1e-6f) / sinf(0.4f), view));
+        float distance = fitting_distance(size, view, tanf(0.5f * camera.vertical_fov));
+        vec3_store(camera.position, vec3_mad(center, distance, view));
         vec3_store(camera.target, center);
     }
     return camera;

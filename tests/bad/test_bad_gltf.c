@@ -177,6 +177,25 @@ static void hostile_structures(void **state)
     alp_context_destroy(context);
 }
 
+/// An index past the end where vertices are copied one by one: without normals.
+static void index_without_normals(void **state)
+{
+    (void)state;
+    static const float bin[16] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    alp_context *context = test_context(1);
+    alp_scene *scene;
+    const char *json =
+        "{" ASSET ",'buffers':[{'byteLength':64}],'bufferViews':[{'buffer':0,'byteLength':64}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':3},"
+        "{'bufferView':0,'byteOffset':12,'componentType':5125,'type':'SCALAR','count':3}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}],"
+        "'nodes':[{'mesh':0}]}";
+    assert_int_equal(test_gltf_scene(context, json, bin, sizeof bin, &scene),
+                     ALP_ERROR_INVALID_DATA);
+    test_message_has(context, "mesh 0, primitive 0: index 0 is 1065353216, but there are 3");
+    alp_context_destroy(context);
+}
+
 /// A chain of nodes as long as the file: no recursion may follow it.
 static void deep_nodes(void **state)
 {
@@ -245,9 +264,10 @@ static void other_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crafted_files),        cmocka_unit_test(third_party_files),
-        cmocka_unit_test(hostile_structures),   cmocka_unit_test(deep_nodes),
-        cmocka_unit_test(expansion_is_limited), cmocka_unit_test(other_kinds),
+        cmocka_unit_test(crafted_files),         cmocka_unit_test(third_party_files),
+        cmocka_unit_test(hostile_structures),    cmocka_unit_test(deep_nodes),
+        cmocka_unit_test(index_without_normals), cmocka_unit_test(expansion_is_limited),
+        cmocka_unit_test(other_kinds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,8 @@
 #include "formats/formats.h"
 #include "formats/gltf_read.h"
 
+#include <stdlib.h>
+
 enum { ROUNDS = 4000 };
 
 /// Everything the reader knows, in one small asset: strided and sparse accessors, two UV sets,
@@ -37,7 +39,13 @@ static const char asset[] =
     "'bufferViews':[{'buffer':0,'byteLength':80,'byteStride':20},"
     "{'buffer':0,'byteOffset':80,'byteLength':16},{'buffer':0,'byteOffset':96,'byteLength':";
 
-static uint8_t *make_asset(alp_context *context, size_t *size)
+typedef struct parts {
+    char *json; // released by the caller
+    uint8_t bin[4096];
+    size_t bin_size;
+} parts;
+
+static parts make_parts(alp_context *context)
 {
     alp_image *image = NULL;
     uint8_t *png = NULL;
@@ -46,20 +54,27 @@ static uint8_t *make_asset(alp_context *context, size_t *size)
               alp_image_create(context, (alp_image_info){4, 4, 4, ALP_COMPONENT_U8}, &image));
     ASSERT_OK(context, alpi_png_encode(image, &png, &png_size));
     alp_image_destroy(image);
-    uint8_t bin[4096] = {0};
+    parts p = {.bin_size = 96 + png_size};
     for (uint32_t i = 0; i < 4; i++) {
-        float position[3] = {(float)(i % 2), (float)(i / 2), 0.0f};
-        memcpy(bin + (size_t)20 * i, position, sizeof position);
-        bin[20 * i + 14] = 127;
+        float position[3] = {(float)(i & 1), (float)(i >> 1), 0.0f};
+        memcpy(p.bin + (size_t)20 * i, position, sizeof position);
+        p.bin[20 * i + 14] = 127;
     }
-    memcpy(bin + 80, ((uint8_t[]){0, 1, 2, 2, 1, 3, 0, 0, 2, 0, 0, 0, 9, 9, 9, 255}), 16);
-    assert_in_range(png_size, 1, sizeof bin - 96);
-    memcpy(bin + 96, png, png_size);
+    memcpy(p.bin + 80, ((uint8_t[]){0, 1, 2, 2, 1, 3, 0, 0, 2, 0, 0, 0, 9, 9, 9, 255}), 16);
+    assert_in_range(png_size, 1, sizeof p.bin - 96);
+    memcpy(p.bin + 96, png, png_size);
     alpi_release(context, png);
-    char *json = alpi_format(context, "%s%zu}],'buffers':[{'byteLength':%zu}]}", asset, png_size,
-                             96 + png_size);
-    uint8_t *bytes = test_glb(context, json, bin, 96 + png_size, size);
-    alpi_release(context, json);
+    p.json = alpi_format(context, "%s%zu}],'buffers':[{'byteLength':%zu}]}", asset, png_size,
+                         p.bin_size);
+    assert_non_null(p.json);
+    return p;
+}
+
+static uint8_t *make_asset(alp_context *context, size_t *size)
+{
+    parts p = make_parts(context);
+    uint8_t *bytes = test_glb(context, p.json, p.bin, p.bin_size, size);
+    alpi_release(context, p.json);
     return bytes;
 }
 
@@ -123,6 +138,54 @@ static void changed_bytes(void **state)
     alp_context_destroy(context);
 }
 
+/// Reads the asset with `length` bytes at `place` of its JSON replaced by `text`.
+static alp_result read_replaced(alp_context *context, const parts *p, size_t place, size_t length,
+                                const char *text)
+{
+    char *json =
+        alpi_format(context, "%.*s%s%s", (int)place, p->json, text, p->json + place + length);
+    size_t size;
+    uint8_t *bytes = test_glb(context, json, p->bin, p->bin_size, &size);
+    alp_result result = read_copy(context, bytes, size);
+    alpi_release(context, bytes);
+    alpi_release(context, json);
+    return result;
+}
+
+/// Every number of the JSON in turn becomes one of those that break readers, every member goes
+/// missing once.
+static void changed_values(void **state)
+{
+    (void)state;
+    static const char *const values[] = {
+        "-1",  "0",      "1",      "2",     "3",          "7",          "97",
+        "255", "5121",   "5125",   "65536", "2147483648", "4294967295", "9007199254740993",
+        "1.5", "1e30",   "-1e308", "null",  "true",       "[]",         "{}",
+        "'x'", "[0,0,0]"};
+    alp_context *context = test_context(1);
+    parts p = make_parts(context);
+    int numbers = 0, members = 0, accepted = 0;
+    for (size_t i = 1; p.json[i] != '\0'; i++) {
+        size_t length = strspn(p.json + i, "-.0123456789");
+        if (length > 0 && strchr(":[,", p.json[i - 1]) != NULL) {
+            for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+                accepted += read_replaced(context, &p, i, length, values[k]) == ALP_OK;
+            }
+            numbers++;
+            i += length;
+        } else if (p.json[i] == '\'' && strchr("{,", p.json[i - 1]) != NULL) {
+            accepted += read_replaced(context, &p, i + 1, 0, "no_") == ALP_OK;
+            members++;
+        }
+    }
+    print_message("%d numbers, %d members, %d changes accepted\n", numbers, members, accepted);
+    assert_in_range(numbers, 80, 1000);
+    assert_in_range(members, 80, 1000);
+    assert_in_range(accepted, 100, numbers * 15);
+    alpi_release(context, p.json);
+    alp_context_destroy(context);
+}
+
 static void cut_files(void **state)
 {
     (void)state;
@@ -142,6 +205,58 @@ static void cut_files(void **state)
     }
     alpi_release(context, good);
     alp_context_destroy(context);
+}
+
+/// An allocator that gives out `left` blocks and then no more.
+typedef struct meter {
+    int left;
+} meter;
+
+static void *metered_allocate(void *user, size_t size)
+{
+    meter *m = user;
+    return m->left-- > 0 ? malloc(size) : NULL;
+}
+
+static void metered_release(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/// Every allocation of ours fails once; the sanitizer build sees what is not given back.
+static void failing_allocations(void **state)
+{
+    (void)state;
+    alp_context *plain = test_context(1);
+    size_t size;
+    uint8_t *good = make_asset(plain, &size);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    int allowed = 0;
+    for (; result != ALP_OK; allowed++) {
+        meter m = {.left = 2}; // the context and the copy
+        alp_context_options options = alp_context_options_default();
+        options.allocate = metered_allocate;
+        options.release = metered_release;
+        options.allocator_user = &m;
+        alp_context *context = NULL;
+        ASSERT_OK(plain, alp_context_create(&options, &context));
+        uint8_t *copy = alpi_allocate(context, size, 1);
+        memcpy(copy, good, size);
+        m.left = allowed;
+        alpi_gltf_document *document = NULL;
+        alp_scene *scene = NULL;
+        result = alpi_gltf_document_parse(context, "x.glb", copy, size, &document);
+        result = result == ALP_OK ? alpi_gltf_scene_from_document(document, &scene) : result;
+        assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(result == ALP_OK, scene != NULL);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+    print_message("%d allocations failed in turn\n", allowed - 1);
+    assert_in_range(allowed, 40, 10000);
+    alpi_release(plain, good);
+    alp_context_destroy(plain);
 }
 
 /// The same for the image inside, which is decoded from bytes of its own.
@@ -174,8 +289,8 @@ static void changed_image(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(changed_bytes),
-        cmocka_unit_test(cut_files),
+        cmocka_unit_test(changed_bytes), cmocka_unit_test(changed_values),
+        cmocka_unit_test(cut_files),     cmocka_unit_test(failing_allocations),
         cmocka_unit_test(changed_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

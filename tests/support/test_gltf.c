@@ -12,15 +12,14 @@ static uint8_t *put_u32(uint8_t *place, size_t value)
     return place + 4;
 }
 
-static uint8_t *put_chunk(uint8_t *place, const char *type, const void *bytes, size_t size,
+static uint8_t *put_chunk(uint8_t *place, uint32_t type, const void *bytes, size_t size,
                           char padding)
 {
     size_t padded = (size + 3) / 4 * 4;
-    place = put_u32(place, padded);
-    memcpy(place, type, 4);
-    memset(place + 4, padding, padded);
-    memcpy(place + 4, bytes, size);
-    return place + 4 + padded;
+    place = put_u32(put_u32(place, padded), type);
+    memset(place, padding, padded);
+    memcpy(place, bytes, size);
+    return place + padded;
 }
 
 uint8_t *test_glb(alp_context *context, const char *json, const void *bin, size_t bin_size,
@@ -34,11 +33,10 @@ uint8_t *test_glb(alp_context *context, const char *json, const void *bin, size_
     for (char *c = text; *c != '\0'; c++) {
         *c = *c == '\'' ? '"' : *c;
     }
-    uint8_t *end = put_chunk(bytes + 12, "JSON", text, length, ' ');
-    end = bin_size > 0 ? put_chunk(end, "BIN\0", bin, bin_size, '\0') : end;
+    uint8_t *end = put_chunk(bytes + 12, 0x4E4F534A /* JSON */, text, length, ' ');
+    end = bin_size > 0 ? put_chunk(end, 0x004E4942 /* BIN */, bin, bin_size, '\0') : end;
     *size = (size_t)(end - bytes);
-    memcpy(bytes, "glTF", 4);
-    put_u32(put_u32(bytes + 4, 2), *size);
+    put_u32(put_u32(put_u32(bytes, 0x46546C67 /* glTF */), 2), *size);
     alpi_release(context, text);
     return bytes;
 }

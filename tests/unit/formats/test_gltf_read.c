@@ -46,11 +46,16 @@ static alp_scene *load(alp_context *context, const char *rest)
     return scene;
 }
 
+static void assert_vec3(vec3 actual, float x, float y, float z)
+{
+    ASSERT_NEAR(actual.x, x, 1e-6);
+    ASSERT_NEAR(actual.y, y, 1e-6);
+    ASSERT_NEAR(actual.z, z, 1e-6);
+}
+
 static void assert_vec(const float *actual, float x, float y, float z)
 {
-    ASSERT_NEAR(actual[0], x, 1e-6);
-    ASSERT_NEAR(actual[1], y, 1e-6);
-    ASSERT_NEAR(actual[2], z, 1e-6);
+    assert_vec3(vec3_load(actual), x, y, z);
 }
 
 static void node_hierarchy(void **state)
@@ -138,7 +143,7 @@ static void mirrored_nodes(void **state)
     assert_true(scene->surfaces[2].mirrored);
     for (uint32_t t = 0; t < 6; t++) { // the outside stays outside
         vec3 n = winding(scene, t);
-        assert_vec(&n.x, 0, 0, 1);
+        assert_vec3(n, 0, 0, 1);
         for (int k = 0; k < 3; k++) {
             assert_vec(scene->normals[scene->triangles[t][k]], 0, 0, 1);
         }
@@ -327,7 +332,7 @@ static void lights(void **state)
     const alpi_light *light = scene->lights;
     assert_int_equal(light[0].kind, ALPI_LIGHT_POINT);
     assert_string_equal(light[0].name, "p");
-    assert_vec(&light[0].position.x, 3, 5, 0);
+    assert_vec3(light[0].position, 3, 5, 0);
     ASSERT_NEAR(light[0].intensity, 40, 0);
     ASSERT_NEAR(light[0].color.y, 0.5, 0);
     ASSERT_NEAR(light[0].range, 7, 0);
@@ -335,12 +340,12 @@ static void lights(void **state)
     ASSERT_NEAR(light[1].inner_cone, 0.3, 1e-6);
     ASSERT_NEAR(light[1].outer_cone, 0.6, 1e-6);
     assert_true(isinf(light[1].range));
-    assert_vec(&light[1].direction.x, 0, 1, 0);
+    assert_vec3(light[1].direction, 0, 1, 0);
     ASSERT_NEAR(light[2].inner_cone, 0.5, 1e-6); // was wider than the outer one
     assert_true(test_log_has("light"));
     assert_int_equal(light[3].kind, ALPI_LIGHT_DIRECTIONAL);
     ASSERT_NEAR(light[3].intensity, 1, 0);
-    assert_vec(&light[3].direction.x, 0, 1, 0);
+    assert_vec3(light[3].direction, 0, 1, 0);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }

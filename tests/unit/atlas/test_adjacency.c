@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Neighbours: symmetric, by position, and only where the surface really goes on.
+#include "atlas_scenes.h"
+
+#include "base/memory.h"
+
+static uint32_t links(const uint32_t neighbours[3])
+{
+    uint32_t count = 0;
+    for (int k = 0; k < 3; k++) {
+        count += neighbours[k] != ALPI_NONE;
+    }
+    return count;
+}
+
+/// Links of all triangles of a scene of loose corners: each triangle has three vertices of its own.
+static uint32_t count_links(alp_context *context, const float (*corners)[3], uint32_t triangles)
+{
+    uint32_t indices[16][3];
+    for (uint32_t t = 0; t < triangles; t++) {
+        for (uint32_t k = 0; k < 3; k++) {
+            indices[t][k] = 3 * t + k;
+        }
+    }
+    alp_scene *scene =
+        scene_of(context, corners, NULL, 3 * triangles, (const uint32_t(*)[3])indices, triangles);
+    uint32_t(*neighbours)[3] = NULL, sum = 0;
+    ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
+    for (uint32_t t = 0; t < triangles; t++) {
+        sum += links(neighbours[t]);
+    }
+    alpi_release(context, neighbours);
+    alp_scene_destroy(scene);
+    return sum;
+}
+
+static void a_cube_is_closed(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = scene_cube(context);
+    uint32_t(*neighbours)[3] = NULL;
+    ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
+    for (uint32_t t = 0; t < 12; t++) {
+        assert_int_equal(links(neighbours[t]), 3);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t *back = neighbours[neighbours[t][k]];
+            assert_true(back[0] == t || back[1] == t || back[2] == t);
+        }
+    }
+    alpi_release(context, neighbours);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void edges_are_matched_in_order(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    static const uint32_t indices[2][3] = {{0, 1, 2}, {2, 3, 0}};
+    alp_scene *scene = scene_of(context, p, NULL, 4, indices, 2);
+    uint32_t(*neighbours)[3] = NULL;
+    ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
+    const uint32_t expected[2][3] = {{ALPI_NONE, ALPI_NONE, 1}, {ALPI_NONE, ALPI_NONE, 0}};
+    assert_memory_equal(neighbours, expected, sizeof expected);
+    alpi_release(context, neighbours);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void minus_zero_is_zero(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const float corners[6][3] = {{0.0f, 0.0f, 0.0f},  {1.0f, 0.0f, -0.0f},
+                                        {0.0f, 1.0f, 0.0f},  {1.0f, -0.0f, 0.0f},
+                                        {1.0f, 1.0f, -0.0f}, {-0.0f, 1.0f, -0.0f}};
+    assert_int_equal(count_links(context, corners, 2), 2);
+    alp_context_destroy(context);
+}
+
+static void three_at_an_edge_are_none(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const float corners[9][3] = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0},
+                                        {0, -1, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    assert_int_equal(count_links(context, corners, 2), 2);
+    assert_int_equal(count_links(context, corners, 3), 0);
+    alp_context_destroy(context);
+}
+
+static void turned_round_is_no_neighbour(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const float corners[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
+                                        {0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
+    assert_int_equal(count_links(context, corners, 2), 0);
+    alp_context_destroy(context);
+}
+
+static void half_an_edge_is_no_edge(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const float corners[9][3] = {{0, 0, 0},  {2, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0},
+                                        {1, -1, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}};
+    assert_int_equal(count_links(context, corners, 3), 2); // the lower two, with each other
+    alp_context_destroy(context);
+}
+
+static void a_twisted_band_breaks_once(void **state)
+{
+    (void)state;
+    // Five squares in a ring whose last is joined to the first upside down: one edge of the ring
+    // joins triangles that wind against each other.
+    enum { N = 5 };
+    float p[2 * N][3];
+    uint32_t indices[2 * N][3];
+    for (uint32_t i = 0; i < N; i++) {
+        double angle = 2.0 * ALPI_PI * i / N;
+        for (uint32_t side = 0; side < 2; side++) {
+            double radius = 3.0 + (side == 0 ? -1.0 : 1.0) * cos(0.5 * angle);
+            p[2 * i + side][0] = (float)(radius * cos(angle));
+            p[2 * i + side][1] = (float)(radius * sin(angle));
+            p[2 * i + side][2] = (float)((side == 0 ? -1.0 : 1.0) * sin(0.5 * angle));
+        }
+        uint32_t a = 2 * i, b = a + 1, c = (2 * i + 2) % (2 * N), d = (2 * i + 3) % (2 * N);
+        if (i + 1 == N) { // the half turn
+            c = 1;
+            d = 0;
+        }
+        uint32_t two[2][3] = {{a, b, d}, {a, d, c}};
+        memcpy(indices[2 * i], two, sizeof two);
+    }
+    alp_context *context = test_context(1);
+    alp_scene *scene =
+        scene_of(context, (const float(*)[3])p, NULL, 2 * N, (const uint32_t(*)[3])indices, 2 * N);
+    uint32_t(*neighbours)[3] = NULL, sum = 0;
+    ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
+    for (uint32_t t = 0; t < 2 * N; t++) {
+        sum += links(neighbours[t]);
+    }
+    assert_int_equal(sum, 2 * (2 * N - 1)); // 2N inner edges in the ring, one of them broken
+    alpi_release(context, neighbours);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cube_is_closed),
+        cmocka_unit_test(edges_are_matched_in_order),
+        cmocka_unit_test(minus_zero_is_zero),
+        cmocka_unit_test(three_at_an_edge_are_none),
+        cmocka_unit_test(turned_round_is_no_neighbour),
+        cmocka_unit_test(half_an_edge_is_no_edge),
+        cmocka_unit_test(a_twisted_band_breaks_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
