@@ -518,6 +518,67 @@ static void scenes_from_arrays_become_files(void **state)
     quad_close(&bake);
 }
 
+// --- memory --------------------------------------------------------------------------------------
+
+typedef struct failing_allocator {
+    long left; // allocations until one fails
+} failing_allocator;
+
+static void *allocate_or_fail(void *user, size_t size)
+{
+    failing_allocator *allocator = user;
+    return allocator->left-- == 0 ? NULL : malloc(size);
+}
+
+static void release(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/// Patches with every allocation failing in turn: OUT_OF_MEMORY, no leak, and no file left behind.
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_gltf(
+                      ASSET, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0}],"
+                             "\"images\":[{\"uri\":\"quad%20data.bin\"}],"
+                             "\"meshes\":[{\"primitives\":[" RICH_QUAD "]}]"),
+                  2);
+    quad_part_triangles(&bake);
+    bake.pages[1] = 1;
+    failing_allocator allocator = {.left = -1};
+    alp_context_options options = alp_context_options_default();
+    options.allocate = allocate_or_fail;
+    options.release = release;
+    options.allocator_user = &allocator;
+    options.worker_count = 1;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alpi_gltf_read_scene(context, bake.path, &scene));
+    for (int glb = 0; glb < 2; glb++) {
+        const char *path = test_path(test_folder(), glb ? "out.glb" : "out.gltf");
+        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+        for (long i = 0; result != ALP_OK; i++) {
+            allocator.left = i;
+            result = alpi_gltf_write_patched(scene, &bake.patch, path, false);
+            allocator.left = -1;
+            if (result != ALP_OK) {
+                assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+                assert_null(fopen(path, "rb"));
+            }
+        }
+        alp_scene *again = NULL;
+        ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
+        alp_scene_destroy(again);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    quad_close(&bake);
+}
+
 static void other_endings_are_refused(void **state)
 {
     (void)state;
@@ -553,6 +614,7 @@ int main(void)
         cmocka_unit_test(references_follow_into_another_folder),
         cmocka_unit_test(a_glb_without_a_chunk_of_its_own),
         cmocka_unit_test(scenes_from_arrays_become_files),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(other_endings_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
