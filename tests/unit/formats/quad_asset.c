@@ -160,8 +160,7 @@ const char *quad_write_gltf(const char *asset, const char *rest)
 
 // --- the bake ------------------------------------------------------------------------------------
 
-static uint8_t *page_png;
-static size_t page_png_size;
+static uint8_t page_png[256]; // of one grey pixel, the same for all pages
 static const uint8_t *page_pngs[4];
 static size_t page_png_sizes[4];
 
@@ -171,11 +170,16 @@ static void make_pages(alp_context *context)
     ASSERT_OK(context,
               alp_image_create(context, (alp_image_info){1, 1, 1, ALP_COMPONENT_U8}, &image));
     alp_image_bytes(image)[0] = 128;
-    ASSERT_OK(context, alpi_png_encode(image, &page_png, &page_png_size));
+    uint8_t *png = NULL;
+    size_t size = 0;
+    ASSERT_OK(context, alpi_png_encode(image, &png, &size));
     alp_image_destroy(image);
+    assert_true(size <= sizeof page_png);
+    memcpy(page_png, png, size);
+    alpi_release(context, png);
     for (int i = 0; i < 4; i++) {
         page_pngs[i] = page_png;
-        page_png_sizes[i] = page_png_size;
+        page_png_sizes[i] = size;
     }
 }
 
@@ -252,7 +256,6 @@ void quad_close(quad_bake *bake)
 {
     alp_scene_destroy(bake->result);
     alp_scene_destroy(bake->scene);
-    alpi_release(bake->context, page_png);
     free(bake->uvs);
     free(bake->pages);
     alp_context_destroy(bake->context);
