@@ -219,7 +219,7 @@ void quad_part_triangles(quad_bake *bake)
     }
 }
 
-static void list_pair(const char *before, const char *after)
+void quad_list(const char *before, const char *after)
 {
     const char *kept = getenv("ALPENGLOW_WRITTEN");
     if (kept != NULL) {
@@ -238,7 +238,7 @@ void quad_write(quad_bake *bake, const char *ending)
     snprintf(bake->path, sizeof bake->path, "%.*s baked%s", (int)(old_ending - before), before,
              ending);
     ASSERT_OK(bake->context, alpi_gltf_write_patched(bake->scene, &bake->patch, bake->path, false));
-    list_pair(before, bake->path);
+    quad_list(before, bake->path);
     ASSERT_OK(bake->context, alpi_gltf_read_scene(bake->context, bake->path, &bake->result));
     assert_int_equal(bake->result->triangle_count, bake->scene->triangle_count);
     const alpi_gltf_document *old = quad_old(bake), *new = quad_new(bake);
