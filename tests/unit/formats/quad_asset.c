@@ -160,8 +160,7 @@ const char *quad_write_gltf(const char *asset, const char *rest)
 
 // --- the bake ------------------------------------------------------------------------------------
 
-static uint8_t *page_png;
-static size_t page_png_size;
+static uint8_t page_png[256]; // of one grey pixel, the same for all pages
 static const uint8_t *page_pngs[4];
 static size_t page_png_sizes[4];
 
@@ -171,11 +170,16 @@ static void make_pages(alp_context *context)
     ASSERT_OK(context,
               alp_image_create(context, (alp_image_info){1, 1, 1, ALP_COMPONENT_U8}, &image));
     alp_image_bytes(image)[0] = 128;
-    ASSERT_OK(context, alpi_png_encode(image, &page_png, &page_png_size));
+    uint8_t *png = NULL;
+    size_t size = 0;
+    ASSERT_OK(context, alpi_png_encode(image, &png, &size));
     alp_image_destroy(image);
+    assert_true(size <= sizeof page_png);
+    memcpy(page_png, png, size);
+    alpi_release(context, png);
     for (int i = 0; i < 4; i++) {
         page_pngs[i] = page_png;
-        page_png_sizes[i] = page_png_size;
+        page_png_sizes[i] = size;
     }
 }
 
@@ -215,7 +219,7 @@ void quad_part_triangles(quad_bake *bake)
     }
 }
 
-static void list_pair(const char *before, const char *after)
+void quad_list(const char *before, const char *after)
 {
     const char *kept = getenv("ALPENGLOW_WRITTEN");
     if (kept != NULL) {
@@ -234,7 +238,7 @@ void quad_write(quad_bake *bake, const char *ending)
     snprintf(bake->path, sizeof bake->path, "%.*s baked%s", (int)(old_ending - before), before,
              ending);
     ASSERT_OK(bake->context, alpi_gltf_write_patched(bake->scene, &bake->patch, bake->path, false));
-    list_pair(before, bake->path);
+    quad_list(before, bake->path);
     ASSERT_OK(bake->context, alpi_gltf_read_scene(bake->context, bake->path, &bake->result));
     assert_int_equal(bake->result->triangle_count, bake->scene->triangle_count);
     const alpi_gltf_document *old = quad_old(bake), *new = quad_new(bake);
@@ -252,7 +256,6 @@ void quad_close(quad_bake *bake)
 {
     alp_scene_destroy(bake->result);
     alp_scene_destroy(bake->scene);
-    alpi_release(bake->context, page_png);
     free(bake->uvs);
     free(bake->pages);
     alp_context_destroy(bake->context);

@@ -16,6 +16,8 @@
 
 /// A new folder; with $ALPENGLOW_WRITTEN inside that, where the validator finds it.
 const char *quad_folder(void);
+/// Asks for both files to be validated, where somebody does that.
+void quad_list(const char *before, const char *after);
 /// Writes a GLB: `asset` is the value of "asset" and `rest` the root members behind the arrays that
 /// the quad needs. Gives its path (static).
 const char *quad_write_glb(const char *asset, const char *rest);

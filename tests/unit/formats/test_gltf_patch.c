@@ -154,6 +154,10 @@ static void splits_carry_every_attribute(void **state)
         alpi_release(bake.context, new.bytes);
     }
     char path[64];
+    snprintf(path, sizeof path, "accessors/%d/bufferView",
+             quad_number(&bake, "meshes/0/primitives/0/attributes/_MINE"));
+    snprintf(path, sizeof path, "bufferViews/%d/byteStride", quad_number(&bake, path));
+    assert_int_equal(quad_number(&bake, path), 4); // three bytes, aligned
     snprintf(path, sizeof path, "accessors/%d/type",
              quad_number(&bake, "meshes/0/primitives/0/attributes/_MATRIX"));
     assert_string_equal(quad_text(&bake, path), "\"MAT2\"");
@@ -392,6 +396,30 @@ static void files_beside_a_gltf(void **state)
     quad_close(&bake);
 }
 
+/// A .gltf of two buffers and a picture, all of which a .glb holds in itself.
+static void many_files_become_one_glb(void **state)
+{
+    (void)state;
+    quad_bake first = quad_open(quad_write_gltf(ASSET, plain), 1);
+    quad_write(&first, ".gltf");
+    quad_bake second = quad_open(first.path, 1);
+    quad_write(&second, ".glb");
+    assert_string_equal(quad_text(&second, "buffers/0/uri"), "");
+    assert_string_equal(quad_text(&second, "buffers/1"), "");
+    assert_string_equal(quad_text(&second, "images/0/uri"), "");
+    assert_string_equal(quad_text(&second, "images/0/mimeType"), "\"image/png\"");
+    assert_int_not_equal(quad_number(&second, "images/0/bufferView"), -1);
+    require_corners(&second, 1);
+    for (uint32_t t = 0; t < 2; t++) { // the set of the first bake, from the second buffer
+        for (int k = 0; k < 3; k++) {
+            assert_memory_equal(second.result->uvs[0][second.result->triangles[t][k]],
+                                first.uvs[t][k], sizeof first.uvs[t][k]);
+        }
+    }
+    quad_close(&second);
+    quad_close(&first);
+}
+
 static void a_file_is_baked_over_itself(void **state)
 {
     (void)state;
@@ -400,11 +428,17 @@ static void a_file_is_baked_over_itself(void **state)
     assert_int_equal(alpi_gltf_check_output(bake.scene, 1, path, false), ALP_ERROR_IO);
     assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
     for (int round = 0; round < 3; round++) { // each adds a set, and none loses its file
+        for (int i = 0; i < 6; i++) {
+            bake.uvs[i / 3][i % 3][1] = 0.25f * (float)(round + 1);
+        }
         ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, path, true));
         ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, path, true));
         alp_scene_destroy(bake.scene);
         ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, path, &bake.scene));
         assert_int_equal(bake.scene->surfaces[0].uv_sets, round + 1);
+        for (int set = 0; set <= round; set++) {
+            ASSERT_NEAR(bake.scene->uvs[set][0][1], 0.25 * (set + 1), 0.0);
+        }
     }
     quad_close(&bake);
 }
@@ -493,9 +527,10 @@ static void scenes_from_arrays_become_files(void **state)
     }
     bake.patch.corner_uvs = (void *)corners;
     bake.patch.triangle_pages = NULL;
-    const char *path = test_path(test_folder(), "arrays.gltf");
+    const char *path = test_path(quad_folder(), "arrays.gltf");
     ASSERT_OK(context, alpi_gltf_check_output(scene, 1, path, false));
     ASSERT_OK(context, alpi_gltf_write_patched(scene, &bake.patch, path, false));
+    quad_list(bake.path, path); // the quad has no error, so this must have none
     ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
     assert_int_equal(again->triangle_count, 4);
     assert_string_equal(again->surfaces[1].name, "a \"quad\"");
@@ -513,6 +548,68 @@ static void scenes_from_arrays_become_files(void **state)
         }
     }
     alp_scene_destroy(again);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    quad_close(&bake);
+}
+
+// --- memory --------------------------------------------------------------------------------------
+
+typedef struct failing_allocator {
+    long left; // allocations until one fails
+} failing_allocator;
+
+static void *allocate_or_fail(void *user, size_t size)
+{
+    failing_allocator *allocator = user;
+    return allocator->left-- == 0 ? NULL : malloc(size);
+}
+
+static void release(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/// Patches with every allocation failing in turn: OUT_OF_MEMORY, no leak, and no file left behind.
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_gltf(
+                      ASSET, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0}],"
+                             "\"images\":[{\"uri\":\"quad%20data.bin\"}],"
+                             "\"meshes\":[{\"primitives\":[" RICH_QUAD "]}]"),
+                  2);
+    quad_part_triangles(&bake);
+    bake.pages[1] = 1;
+    failing_allocator allocator = {.left = -1};
+    alp_context_options options = alp_context_options_default();
+    options.allocate = allocate_or_fail;
+    options.release = release;
+    options.allocator_user = &allocator;
+    options.worker_count = 1;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alpi_gltf_read_scene(context, bake.path, &scene));
+    for (int glb = 0; glb < 2; glb++) {
+        const char *path = test_path(test_folder(), glb ? "out.glb" : "out.gltf");
+        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+        for (long i = 0; result != ALP_OK; i++) {
+            allocator.left = i;
+            result = alpi_gltf_write_patched(scene, &bake.patch, path, false);
+            // The allocator reads it. cppcheck-suppress redundantAssignment
+            allocator.left = -1;
+            if (result != ALP_OK) {
+                assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+                assert_null(fopen(path, "rb"));
+            }
+        }
+        alp_scene *again = NULL;
+        ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
+        alp_scene_destroy(again);
+    }
     alp_scene_destroy(scene);
     alp_context_destroy(context);
     quad_close(&bake);
@@ -549,10 +646,12 @@ int main(void)
         cmocka_unit_test(kept_coordinates_change_materials_only),
         cmocka_unit_test(existing_maps_are_replaced_or_kept),
         cmocka_unit_test(files_beside_a_gltf),
+        cmocka_unit_test(many_files_become_one_glb),
         cmocka_unit_test(a_file_is_baked_over_itself),
         cmocka_unit_test(references_follow_into_another_folder),
         cmocka_unit_test(a_glb_without_a_chunk_of_its_own),
         cmocka_unit_test(scenes_from_arrays_become_files),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(other_endings_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
