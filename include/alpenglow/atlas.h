@@ -49,10 +49,11 @@ typedef struct alp_atlas_info {
     uint32_t pages, width, height;
     uint32_t charts;
     uint64_t texels; ///< covered: with area of a chart inside
-    double
-        utilisation; ///< (chart and padding texels) / page texels; covered / page texels for KEEP
+    /// Share of all pages' texels that are in use. CHARTS: covered texels and free ones within
+    /// `padding` texels of a covered one, rows and columns counted alike. KEEP: covered texels.
+    double utilisation;
     double texels_per_metre;   ///< mean over the area, √(texel area / world area)
-    uint32_t shared_triangles; ///< smaller than a texel or a sliver: they own no texel alone
+    uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
 } alp_atlas_info;
 ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 

@@ -36,8 +36,8 @@ ALP_API float *alp_image_floats(alp_image *image);
 
 /// Reads a .png, .jpg or .exr; the kind is known by its first bytes, not its name. PNG of 16 bits
 /// is rounded to 8; a palette is expanded. EXR: one part, channels R G B A or Y, half or float.
-/// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); LIMIT (more than 2^28 pixels);
-///         OUT_OF_MEMORY
+/// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); UNSUPPORTED (an EXR of another
+///         kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_load(alp_context *context, const char *path,
                                                 alp_image **image);
 
@@ -64,7 +64,7 @@ typedef struct alp_image_difference {
 
 /// Compares a and b; a is multiplied by `scale` first. Grey is compared as R = G = B.
 /// @param heatmap NULL, or out: an 8-bit RGB picture of |s·a − b| (black 0, white = p99 and above;
-///        magenta: covered in one only), which the caller destroys
+///        magenta: covered in one only; dark blue: in none), which the caller destroys
 /// @return ALP_OK; INVALID_ARGUMENT (sizes or component types differ); INVALID_DATA (a NaN or
 ///         infinity, named by its pixel); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_compare(const alp_image *a, const alp_image *b,

@@ -126,7 +126,7 @@ static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi
         if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {
             alpi_fail(atlas->context, result, "%s", reason);
         } else if (result == ALP_ERROR_INVALID_DATA) {
-            alpi_note(atlas->context, "atlas-charts", atlas->scene->name, "new charts: %s", reason);
+            alpi_note(atlas->context, "atlas-charts", NULL, "%s: that is done now", reason);
         }
         alpi_release(atlas->context, reason);
         if (result != ALP_ERROR_INVALID_DATA || mode == ALP_ATLAS_KEEP) {
@@ -204,7 +204,7 @@ void alp_atlas_destroy(alp_atlas *atlas)
 
 alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas)
 {
-    return atlas == NULL ? (alp_atlas_info){0} : atlas->info;
+    return atlas ? atlas->info : (alp_atlas_info){0};
 }
 
 const float *alp_atlas_corner_uvs(const alp_atlas *atlas)

@@ -15,6 +15,7 @@ static const float SAME_UV = 1e-6f;      // corners this near are one point of a
 /// The first triangles with a fault, and how many there are.
 typedef struct fault_list {
     const alp_scene *scene;
+    uint8_t *seen;    // [triangles] 1 = counted already; NULL = each comes once anyway
     uint32_t surface; // of the first one
     uint32_t count;   // on that surface
     uint32_t total;
@@ -25,6 +26,10 @@ typedef struct fault_list {
 static void add_fault(fault_list *list, uint32_t triangle, uint32_t other)
 {
     uint32_t surface = list->scene->triangle_surface[triangle];
+    if (list->seen != NULL && list->seen[triangle]++ != 0) {
+        list->seen[triangle] = 1;
+        return;
+    }
     if (list->total++ == 0) {
         list->surface = surface;
     }
@@ -183,8 +188,11 @@ alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **r
     ALP_TRY(copy_coordinates(atlas, reason));
     ALP_TRY(find_islands(atlas, neighbours));
     fault_list overlaps = {.scene = atlas->scene};
+    ALPI_TRY_NEW(atlas->context, overlaps.seen, atlas->scene->triangle_count);
     atlas->info.mode = ALP_ATLAS_KEEP;
     atlas->info.pages = 1;
-    ALP_TRY(alpi_raster(atlas, 0, 1, collect_overlaps, &overlaps));
+    alp_result result = alpi_raster(atlas, 0, 1, collect_overlaps, &overlaps);
+    alpi_release(atlas->context, overlaps.seen);
+    ALP_TRY(result);
     return overlaps.total == 0 ? ALP_OK : tell(&overlaps, "triangles overlap in it", reason);
 }

@@ -6,28 +6,53 @@
 
 #include <math.h>
 
+/// What all texels of one triangle share: neighbouring texels mostly lie on the same one.
+typedef struct carrier {
+    uint32_t triangle;
+    double x, y, e1x, e1y, e2x, e2y, area; // corner 0, edges and twice the area in texels
+    double corner[3][3], normal[3][3];     // positions and shading normals
+    vec3 place[3];                         // the corners as they are
+    vec3 geometric;
+} carrier;
+
 typedef struct texel_writer {
     const alp_atlas *atlas;
     alpi_texels *texels;
     uint32_t count;
+    carrier carrier;
 } texel_writer;
 
-/// Barycentrics of corners 1 and 2 at a point in texels, inside the triangle.
-static void find_barycentrics(const alp_atlas *atlas, uint32_t triangle, double x, double y,
-                              double b[2])
+static carrier load_carrier(const alp_atlas *atlas, uint32_t triangle)
 {
+    const alp_scene *scene = atlas->scene;
+    double width = atlas->info.width, height = atlas->info.height;
     const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
-    double p[3][2];
+    carrier c = {
+        .triangle = triangle, .x = (double)uv[0][0] * width, .y = (double)uv[0][1] * height};
+    c.e1x = (double)uv[1][0] * width - c.x;
+    c.e1y = (double)uv[1][1] * height - c.y;
+    c.e2x = (double)uv[2][0] * width - c.x;
+    c.e2y = (double)uv[2][1] * height - c.y;
+    c.area = c.e1x * c.e2y - c.e1y * c.e2x; // not 0: the triangle has a piece in a texel
     for (int k = 0; k < 3; k++) {
-        p[k][0] = (double)uv[k][0] * atlas->info.width;
-        p[k][1] = (double)uv[k][1] * atlas->info.height;
+        uint32_t vertex = scene->triangles[triangle][k];
+        for (int axis = 0; axis < 3; axis++) {
+            c.corner[k][axis] = (double)scene->positions[vertex][axis];
+            c.normal[k][axis] = (double)scene->normals[vertex][axis];
+        }
     }
-    double e1x = p[1][0] - p[0][0], e1y = p[1][1] - p[0][1];
-    double e2x = p[2][0] - p[0][0], e2y = p[2][1] - p[0][1];
-    double dx = x - p[0][0], dy = y - p[0][1];
-    double area = e1x * e2y - e1y * e2x; // not 0: the triangle has a piece in the texel
-    b[0] = fmin(fmax((dx * e2y - dy * e2x) / area, 0.0), 1.0);
-    b[1] = fmin(fmax((e1x * dy - e1y * dx) / area, 0.0), 1.0);
+    alpi_triangle_corners(scene, triangle, c.place);
+    c.geometric =
+        vec3_triangle_normal(c.place[0], c.place[1], c.place[2], (vec3){0.0f, 1.0f, 0.0f});
+    return c;
+}
+
+/// Barycentrics of corners 1 and 2 at a point in texels, held inside the triangle.
+static void find_barycentrics(const carrier *c, double x, double y, double b[2])
+{
+    double dx = x - c->x, dy = y - c->y;
+    b[0] = fmin(fmax((dx * c->e2y - dy * c->e2x) / c->area, 0.0), 1.0);
+    b[1] = fmin(fmax((c->e1x * dy - c->e1y * dx) / c->area, 0.0), 1.0);
     double sum = b[0] + b[1];
     if (sum > 1.0) {
         b[0] /= sum;
@@ -36,31 +61,26 @@ static void find_barycentrics(const alp_atlas *atlas, uint32_t triangle, double 
 }
 
 /// Position, geometric normal and shading normal at barycentrics of a triangle.
-static void place_receiver(const alp_scene *scene, uint32_t triangle, const double b[2],
-                           alpi_receivers *receivers, uint32_t index)
+static void place_receiver(const carrier *c, const double b[2], alpi_receivers *receivers,
+                           uint32_t index)
 {
-    const uint32_t *v = scene->triangles[triangle];
     const double weight[3] = {1.0 - b[0] - b[1], b[0], b[1]};
-    double normal[3];
+    float normal[3];
     for (int axis = 0; axis < 3; axis++) {
-        double position = 0.0;
-        normal[axis] = 0.0;
-        for (int k = 0; k < 3; k++) {
-            position += weight[k] * (double)scene->positions[v[k]][axis];
-            normal[axis] += weight[k] * (double)scene->normals[v[k]][axis];
-        }
-        receivers->positions[index][axis] = (float)position;
+        receivers->positions[index][axis] =
+            (float)(weight[0] * c->corner[0][axis] + weight[1] * c->corner[1][axis] +
+                    weight[2] * c->corner[2][axis]);
+        normal[axis] = (float)(weight[0] * c->normal[0][axis] + weight[1] * c->normal[1][axis] +
+                               weight[2] * c->normal[2][axis]);
     }
-    vec3 c[3];
-    alpi_triangle_corners(scene, triangle, c);
-    vec3 geometric = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-    vec3 shading = {(float)normal[0], (float)normal[1], (float)normal[2]};
-    shading = vec3_normalize_or(shading, geometric);
-    if (!(vec3_dot(shading, geometric) > 0.0f)) {
-        shading = geometric; // a hemisphere that points into the surface sees nothing
+    vec3 shading = vec3_normalize_or(vec3_load(normal), c->geometric);
+    if (!(vec3_dot(shading, c->geometric) > 0.0f)) {
+        shading = c->geometric; // a hemisphere that points into the surface sees nothing
     }
-    vec3_store(receivers->geometric_normals[index], geometric);
+    vec3_store(receivers->geometric_normals[index], c->geometric);
     vec3_store(receivers->shading_normals[index], shading);
+    receivers->offsets[index] =
+        alpi_receiver_offset(vec3_load(receivers->positions[index]), c->place);
 }
 
 static alp_result write_row(void *user, const alpi_row *row)
@@ -73,8 +93,11 @@ static alp_result write_row(void *user, const alpi_row *row)
             continue;
         }
         uint32_t i = w->count++;
+        if (w->carrier.triangle != cell->triangle) {
+            w->carrier = load_carrier(w->atlas, cell->triangle);
+        }
         double b[2];
-        find_barycentrics(w->atlas, cell->triangle, cell->x, cell->y, b);
+        find_barycentrics(&w->carrier, cell->x, cell->y, b);
         texels->pages[i] = row->page;
         texels->pixels[i][0] = (uint16_t)x;
         texels->pixels[i][1] = (uint16_t)row->y;
@@ -85,7 +108,7 @@ static alp_result write_row(void *user, const alpi_row *row)
         texels->coverages[i] = (float)fmin(cell->coverage, 1.0);
         texels->charts[i] = w->atlas->triangle_charts[cell->triangle];
         texels->page_first[row->page + 1] = w->count;
-        place_receiver(w->atlas->scene, cell->triangle, b, &texels->receivers, i);
+        place_receiver(&w->carrier, b, &texels->receivers, i);
     }
     return ALP_OK;
 }
@@ -108,7 +131,7 @@ static alp_result create_texels(const alp_atlas *atlas, alpi_texels *texels)
     ALPI_TRY_NEW(context, texels->charts, texels->count);
     ALPI_TRY_NEW(context, texels->page_first, (size_t)atlas->info.pages + 1);
     ALP_TRY(alpi_receivers_create(context, texels->count, &texels->receivers));
-    texel_writer writer = {.atlas = atlas, .texels = texels};
+    texel_writer writer = {.atlas = atlas, .texels = texels, .carrier.triangle = ALPI_NONE};
     ALP_TRY(alpi_raster(atlas, 0, atlas->info.pages, write_row, &writer));
     for (uint32_t p = 0; p < atlas->info.pages; p++) { // pages without texels end where they begin
         if (texels->page_first[p + 1] < texels->page_first[p]) {

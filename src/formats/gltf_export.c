@@ -138,11 +138,11 @@ static uint32_t needed_uv_sets(const alp_scene *scene, const alpi_surface *surfa
     uint32_t sets = surface->uv_sets;
     if (surface->material != ALPI_NONE) {
         const alpi_material *m = &scene->materials[surface->material];
-        const alpi_texture *const textures[] = {&m->base_color_texture, &m->metallic_texture,
-                                                &m->emission_texture, &m->occlusion_texture};
+        const alpi_texture textures[] = {m->base_color_texture, m->metallic_texture,
+                                         m->emission_texture, m->occlusion_texture};
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
-            if (textures[i]->image != ALPI_NONE && textures[i]->uv_set >= sets) {
-                sets = textures[i]->uv_set + 1;
+            if (textures[i].image != ALPI_NONE && textures[i].uv_set >= sets) {
+                sets = textures[i].uv_set + 1;
             }
         }
     }
@@ -440,13 +440,6 @@ static void print_json(const exporter *e, alpi_bytes *json)
     alpi_bytes_align(json, ' ');
 }
 
-static void add_u32(alpi_bytes *bytes, uint64_t value)
-{
-    uint8_t little[4] = {(uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16),
-                         (uint8_t)(value >> 24)};
-    alpi_bytes_add(bytes, little, sizeof little);
-}
-
 static alp_result assemble(exporter *e, alpi_bytes *json, alpi_bytes *glb)
 {
     alpi_bytes_align(&e->bin, '\0');
@@ -458,13 +451,13 @@ static alp_result assemble(exporter *e, alpi_bytes *json, alpi_bytes *glb)
                          (unsigned long long)size);
     }
     alpi_bytes_add(glb, "glTF", 4);
-    add_u32(glb, 2);
-    add_u32(glb, size);
-    add_u32(glb, json->size);
+    alpi_bytes_add_u32(glb, 2);
+    alpi_bytes_add_u32(glb, (uint32_t)size);
+    alpi_bytes_add_u32(glb, (uint32_t)json->size);
     alpi_bytes_add(glb, "JSON", 4);
     alpi_bytes_add(glb, json->bytes, json->size);
     if (e->bin.size > 0) {
-        add_u32(glb, e->bin.size);
+        alpi_bytes_add_u32(glb, (uint32_t)e->bin.size);
         alpi_bytes_add(glb, "BIN\0", 4);
         alpi_bytes_add(glb, e->bin.bytes, e->bin.size);
     }

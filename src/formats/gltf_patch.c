@@ -3,8 +3,8 @@
 // that was there before still means the same.
 #include "formats/gltf_patch.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
-#include "base/random.h"
 
 #include <float.h>
 #include <math.h>
@@ -213,18 +213,7 @@ static bool same_array(const alpi_gltf_patcher *p, const struct alpi_gltf_known 
 
 static uint64_t hash_array(const alpi_gltf_array *array)
 {
-    uint64_t hash = array->count;
-    const uint8_t *bytes = array->bytes;
-    size_t size = array->count * array->element_size, at = 0;
-    for (; at + 8 <= size; at += 8) {
-        uint64_t word;
-        memcpy(&word, bytes + at, sizeof word);
-        hash = alpi_hash64(hash ^ word);
-    }
-    for (; at < size; at++) {
-        hash = alpi_hash64(hash ^ bytes[at]);
-    }
-    return hash;
+    return alpi_hash_bytes(ALPI_HASH_START, array->bytes, array->count * array->element_size);
 }
 
 static alp_result grow_known_table(alpi_gltf_patcher *p)
@@ -281,18 +270,18 @@ static size_t append_accessor(alpi_gltf_patcher *p, const alpi_gltf_array *array
     return accessor;
 }
 
-alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *p, const alpi_gltf_array *given,
+alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *p, const alpi_gltf_array *array,
                                      size_t *accessor)
 {
     static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    alpi_gltf_array array = *given;
-    array.type = array.type != NULL ? array.type : types[array.components];
+    alpi_gltf_array own = *array;
+    own.type = own.type != NULL ? own.type : types[own.components];
     ALP_TRY(grow_known_table(p));
-    uint64_t hash = hash_array(&array);
+    uint64_t hash = hash_array(&own);
     size_t slot = (size_t)hash & (p->known_table_size - 1);
     for (; p->known_table[slot] != ALPI_NONE; slot = (slot + 1) & (p->known_table_size - 1)) {
         const struct alpi_gltf_known *known = &p->known[p->known_table[slot]];
-        if (known->hash == hash && same_array(p, known, &array)) {
+        if (known->hash == hash && same_array(p, known, &own)) {
             *accessor = known->accessor;
             return ALP_OK;
         }
@@ -301,18 +290,18 @@ alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *p, const alpi_gltf_array
     ALP_TRY(
         alpi_grow(p->context, &items, &p->known_capacity, p->known_count + 1, sizeof *p->known));
     p->known = items;
-    size_t stride = array.is_indices ? array.element_size : (array.element_size + 3) / 4 * 4;
-    *accessor = append_accessor(p, &array, stride);
+    size_t stride = own.is_indices ? own.element_size : (own.element_size + 3) / 4 * 4;
+    *accessor = append_accessor(p, &own, stride);
     if (p->data.failed) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    array.bytes = NULL;
+    own.bytes = NULL;
     p->known_table[slot] = (uint32_t)p->known_count;
     p->known[p->known_count++] =
         (struct alpi_gltf_known){.hash = hash,
                                  .accessor = *accessor,
-                                 .array = array,
-                                 .data_begin = p->data.size - stride * array.count,
+                                 .array = own,
+                                 .data_begin = p->data.size - stride * own.count,
                                  .stride = stride};
     return ALP_OK;
 }

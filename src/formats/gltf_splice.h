@@ -29,6 +29,7 @@ void alpi_bytes_print(alpi_bytes *bytes, const char *format, ...) ALP_PRINTF(2, 
 void alpi_bytes_number(alpi_bytes *bytes, double value, int digits);
 /// A JSON string: quotes and escapes added; bytes that are no ASCII stay as they are (UTF-8).
 void alpi_bytes_quote(alpi_bytes *bytes, const char *text);
+void alpi_bytes_add_u32(alpi_bytes *bytes, uint32_t value); ///< little-endian
 /// Fills with `filler` up to a multiple of 4.
 void alpi_bytes_align(alpi_bytes *bytes, char filler);
 

@@ -40,7 +40,8 @@ static size_t find_slot(const splitter *s, uint32_t source, const float uv[2])
     size_t slot = (size_t)(alpi_hash64(key ^ alpi_hash64(source)) & (s->table_size - 1));
     while (s->table[slot] != ALPI_NONE) {
         const vertex_pair *pair = &s->pairs[s->table[slot]];
-        if (pair->source == source && memcmp(pair->uv, uv, sizeof pair->uv) == 0) {
+        if (pair->source == source && float_bits(pair->uv[0]) == float_bits(uv[0]) &&
+            float_bits(pair->uv[1]) == float_bits(uv[1])) {
             break;
         }
         slot = (slot + 1) & (s->table_size - 1);

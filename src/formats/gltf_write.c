@@ -163,17 +163,10 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
 
 // --- the asset itself ----------------------------------------------------------------------------
 
-static void add_u32(alpi_bytes *bytes, uint32_t value)
-{
-    uint8_t little[4] = {(uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16),
-                         (uint8_t)(value >> 24)};
-    alpi_bytes_add(bytes, little, sizeof little);
-}
-
 static void add_chunk(alpi_bytes *glb, const char type[4], const alpi_bytes *content, char filler)
 {
     size_t padding = (4 - content->size % 4) % 4;
-    add_u32(glb, (uint32_t)(content->size + padding));
+    alpi_bytes_add_u32(glb, (uint32_t)(content->size + padding));
     alpi_bytes_add(glb, type, 4);
     alpi_bytes_add(glb, content->bytes, content->size);
     alpi_bytes_align(glb, filler); // chunks begin at multiples of 4
@@ -193,8 +186,8 @@ static alp_result assemble_glb(const alpi_gltf_document *document, const alpi_by
                          document->path, (unsigned long long)size);
     }
     alpi_bytes_add(glb, "glTF", 4);
-    add_u32(glb, 2);
-    add_u32(glb, (uint32_t)size);
+    alpi_bytes_add_u32(glb, 2);
+    alpi_bytes_add_u32(glb, (uint32_t)size);
     add_chunk(glb, "JSON", text, ' ');
     if (has_bin) {
         add_chunk(glb, "BIN\0", bin, '\0');

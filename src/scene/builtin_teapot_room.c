@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Newell's teapot, large as a tureen, on a table in a room of 4 m × 2.8 m × 4 m with stools, a rug,
-// a shelf of books, balls on the floor, skirting, and a doorway to a dark hall: corners, gaps and
-// contacts of many sizes. What stands on something is sunk a millimetre or two into it and has no
-// hidden face there, so that no two faces lie in one plane.
+// Newell's teapot, large as a tureen, on a table in a room of 4 m × 2.8 m × 4 m with cups and a
+// bowl, stools, a rug, a shelf of books, balls on the floor, skirting, and a doorway to a dark
+// hall: corners, gaps and contacts of many sizes. What stands on something is sunk a millimetre
+// into it and has no hidden face there, so that no two faces lie in one plane.
 #include "scene/builtin.h"
 #include "scene/teapot.h"
 
-static const float SUNK = 0.002f;
+static const float SUNK = 0.001f;
+static const float RUG_HEIGHT = 0.012f;
 static const vec3 DARK = {0.0f, 0.0f, 0.0f}; // no emission
 
 enum { X_CUTS = 2, Y_CUTS = 3, Z_CUTS = 4 };
@@ -83,7 +84,7 @@ static void build_shells(alpi_builder *builder, uint32_t plaster, uint32_t oak)
 static void build_skirting(alpi_builder *builder, uint32_t material)
 {
     const float height = 0.08f, thick = 0.015f, wall = 2.0f, end = wall - thick;
-    const float back = wall + SUNK, door_low = ROOM.z[1] - 0.01f, door_high = ROOM.z[2] + 0.01f;
+    const float back = wall + SUNK, door_low = ROOM.z[1], door_high = ROOM.z[2];
     alpi_builder_surface(builder, "skirting", material);
     alpi_builder_box(builder, (vec3){-wall, -SUNK, -back}, (vec3){wall, height, -end},
                      ALPI_FACE_TOP | ALPI_FACE_FRONT);
@@ -91,22 +92,24 @@ static void build_skirting(alpi_builder *builder, uint32_t material)
                      ALPI_FACE_TOP | ALPI_FACE_BACK);
     alpi_builder_box(builder, (vec3){end, -SUNK, -end}, (vec3){back, height, end},
                      ALPI_FACE_TOP | ALPI_FACE_LEFT);
-    alpi_builder_box(builder, (vec3){-back, -SUNK, -end}, (vec3){-end, height, door_low},
+    // At the door the ends are flush with the doorway's sides, and so are not sunk into the wall.
+    alpi_builder_box(builder, (vec3){-wall, -SUNK, -end}, (vec3){-end, height, door_low},
                      ALPI_FACE_TOP | ALPI_FACE_RIGHT | ALPI_FACE_FRONT);
-    alpi_builder_box(builder, (vec3){-back, -SUNK, door_high}, (vec3){-end, height, end},
+    alpi_builder_box(builder, (vec3){-wall, -SUNK, door_high}, (vec3){-end, height, end},
                      ALPI_FACE_TOP | ALPI_FACE_RIGHT | ALPI_FACE_BACK);
 }
 
 /// A slab on four legs: a table or a stool.
 typedef struct table {
     const char *name;
-    float x, z, width, depth, height, thickness, leg, inset;
+    float x, floor, z, width, depth, height, thickness, leg, inset;
 } table;
 
-static const table TABLE = {"table", 0.05f, -0.45f, 1.5f, 0.9f, 0.74f, 0.04f, 0.06f, 0.05f};
+static const table TABLE = {"table", 0.05f, RUG_HEIGHT, -0.45f, 1.5f,
+                            0.9f,    0.74f, 0.04f,      0.06f,  0.05f};
 static const table STOOLS[2] = {
-    {"stool", 0.45f, 0.5f, 0.38f, 0.38f, 0.45f, 0.03f, 0.04f, 0.02f},
-    {"far stool", -1.15f, -0.5f, 0.38f, 0.38f, 0.45f, 0.03f, 0.04f, 0.02f}};
+    {"stool", -0.1f, 0.0f, 0.62f, 0.38f, 0.38f, 0.45f, 0.03f, 0.04f, 0.02f},
+    {"far stool", -1.25f, 0.0f, -0.5f, 0.38f, 0.38f, 0.45f, 0.03f, 0.04f, 0.02f}};
 
 static void build_table(alpi_builder *builder, const table *t, uint32_t material)
 {
@@ -120,7 +123,7 @@ static void build_table(alpi_builder *builder, const table *t, uint32_t material
     for (int i = 0; i < 4; i++) {
         float x = t->x + (i & 1 ? out_x : -out_x), z = t->z + (i & 2 ? out_z : -out_z);
         float half = 0.5f * t->leg;
-        alpi_builder_box(builder, (vec3){x - half, -SUNK, z - half},
+        alpi_builder_box(builder, (vec3){x - half, t->floor - SUNK, z - half},
                          (vec3){x + half, under + SUNK, z + half},
                          ALPI_FACE_ALL & ~(ALPI_FACE_TOP | ALPI_FACE_BOTTOM));
     }
@@ -137,7 +140,27 @@ static void build_ball(alpi_builder *builder, vec3 foot, float radius, const cha
                                             .stacks = 24});
 }
 
-static const float SHELF_LEFT = 0.35f, SHELF_RIGHT = 1.65f;
+/// Profiles (radius, height) of a cup and a bowl; the hidden bottom is left out.
+static const float CUP[][2] = {
+    {0.024f, -0.001f}, {0.026f, 0.006f}, {0.04f, 0.025f},  {0.046f, 0.05f}, {0.048f, 0.078f},
+    {0.045f, 0.078f},  {0.043f, 0.05f},  {0.037f, 0.027f}, {0.022f, 0.01f}, {0.0f, 0.008f}};
+static const float BOWL[][2] = {{0.05f, -0.001f}, {0.052f, 0.012f}, {0.1f, 0.04f},  {0.135f, 0.08f},
+                                {0.13f, 0.08f},   {0.096f, 0.045f}, {0.05f, 0.02f}, {0.0f, 0.017f}};
+enum { CUP_POINTS = sizeof CUP / sizeof *CUP, BOWL_POINTS = sizeof BOWL / sizeof *BOWL };
+
+static void build_tableware(alpi_builder *builder, uint32_t cups, uint32_t bowl)
+{
+    static const float CUP_PLACES[3][2] = {{0.45f, -0.22f}, {0.28f, -0.1f}, {-0.42f, -0.14f}};
+    alpi_builder_surface(builder, "cups", cups);
+    for (int i = 0; i < 3; i++) {
+        const vec3 foot = {CUP_PLACES[i][0], TABLE.height, CUP_PLACES[i][1]};
+        alpi_builder_lathe(builder, &(alpi_lathe){foot, CUP, CUP_POINTS, 32});
+    }
+    alpi_builder_surface(builder, "bowl", bowl);
+    alpi_builder_lathe(builder, &(alpi_lathe){{0.6f, TABLE.height, -0.64f}, BOWL, BOWL_POINTS, 48});
+}
+
+static const float SHELF_LEFT = 0.1f, SHELF_RIGHT = 1.4f;
 static const float SHELF_TOPS[2] = {1.4f, 1.78f};
 
 /// Width, height and depth of each book, in metres.
@@ -203,7 +226,7 @@ void alpi_builtin_teapot_room(alpi_builder *builder)
     build_shells(builder, plaster, oak);
     build_skirting(builder, white);
     alpi_builder_surface(builder, "rug", wool);
-    alpi_builder_box(builder, (vec3){-1.0f, -SUNK, -1.15f}, (vec3){1.1f, 0.012f, 0.35f},
+    alpi_builder_box(builder, (vec3){-1.0f, -SUNK, -1.15f}, (vec3){1.1f, RUG_HEIGHT, 0.35f},
                      ALPI_FACE_ALL & ~ALPI_FACE_BOTTOM);
     build_table(builder, &TABLE, walnut);
     build_table(builder, &STOOLS[0], white);
@@ -213,14 +236,15 @@ void alpi_builtin_teapot_room(alpi_builder *builder)
                                                 .height = 0.4f,
                                                 .turn = 0.6f,
                                                 .segments = 10});
+    build_tableware(builder, white, ochre);
     build_shelf(builder, walnut);
     build_books(builder, 0, "red books", wool);
     build_books(builder, 1, "green books", green);
     build_books(builder, 2, "ochre books", ochre);
-    build_ball(builder, (vec3){1.3f, SHELF_TOPS[1], -1.86f}, 0.1f, "small ball", china);
+    build_ball(builder, (vec3){1.05f, SHELF_TOPS[1], -1.86f}, 0.1f, "small ball", china);
     build_ball(builder, (vec3){-1.5f, 0.0f, -1.5f}, 0.28f, "ball", ochre);
     build_ball(builder, (vec3){-1.05f, 0.0f, -1.62f}, 0.16f, "green ball", green);
     build_lamp(builder, white, lamp);
-    alpi_builder_camera(builder, (vec3){1.7f, 1.75f, 1.75f}, (vec3){-0.25f, 0.8f, -0.7f}, 0.95f);
+    alpi_builder_camera(builder, (vec3){1.75f, 1.7f, 1.7f}, (vec3){-0.12f, 0.74f, -0.6f}, 0.88f);
     alpi_builder_camera(builder, (vec3){0.75f, 1.3f, 0.75f}, (vec3){0.05f, 0.87f, -0.42f}, 0.65f);
 }

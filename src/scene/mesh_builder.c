@@ -272,3 +272,42 @@ void alpi_builder_ring(alpi_builder *builder, const alpi_ring *ring)
         }
     }
 }
+
+/// A ring of vertices at profile point p.
+static uint32_t lathe_ring(alpi_builder *builder, const alpi_lathe *lathe, const float p[2],
+                           const double normal[2])
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < lathe->slices; i++) {
+        double c, s;
+        turn(i, lathe->slices, &c, &s);
+        vec3 position = {(float)((double)lathe->foot.x + (double)p[0] * c), lathe->foot.y + p[1],
+                         (float)((double)lathe->foot.z + (double)p[0] * s)};
+        uint32_t vertex = alpi_builder_vertex(
+            builder, position,
+            (vec3){(float)(normal[0] * c), (float)normal[1], (float)(normal[0] * s)});
+        first = i == 0 ? vertex : first;
+    }
+    return first;
+}
+
+void alpi_builder_lathe(alpi_builder *builder, const alpi_lathe *lathe)
+{
+    for (uint32_t k = 0; k + 1 < lathe->point_count; k++) {
+        const float *p = lathe->profile[k], *q = lathe->profile[k + 1];
+        double across = (double)q[0] - (double)p[0], up = (double)q[1] - (double)p[1];
+        double length = sqrt(across * across + up * up);
+        const double normal[2] = {up / length, -across / length};
+        uint32_t low = lathe_ring(builder, lathe, p, normal);
+        uint32_t high = lathe_ring(builder, lathe, q, normal);
+        for (uint32_t i = 0; i < lathe->slices; i++) {
+            uint32_t next = (i + 1) % lathe->slices;
+            if (q[0] > 0.0f) { // else the ring is one point
+                alpi_builder_triangle(builder, low + i, high + i, high + next);
+            }
+            if (p[0] > 0.0f) {
+                alpi_builder_triangle(builder, low + i, high + next, low + next);
+            }
+        }
+    }
+}

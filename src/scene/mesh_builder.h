@@ -73,6 +73,16 @@ typedef struct alpi_ring {
 } alpi_ring;
 void alpi_builder_ring(alpi_builder *builder, const alpi_ring *ring);
 
+/// A profile turned about the y axis through `foot`: points (radius, height), from the bottom up
+/// the outside, over the rim and down the inside. Each piece between two points is smooth around
+/// and has its own edge to the next.
+typedef struct alpi_lathe {
+    vec3 foot;
+    const float (*profile)[2];
+    uint32_t point_count, slices;
+} alpi_lathe;
+void alpi_builder_lathe(alpi_builder *builder, const alpi_lathe *lathe);
+
 /// @param vertical_fov radians; up is +y
 void alpi_builder_camera(alpi_builder *builder, vec3 position, vec3 target, float vertical_fov);
 

@@ -178,9 +178,8 @@ static alp_result run_round(void *user, uint32_t begin, uint32_t end, uint32_t w
             .position = vec3_load(r->positions[i]),
             .geometric_normal = vec3_load(r->geometric_normals[i]),
             .shading_normal = vec3_load(r->shading_normals[i]),
+            .offset = r->offsets[i],
         };
-        receiver.offset =
-            r->offsets[i] > 0.0f ? r->offsets[i] : alpi_receiver_offset(receiver.position, NULL);
         job->sums[i] +=
             alpi_occlusion_sum(job->setup, &receiver, job->first_sample, job->sample_count);
     }
@@ -228,6 +227,41 @@ static bool is_unit(const float n[3])
     return fabsf(vec3_length(vec3_load(n)) - 1.0f) < 1e-3f; // NaN compares false
 }
 
+/// Largest absolute coordinate of the scene.
+static float scene_reach(const alp_scene *scene)
+{
+    vec3 a = scene->bounds_min, b = scene->bounds_max;
+    float low = fmaxf(fmaxf(fabsf(a.x), fabsf(a.y)), fabsf(a.z));
+    float high = fmaxf(fmaxf(fabsf(b.x), fabsf(b.y)), fabsf(b.z));
+    return fmaxf(low, high);
+}
+
+/// Points come without the triangle they lie on, which their offset depends on: looks for it with
+/// one short ray down through each point. A point on no surface needs no lift beyond its own
+/// rounding.
+static void find_offsets(const alp_scene *scene, const alpi_tracer *tracer, alpi_receivers *r)
+{
+    float reach = 8.0f * 0x1p-23f * scene_reach(scene);
+    for (uint32_t i = 0; i < r->count; i++) {
+        vec3 p = vec3_load(r->positions[i]), n = vec3_load(r->geometric_normals[i]);
+        vec3 start = vec3_mad(p, reach, n);
+        alpi_rays ray = {.origin_x = {start.x},
+                         .origin_y = {start.y},
+                         .origin_z = {start.z},
+                         .direction_x = {-n.x},
+                         .direction_y = {-n.y},
+                         .direction_z = {-n.z},
+                         .maximum = {2.0f * reach}};
+        alpi_hits hit;
+        vec3 corners[3];
+        alpi_trace_nearest(tracer, &ray, 1u, (alpi_trace_filter){0}, &hit);
+        if (hit.triangle[0] != ALPI_NONE) {
+            alpi_triangle_corners(scene, hit.triangle[0], corners);
+        }
+        r->offsets[i] = alpi_receiver_offset(p, hit.triangle[0] != ALPI_NONE ? corners : NULL);
+    }
+}
+
 static alp_result copy_receivers(alp_context *context, const float *positions,
                                  const float *geometric_normals, const float *shading_normals,
                                  alpi_receivers *r)
@@ -267,6 +301,7 @@ alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const
     alp_result result =
         copy_receivers(scene->context, positions, geometric_normals, shading_normals, &receivers);
     if (result == ALP_OK) {
+        find_offsets(scene, tracer, &receivers);
         result = alpi_occlusion_gather(scene->context, &setup, &receivers, accessibility);
     }
     alpi_receivers_destroy(scene->context, &receivers);

@@ -101,6 +101,40 @@ static void open_plane_is_exactly_one(void **state)
     }
 }
 
+static void wide_planes_do_not_shade_themselves(void **state)
+{
+    (void)state;
+    // Near the origin of a wide plane a position is exact and its triangle's corners are far: only
+    // the triangle's size tells how far a ray must be lifted.
+    for (double wide = 1.0; wide < 1e6; wide *= 100.0) {
+        const double u[3] = {0.81 * wide, 0.1 * wide, -0.3 * wide};
+        const double v[3] = {0.1 * wide, 0.31 * wide, -0.72 * wide};
+        double corner[3], n[3];
+        for (int k = 0; k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+            corner[k] = -0.4 * u[k] - 0.3 * v[k];
+            n[k] = (u[i] * v[j] - u[j] * v[i]) / wide;
+        }
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int k = 0; k < 3; k++) {
+            n[k] /= length;
+        }
+        test_mesh *mesh = test_mesh_start();
+        test_mesh_quad(mesh, corner, u, v);
+        alp_scene *scene = test_mesh_scene(context, mesh, 0);
+        alp_occlusion_options options = open_options();
+        options.samples = 256;
+        for (int point = 0; point < 50; point++) { // within a metre of the origin
+            double s = 0.01 * point / wide, t = (0.3 - 0.013 * point) / wide, p[3];
+            for (int k = 0; k < 3; k++) {
+                p[k] = s * u[k] + t * v[k];
+            }
+            assert_true(test_occlusion(scene, p, n, &options) == 1.0);
+        }
+        alp_scene_destroy(scene);
+    }
+}
+
 static void tilted_receiver_over_a_plane(void **state)
 {
     (void)state;
@@ -441,6 +475,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(open_plane_is_exactly_one),
+        cmocka_unit_test(wide_planes_do_not_shade_themselves),
         cmocka_unit_test(tilted_receiver_over_a_plane),
         cmocka_unit_test(sphere_above_and_on_a_plane),
         cmocka_unit_test(parallel_and_perpendicular_rectangles),

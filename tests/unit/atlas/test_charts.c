@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 
+#include <stdlib.h>
+
 static alp_atlas *atlas_of(alp_context *context, const alp_scene *scene, uint32_t size,
                            double density, uint32_t padding)
 {
@@ -279,6 +281,50 @@ static void workers_change_nothing(void **state)
     }
 }
 
+/// Allocator that fails once its countdown is at zero.
+static void *allocate_until(void *user, size_t size)
+{
+    int *left = user;
+    return (*left)-- > 0 ? malloc(size) : NULL;
+}
+
+static void release_any(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    int left = 1 << 30, failures = 0;
+    alp_context_options host = alp_context_options_default();
+    host.allocate = allocate_until;
+    host.release = release_any;
+    host.allocator_user = &left;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&host, &context), ALP_OK);
+    alp_scene *scene = scene_sphere(context, 6, 12);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.size = 16;
+    options.texels_per_metre = 15.0; // several pages and cut charts
+    for (bool done = false; !done; failures++) {
+        alp_atlas *atlas = NULL;
+        alpi_texels texels = {0};
+        left = failures;
+        alp_result result = alp_atlas_create(scene, &options, &atlas);
+        result = result == ALP_OK ? alpi_texels_create(atlas, &texels) : result;
+        left = 1 << 30;
+        done = result == ALP_OK;
+        assert_true(done || result == ALP_ERROR_OUT_OF_MEMORY);
+        alpi_texels_destroy(context, &texels);
+        alp_atlas_destroy(atlas);
+    }
+    assert_true(failures > 30);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void a_picture_shows_the_charts(void **state)
 {
     (void)state;
@@ -312,6 +358,7 @@ int main(void)
         cmocka_unit_test(nothing_to_bake_is_said),
         cmocka_unit_test(progress_can_cancel),
         cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(a_picture_shows_the_charts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -243,6 +243,30 @@ static void what_cannot_be_baked_says_so(void **state)
     alp_context_destroy(context);
 }
 
+static void rays_clear_their_own_surface(void **state)
+{
+    (void)state;
+    // Planes in general position, kilometres wide, near and far from the origin: every texel is
+    // open, exactly. Near the origin only the triangle's size tells how far a ray must be lifted.
+    alp_context *context = test_context(2);
+    const double origins[] = {0.0, 1e4};
+    for (int i = 0; i < 2; i++) {
+        double o = origins[i];
+        test_mesh *mesh = test_mesh_start();
+        test_mesh_quad(mesh, (double[]){o, o, o}, (double[]){8123.4, 1030.7, -3011.9},
+                       (double[]){1017.3, 3141.5, -7219.1});
+        alp_scene *scene = test_mesh_scene(context, mesh, 0);
+        alp_bake_options options = small_options();
+        options.occlusion.samples = 256;
+        options.occlusion.distance = INFINITY;
+        alp_bake_report report;
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+        assert_true(report.ao_mean == 1.0);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +276,7 @@ int main(void)
         cmocka_unit_test(nothing_is_overwritten_unasked),
         cmocka_unit_test(the_ends_of_ranges_are_sane),
         cmocka_unit_test(what_cannot_be_baked_says_so),
+        cmocka_unit_test(rays_clear_their_own_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

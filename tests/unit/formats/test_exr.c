@@ -371,6 +371,53 @@ static void broken_files_do_no_harm(void **state)
     alp_context_destroy(context);
 }
 
+static int allocations_left;
+
+static void *allocate(void *user, size_t size)
+{
+    (void)user;
+    return allocations_left-- > 0 ? malloc(size) : NULL;
+}
+
+static void give_back(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    alp_context_options options = alp_context_options_default();
+    options.allocate = allocate;
+    options.release = give_back;
+    allocations_left = 1000;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    alp_image *image = noise(context, 40, 40, 4), *again = NULL;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    int allowed = 0;
+    for (; result != ALP_OK; allowed++) {
+        allocations_left = allowed;
+        result = alpi_exr_encode(image, &bytes, &size);
+        assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && bytes == NULL));
+    }
+    assert_in_range(allowed, 2, 60);
+    result = ALP_ERROR_OUT_OF_MEMORY;
+    for (allowed = 0; result != ALP_OK; allowed++) {
+        allocations_left = allowed;
+        result = alpi_exr_decode(context, "noise", bytes, size, &again);
+        assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && again == NULL));
+    }
+    assert_in_range(allowed, 3, 10);
+    alpi_release(context, bytes);
+    alp_image_destroy(image);
+    alp_image_destroy(again);
+    alp_context_destroy(context);
+}
+
 static void bytes_are_not_encoded(void **state)
 {
     (void)state;
@@ -417,6 +464,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_read_is_named),
         cmocka_unit_test(a_promise_that_cannot_be_kept),
         cmocka_unit_test(broken_files_do_no_harm),
+        cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(bytes_are_not_encoded),
         cmocka_unit_test(the_stored_reference_is_read),
     };

@@ -1,3 +1,658 @@
 // SPDX-License-Identifier: MIT
-#include "test_support.h"
-int main(void) { return 0; }
+// What a patch does to small assets: which coordinate set, when vertices split, which materials and
+// meshes are copied, and that the rest is byte for byte what it was.
+#include "quad_asset.h"
+
+#include "base/memory.h"
+#include "formats/gltf_accessor.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define ASSET "{\"version\":\"2.0\"}"
+#define ONE_NODE "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+#define MESH(primitives) "\"meshes\":[{\"primitives\":[" primitives "]}]"
+#define QUAD "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":6,\"material\":0}"
+
+/// The written quad's triangles have the old positions and the wanted coordinates in set `set`.
+static void require_corners(const quad_bake *bake, uint32_t set)
+{
+    const alp_scene *a = bake->scene, *b = bake->result;
+    assert_non_null(b->uvs[set]);
+    for (uint32_t t = 0; t < a->triangle_count; t++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t va = a->triangles[t][k], vb = b->triangles[t][k];
+            assert_memory_equal(a->positions[va], b->positions[vb], sizeof a->positions[va]);
+            assert_memory_equal(b->uvs[set][vb], bake->uvs[t][k], sizeof bake->uvs[t][k]);
+        }
+    }
+}
+
+/// Reads an accessor of the written file named at a path.
+static alpi_gltf_values read_values(const quad_bake *bake, const char *path)
+{
+    alpi_gltf_values values;
+    int accessor = quad_number(bake, path);
+    assert_true(accessor >= 0);
+    ASSERT_OK(bake->context, alpi_gltf_accessor_read(quad_new(bake), (size_t)accessor, &values));
+    return values;
+}
+
+// --- text ----------------------------------------------------------------------------------------
+
+static void strange_text_survives(void **state)
+{
+    (void)state;
+    const char *path = quad_write_glb(
+        "{\"version\":\"2.0\" ,\"extras\" : {\"x\":[1.0e0, 1E2,-0.0,1e-5 ]} }",
+        "\"extensionsUsed\":[\"EXT_none\"],\"extensions\":{\"EXT_none\":{\"a\":[ [ ] ,{ }]}},"
+        "\"scenes\":[{\"nodes\":[0],\"name\":\"\\u0041\\\"\\\\\xc3\xa9\"}],\"scene\":0,"
+        "\"nodes\":[{\"mesh\":0,\"extras\":7.50,\"scale\":[1.0e0,1E0,1.000]}],\n"
+        "\"materials\" : [ {\"extras\":{\"deep\":{\"er\":[null,true ]}},\"name\":\"m\" } ],"
+        "\"meshes\":[{\"extras\":\"}]\",\"primitives\":[ " QUAD " ] }],"
+        "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"
+        "\"translation\"}}],\"samplers\":[{\"input\":7,\"output\":7}]}]");
+    quad_bake bake = quad_open(path, 1);
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "asset/extras/x"), "[1.0e0, 1E2,-0.0,1e-5 ]");
+    assert_string_equal(quad_text(&bake, "asset/extras/alpenglow"), "{\"version\":\"test\"}");
+    assert_string_equal(quad_text(&bake, "scenes/0/name"), "\"\\u0041\\\"\\\\\xc3\xa9\"");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void origin_is_stated(void **state)
+{
+    (void)state;
+    static const char *const assets[] = {
+        ASSET, "{\"version\":\"2.0\",\"extras\":{}}",
+        "{\"version\":\"2.0\",\"extras\":{\"alpenglow\":{\"old\":1},\"b\":2}}"};
+    for (size_t i = 0; i < 3; i++) {
+        quad_bake bake =
+            quad_open(quad_write_glb(assets[i], ONE_NODE "\"materials\":[{}]," MESH(QUAD)), 1);
+        quad_write(&bake, ".glb");
+        assert_string_equal(quad_text(&bake, "asset/extras/alpenglow/version"), "\"test\"");
+        assert_string_equal(quad_text(&bake, "asset/extras/alpenglow/old"), "");
+        assert_string_equal(quad_text(&bake, "asset/extras/b"), i == 2 ? "2" : "");
+        quad_close(&bake);
+    }
+    quad_bake bake = quad_open(quad_write_glb("{\"version\":\"2.0\",\"extras\":\"mine\"}",
+                                              ONE_NODE "\"materials\":[{}]," MESH(QUAD)),
+                               1);
+    test_log_clear();
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "asset/extras"), "\"mine\"");
+    assert_true(test_log_has("extras"));
+    quad_close(&bake);
+}
+
+// --- coordinates and vertices --------------------------------------------------------------------
+
+static void the_first_free_set_is_taken(void **state)
+{
+    (void)state;
+    const char *path = quad_write_glb(
+        ASSET, ONE_NODE "\"materials\":[{}],\"meshes\":[{\"primitives\":[" QUAD
+                        ",{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2},\"material\":0},"
+                        "{\"attributes\":{\"TEXCOORD_1\":2,\"POSITION\":0,\"TEXCOORD_0\":2},"
+                        "\"indices\":6}]}]");
+    quad_bake bake = quad_open(path, 1);
+    quad_write(&bake, ".glb");
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/TEXCOORD_0"), -1);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/TEXCOORD_1"), -1);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/1/attributes/TEXCOORD_0"), 2);
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/1/attributes/TEXCOORD_1"), -1);
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/2/attributes/TEXCOORD_2"), -1);
+    // The sets differ, so the materials do; nothing needed a split.
+    int first = quad_number(&bake, "meshes/0/primitives/0/material");
+    int second = quad_number(&bake, "meshes/0/primitives/1/material");
+    int third = quad_number(&bake, "meshes/0/primitives/2/material");
+    assert_int_equal(first, 0);
+    assert_int_equal(second, 1);
+    assert_int_equal(third, 2);
+    assert_string_equal(quad_text(&bake, "materials/0/occlusionTexture"), "{\"index\":0}");
+    assert_string_equal(quad_text(&bake, "materials/1/occlusionTexture"),
+                        "{\"index\":0,\"texCoord\":1}");
+    assert_string_equal(quad_text(&bake, "materials/2"),
+                        "{\"occlusionTexture\":{\"index\":0,\"texCoord\":2}}");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), 6);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"), 0);
+    quad_close(&bake);
+}
+
+#define RICH_QUAD                                                                                  \
+    "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2,\"JOINTS_0\":3,"                \
+    "\"WEIGHTS_0\":4,\"_MINE\":5,\"_MATRIX\":9},\"indices\":6,\"targets\":[{\"POSITION\":7}]}"
+
+static void splits_carry_every_attribute(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(quad_write_glb(ASSET, ONE_NODE MESH(RICH_QUAD)), 1);
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".glb");
+    require_corners(&bake, 1);
+    alpi_gltf_values indices = read_values(&bake, "meshes/0/primitives/0/indices");
+    assert_int_equal(indices.count, 6);
+    static const char *const names[] = {
+        "attributes/POSITION",  "attributes/NORMAL", "attributes/TEXCOORD_0", "attributes/JOINTS_0",
+        "attributes/WEIGHTS_0", "attributes/_MINE",  "targets/0/POSITION"};
+    static const size_t accessors[] = {0, 1, 2, 3, 4, 5, 7};
+    static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
+    for (size_t n = 0; n < 7; n++) {
+        char path[128];
+        snprintf(path, sizeof path, "meshes/0/primitives/0/%s", names[n]);
+        alpi_gltf_values old, new = read_values(&bake, path);
+        ASSERT_OK(bake.context, alpi_gltf_accessor_read(quad_old(&bake), accessors[n], &old));
+        assert_int_equal(new.count, 6); // two vertices are shared by triangles that part
+        assert_int_equal(new.component_type, old.component_type);
+        size_t size = (size_t)old.components * old.component_size;
+        for (uint32_t i = 0; i < 6; i++) {
+            uint32_t vertex = alpi_gltf_values_index(&indices, i);
+            assert_memory_equal(new.bytes + vertex *size, old.bytes + corners[i] * size, size);
+        }
+        alpi_release(bake.context, old.bytes);
+        alpi_release(bake.context, new.bytes);
+    }
+    char path[64];
+    snprintf(path, sizeof path, "accessors/%d/bufferView",
+             quad_number(&bake, "meshes/0/primitives/0/attributes/_MINE"));
+    snprintf(path, sizeof path, "bufferViews/%d/byteStride", quad_number(&bake, path));
+    assert_int_equal(quad_number(&bake, path), 4); // three bytes, aligned
+    snprintf(path, sizeof path, "accessors/%d/type",
+             quad_number(&bake, "meshes/0/primitives/0/attributes/_MATRIX"));
+    assert_string_equal(quad_text(&bake, path), "\"MAT2\"");
+    alpi_release(bake.context, indices.bytes);
+    quad_close(&bake);
+}
+
+static void strips_stay_until_they_must_split(void **state)
+{
+    (void)state;
+    const char *primitive =
+        ONE_NODE MESH("{\"attributes\":{\"POSITION\":0},\"indices\":8,\"mode\":5}");
+    quad_bake bake = quad_open(quad_write_glb(ASSET, primitive), 1);
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/mode"), 5);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), 8);
+    require_corners(&bake, 0);
+    quad_close(&bake);
+    bake = quad_open(quad_write_glb(ASSET, primitive), 1);
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/mode"), 4);
+    require_corners(&bake, 0);
+    quad_close(&bake);
+    // Not indexed: a fan 0 1 2, 0 2 3.
+    bake = quad_open(
+        quad_write_glb(ASSET, ONE_NODE MESH("{\"mode\":6,\"attributes\":{\"POSITION\":0}}")), 1);
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".glb");
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), -1);
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void mirrored_nodes_keep_their_winding(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(
+        quad_write_glb(ASSET,
+                       "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"scale\":[-1,1,1]}],"
+                       "\"materials\":[{}]," MESH(QUAD)),
+        1);
+    assert_true(bake.scene->surfaces[0].mirrored);
+    quad_part_triangles(&bake);
+    for (int k = 0; k < 3; k++) {
+        bake.uvs[0][k][0] = 0.3f + 0.1f * (float)k; // each corner its own
+    }
+    quad_write(&bake, ".glb");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void triangles_without_area_part_nothing(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(quad_write_glb(ASSET, ONE_NODE "\"materials\":[{}]," MESH(QUAD)), 2);
+    bake.scene->triangle_usable[1] = false; // as if it had no area
+    quad_part_triangles(&bake);
+    bake.pages[1] = 1;
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), 6);
+    assert_string_equal(quad_text(&bake, "meshes/0/primitives/1"), "");
+    quad_close(&bake);
+}
+
+// --- pages, materials, meshes --------------------------------------------------------------------
+
+static void pages_split_primitives_and_materials(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_glb(ASSET, ONE_NODE
+                                 "\"materials\":[{\"name\":\"red\",\"extras\":1.50}]," MESH(QUAD)),
+                  3);
+    bake.pages[1] = 2;
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/material"), 0);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/1/material"), 1);
+    assert_string_equal(quad_text(&bake, "materials/1"),
+                        "{\"name\":\"red\",\"extras\":1.50,\"occlusionTexture\":{\"index\":1}}");
+    assert_int_equal(quad_number(&bake, "textures/1/source"), 1);
+    assert_string_equal(quad_text(&bake, "textures/2"), ""); // page 1 is not used
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void one_material_on_one_page_is_not_copied(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_glb(
+                      ASSET, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":1}],"
+                             "\"materials\":[{},{}],\"meshes\":[{\"primitives\":[" QUAD "]},"
+                             "{\"primitives\":[" QUAD "]}]"),
+                  1);
+    bake.patch.occlusion_strength = 0.5f;
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "materials/0/occlusionTexture"),
+                        "{\"index\":0,\"strength\":0.5}");
+    assert_string_equal(quad_text(&bake, "materials/1"), "{}");
+    assert_string_equal(quad_text(&bake, "materials/2"), "");
+    quad_close(&bake);
+}
+
+static void users_without_a_map_keep_their_material(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(
+        quad_write_glb(ASSET, ONE_NODE
+                       "\"materials\":[{\"name\":\"both\"}],\"meshes\":[{\"primitives\":[" QUAD
+                       ",{\"attributes\":{\"POSITION\":0},\"mode\":0,\"material\":0}]}]"),
+        1);
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "materials/0"), "{\"name\":\"both\"}");
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/material"), 1);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/1/material"), 0);
+    quad_close(&bake);
+}
+
+static void meshes_of_several_nodes_are_copied(void **state)
+{
+    (void)state;
+    const char *rest = "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,"
+                       "\"translation\":[3,0,0]}],\"materials\":[{}]," MESH(QUAD);
+    quad_bake bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "nodes/0/mesh"), 0);
+    assert_int_equal(quad_number(&bake, "nodes/1/mesh"), 1);
+    assert_int_equal(quad_number(&bake, "meshes/1/primitives/0/attributes/POSITION"), 0);
+    assert_int_equal(quad_number(&bake, "meshes/1/primitives/0/indices"), 6);
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/TEXCOORD_0"),
+                         quad_number(&bake, "meshes/1/primitives/0/attributes/TEXCOORD_0"));
+    require_corners(&bake, 0);
+    quad_close(&bake);
+    // With splits, equal attributes are still stored once.
+    bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".glb");
+    assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"), 0);
+    assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"),
+                     quad_number(&bake, "meshes/1/primitives/0/attributes/POSITION"));
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void nodes_of_other_scenes_keep_their_mesh(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_glb(
+                      ASSET, "\"scenes\":[{\"nodes\":[0]},{\"nodes\":[1]}],\"nodes\":[{\"mesh\":0},"
+                             "{\"mesh\":0}],\"materials\":[{}]," MESH(QUAD)),
+                  1);
+    quad_write(&bake, ".glb");
+    assert_int_equal(quad_number(&bake, "nodes/0/mesh"), 1);
+    assert_int_equal(quad_number(&bake, "nodes/1/mesh"), 0);
+    assert_string_equal(quad_text(&bake, "meshes/0/primitives/0"), QUAD);
+    assert_string_equal(quad_text(&bake, "materials/0"), "{}");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+static void kept_coordinates_change_materials_only(void **state)
+{
+    (void)state;
+    const char *primitive = "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2},\"material\":0}";
+    char rest[1024];
+    snprintf(
+        rest, sizeof rest,
+        "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0}],"
+        "\"materials\":[{}],\"meshes\":[{\"primitives\":[%s,{\"attributes\":{\"POSITION\":0}}]}]",
+        primitive);
+    quad_bake bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    bake.patch.corner_uvs = NULL;
+    test_log_clear();
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "meshes/0/primitives/0"), primitive);
+    assert_string_equal(quad_text(&bake, "meshes/1"), "");
+    assert_string_equal(quad_text(&bake, "materials/0/occlusionTexture"), "{\"index\":0}");
+    assert_true(test_log_has("shared-mesh"));
+    assert_true(test_log_has("no-uv-set")); // the second primitive has none
+    quad_close(&bake);
+}
+
+#define OLD_MAP                                                                                    \
+    "{\"index\":0,\"texCoord\":0,\"strength\":0.2,\"extensions\":{\"KHR_texture_transform\":"      \
+    "{\"scale\":[2,2]}}}"
+
+static void existing_maps_are_replaced_or_kept(void **state)
+{
+    (void)state;
+    const char *rest = ONE_NODE "\"extensionsUsed\":[\"KHR_texture_transform\"],\"textures\":[{}],"
+                                "\"materials\":[{\"occlusionTexture\":" OLD_MAP
+                                ",\"name\":\"m\"},{}],\"meshes\":[{\"primitives\":[" QUAD
+                                ",{\"attributes\":{\"POSITION\":0},\"material\":1}]}]";
+    quad_bake bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "materials/0"),
+                        "{\"occlusionTexture\":{\"index\":1},\"name\":\"m\"}");
+    quad_close(&bake);
+    bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    bake.patch.existing_ao = ALPI_EXISTING_AO_KEEP;
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "materials/0/occlusionTexture"), OLD_MAP);
+    assert_string_equal(quad_text(&bake, "meshes/0/primitives/0"), QUAD);
+    assert_string_equal(quad_text(&bake, "materials/1/occlusionTexture"), "{\"index\":1}");
+    quad_close(&bake);
+}
+
+// --- containers and files ------------------------------------------------------------------------
+
+static const char plain[] = ONE_NODE "\"materials\":[{}]," MESH(QUAD);
+
+static void files_beside_a_gltf(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 2);
+    bake.pages[1] = 1;
+    quad_write(&bake, ".gltf");
+    assert_string_equal(quad_text(&bake, "buffers/1/uri"), "\"quad%20baked.ao.bin\"");
+    assert_string_equal(quad_text(&bake, "images/0/uri"), "\"quad%20baked.ao.png\"");
+    assert_string_equal(quad_text(&bake, "images/1/uri"), "\"quad%20baked.ao.1.png\"");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+    bake = quad_open(quad_write_glb(ASSET, plain), 1);
+    quad_write(&bake, ".gltf");
+    assert_string_equal(quad_text(&bake, "buffers/0/uri"), "\"quad%20baked.bin\"");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+    bake = quad_open(quad_write_gltf(ASSET, plain), 1);
+    quad_write(&bake, ".glb");
+    assert_string_equal(quad_text(&bake, "buffers/0/uri"), "");
+    assert_string_equal(quad_text(&bake, "buffers/1"), "");
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+/// A .gltf of two buffers and a picture, all of which a .glb holds in itself.
+static void many_files_become_one_glb(void **state)
+{
+    (void)state;
+    quad_bake first = quad_open(quad_write_gltf(ASSET, plain), 1);
+    quad_write(&first, ".gltf");
+    quad_bake second = quad_open(first.path, 1);
+    quad_write(&second, ".glb");
+    assert_string_equal(quad_text(&second, "buffers/0/uri"), "");
+    assert_string_equal(quad_text(&second, "buffers/1"), "");
+    assert_string_equal(quad_text(&second, "images/0/uri"), "");
+    assert_string_equal(quad_text(&second, "images/0/mimeType"), "\"image/png\"");
+    assert_int_not_equal(quad_number(&second, "images/0/bufferView"), -1);
+    require_corners(&second, 1);
+    for (uint32_t t = 0; t < 2; t++) { // the set of the first bake, from the second buffer
+        for (int k = 0; k < 3; k++) {
+            assert_memory_equal(second.result->uvs[0][second.result->triangles[t][k]],
+                                first.uvs[t][k], sizeof first.uvs[t][k]);
+        }
+    }
+    quad_close(&second);
+    quad_close(&first);
+}
+
+static void a_file_is_baked_over_itself(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 1);
+    const char *path = bake.path;
+    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, path, false), ALP_ERROR_IO);
+    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
+    for (int round = 0; round < 3; round++) { // each adds a set, and none loses its file
+        for (int i = 0; i < 6; i++) {
+            bake.uvs[i / 3][i % 3][1] = 0.25f * (float)(round + 1);
+        }
+        ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, path, true));
+        ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, path, true));
+        alp_scene_destroy(bake.scene);
+        ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, path, &bake.scene));
+        assert_int_equal(bake.scene->surfaces[0].uv_sets, round + 1);
+        for (int set = 0; set <= round; set++) {
+            ASSERT_NEAR(bake.scene->uvs[set][0][1], 0.25 * (set + 1), 0.0);
+        }
+    }
+    quad_close(&bake);
+}
+
+static void references_follow_into_another_folder(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(
+        quad_write_gltf(ASSET, ONE_NODE
+                        "\"images\":[{\"uri\":\"gone.png\"}],\"materials\":[{}]," MESH(QUAD)),
+        1);
+    const char *folder = test_folder();
+    snprintf(bake.path, sizeof bake.path, "%s/out.gltf", folder);
+    test_log_clear();
+    ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false));
+    assert_true(test_log_has("missing-file"));
+    ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, bake.path, &bake.result));
+    require_corners(&bake, 0);
+    // The copied buffer is there already with the same bytes: that is no overwriting.
+    snprintf(bake.path, sizeof bake.path, "%s/second.gltf", folder);
+    ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, bake.path, false));
+    ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false));
+    // With other bytes it is.
+    FILE *file = fopen(test_path(folder, "quad data.bin"), "wb");
+    assert_non_null(file);
+    fclose(file);
+    snprintf(bake.path, sizeof bake.path, "%s/third.gltf", folder);
+    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, bake.path, false), ALP_ERROR_IO);
+    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false),
+                     ALP_ERROR_IO);
+    file = fopen(bake.path, "rb"); // all or nothing
+    assert_null(file);
+    quad_close(&bake);
+}
+
+/// A GLB without BIN chunk whose only buffer is a data: URI.
+static void a_glb_without_a_chunk_of_its_own(void **state)
+{
+    (void)state;
+    const char *json =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+        "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
+        "\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{"
+        "\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    size_t length = strlen(json), padded = (length + 3) / 4 * 4;
+    const char *path = test_path(quad_folder(), "data.glb");
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    uint32_t header[5] = {0x46546C67, 2, (uint32_t)(20 + padded), (uint32_t)padded, 0x4E4F534A};
+    fwrite(header, 4, 5, file);
+    fprintf(file, "%-*s", (int)padded, json);
+    fclose(file);
+    quad_bake bake = quad_open(path, 1);
+    quad_write(&bake, ".glb");
+    assert_int_equal(strncmp(quad_text(&bake, "buffers/1/uri"), "\"data:", 6), 0);
+    require_corners(&bake, 0);
+    quad_close(&bake);
+}
+
+// --- scenes from no file -------------------------------------------------------------------------
+
+static void scenes_from_arrays_become_files(void **state)
+{
+    (void)state;
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const float uvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    alp_mesh mesh = {.name = "a \"quad\"",
+                     .vertex_count = 4,
+                     .positions = positions,
+                     .uvs = uvs,
+                     .triangle_count = 2,
+                     .indices = indices,
+                     .base_color = {0.5f, 0.25f, 0.125f},
+                     .double_sided = true};
+    alp_mesh meshes[2] = {mesh, mesh};
+    alp_context *context = test_context(1);
+    quad_bake bake = quad_open(quad_write_glb(ASSET, plain), 1); // for its pages
+    alp_scene *scene = NULL, *again = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    float corners[4][3][2];
+    for (int i = 0; i < 24; i++) {
+        corners[i / 6][i / 2 % 3][i % 2] = (float)i / 24.0f;
+    }
+    bake.patch.corner_uvs = (void *)corners;
+    bake.patch.triangle_pages = NULL;
+    const char *path = test_path(quad_folder(), "arrays.gltf");
+    ASSERT_OK(context, alpi_gltf_check_output(scene, 1, path, false));
+    ASSERT_OK(context, alpi_gltf_write_patched(scene, &bake.patch, path, false));
+    quad_list(bake.path, path); // the quad has no error, so this must have none
+    ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
+    assert_int_equal(again->triangle_count, 4);
+    assert_string_equal(again->surfaces[1].name, "a \"quad\"");
+    const alpi_material *m = &again->materials[again->surfaces[0].material];
+    assert_true(m->double_sided);
+    ASSERT_NEAR(m->base_color[1], 0.25, 0.0);
+    uint32_t set = again->surfaces[0].uv_sets - 1;
+    assert_int_equal(m->occlusion_texture.uv_set, set);
+    for (uint32_t t = 0; t < 4; t++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t vertex = again->triangles[t][k];
+            assert_memory_equal(again->positions[vertex],
+                                &positions[3 * indices[3 * (t % 2) + (uint32_t)k]], 12);
+            assert_memory_equal(again->uvs[set][vertex], corners[t][k], 8);
+        }
+    }
+    alp_scene_destroy(again);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    quad_close(&bake);
+}
+
+// --- memory --------------------------------------------------------------------------------------
+
+typedef struct failing_allocator {
+    long left; // allocations until one fails
+} failing_allocator;
+
+static void *allocate_or_fail(void *user, size_t size)
+{
+    failing_allocator *allocator = user;
+    return allocator->left-- == 0 ? NULL : malloc(size);
+}
+
+static void release(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+/// Patches with every allocation failing in turn: OUT_OF_MEMORY, no leak, and no file left behind.
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    quad_bake bake =
+        quad_open(quad_write_gltf(
+                      ASSET, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0}],"
+                             "\"images\":[{\"uri\":\"quad%20data.bin\"}],"
+                             "\"meshes\":[{\"primitives\":[" RICH_QUAD "]}]"),
+                  2);
+    quad_part_triangles(&bake);
+    bake.pages[1] = 1;
+    failing_allocator allocator = {.left = -1};
+    alp_context_options options = alp_context_options_default();
+    options.allocate = allocate_or_fail;
+    options.release = release;
+    options.allocator_user = &allocator;
+    options.worker_count = 1;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alpi_gltf_read_scene(context, bake.path, &scene));
+    for (int glb = 0; glb < 2; glb++) {
+        const char *path = test_path(test_folder(), glb ? "out.glb" : "out.gltf");
+        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+        for (long i = 0; result != ALP_OK; i++) {
+            allocator.left = i;
+            result = alpi_gltf_write_patched(scene, &bake.patch, path, false);
+            // The allocator reads it. cppcheck-suppress redundantAssignment
+            allocator.left = -1;
+            if (result != ALP_OK) {
+                assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+                assert_null(fopen(path, "rb"));
+            }
+        }
+        alp_scene *again = NULL;
+        ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
+        alp_scene_destroy(again);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    quad_close(&bake);
+}
+
+static void other_endings_are_refused(void **state)
+{
+    (void)state;
+    quad_bake bake = quad_open(quad_write_glb(ASSET, plain), 1);
+    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, "x.obj", false),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, "x", false), ALP_ERROR_INVALID_ARGUMENT);
+    bake.pages[0] = 1;
+    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, "x.glb", false),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    quad_close(&bake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strange_text_survives),
+        cmocka_unit_test(origin_is_stated),
+        cmocka_unit_test(the_first_free_set_is_taken),
+        cmocka_unit_test(splits_carry_every_attribute),
+        cmocka_unit_test(strips_stay_until_they_must_split),
+        cmocka_unit_test(mirrored_nodes_keep_their_winding),
+        cmocka_unit_test(triangles_without_area_part_nothing),
+        cmocka_unit_test(pages_split_primitives_and_materials),
+        cmocka_unit_test(one_material_on_one_page_is_not_copied),
+        cmocka_unit_test(users_without_a_map_keep_their_material),
+        cmocka_unit_test(meshes_of_several_nodes_are_copied),
+        cmocka_unit_test(nodes_of_other_scenes_keep_their_mesh),
+        cmocka_unit_test(kept_coordinates_change_materials_only),
+        cmocka_unit_test(existing_maps_are_replaced_or_kept),
+        cmocka_unit_test(files_beside_a_gltf),
+        cmocka_unit_test(many_files_become_one_glb),
+        cmocka_unit_test(a_file_is_baked_over_itself),
+        cmocka_unit_test(references_follow_into_another_folder),
+        cmocka_unit_test(a_glb_without_a_chunk_of_its_own),
+        cmocka_unit_test(scenes_from_arrays_become_files),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(other_endings_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

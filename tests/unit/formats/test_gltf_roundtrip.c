@@ -12,10 +12,10 @@
 #include <stdlib.h>
 
 static const char *const scenes[] = {
+    "architecture/salle_de_bain.glb", // a million triangles: in the first way only
     "architecture/zdm2.glb",
     "architecture/room.glb",
     "architecture/living_room.glb",
-    "architecture/salle_de_bain.glb",
     "objects/coffee_maker.glb",
     "objects/dutch_ship/dutch_ship_medium_1k.gltf",
     "objects/scallop.glb",
@@ -69,11 +69,10 @@ static void invent(const alp_scene *scene, const variant *v, float (*uvs)[3][2],
     }
 }
 
-static char *output_path(const char *name, size_t index, size_t which, bool glb)
+static char *output_path(size_t index, size_t which, bool glb)
 {
     static char path[1024];
     const char *kept = getenv("ALPENGLOW_WRITTEN");
-    (void)name;
     snprintf(path, sizeof path, "%s/%zu-%zu.%s", kept != NULL ? kept : test_folder(), index, which,
              glb ? "glb" : "gltf");
     return path;
@@ -241,7 +240,7 @@ static void run_variant(size_t index, size_t which, const variant *v)
                              .page_png_sizes = sizes,
                              .occlusion_strength = 1.0f,
                              .extras_json = "{\"version\":\"test\"}"};
-    char *out = output_path(path, index, which, is_glb != v->to_other);
+    char *out = output_path(index, which, is_glb != v->to_other);
     ASSERT_OK(context, alpi_gltf_check_output(scene, v->pages, out, false));
     ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, false));
     list_pair(path, out);
@@ -262,7 +261,7 @@ static void run_all(const variant *v, size_t which)
     if (test_shared("scenes") == NULL) {
         skip();
     }
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+    for (size_t i = which > 0; i < sizeof scenes / sizeof *scenes; i++) {
         print_message("%s\n", scenes[i]);
         run_variant(i, which, v);
     }

@@ -35,7 +35,7 @@ static void compare(const check *c, alpi_json_span a, alpi_json_span b, const ch
         }
         return;
     }
-    if (strcmp(name, "occlusionTexture") == 0) {
+    if (strcmp(name, "occlusionTexture") == 0 || strcmp(name, "alpenglow") == 0) {
         return;
     }
     alpi_json_cursor x = alpi_json_open(c->old_text, a), y = alpi_json_open(c->new_text, b);
