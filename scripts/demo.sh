@@ -15,7 +15,7 @@ run() {
 
 mkdir -p "$folder"
 started=$(date +%s%N)
-run "$command" bake builtin:teapot-room -o "$scene" --maps ao --maps-dir "$folder" -f
+run "$command" bake builtin:teapot-room -o "$scene" --maps ao --maps-dir "$folder" --size 512 -f
 baked=$(date +%s%N)
 run "$command" render "$scene" --with ao -o "$picture" -f
 finished=$(date +%s%N)

@@ -204,7 +204,7 @@ void alp_atlas_destroy(alp_atlas *atlas)
 
 alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas)
 {
-    return atlas == NULL ? (alp_atlas_info){0} : atlas->info;
+    return atlas ? atlas->info : (alp_atlas_info){0};
 }
 
 const float *alp_atlas_corner_uvs(const alp_atlas *atlas)

@@ -52,7 +52,7 @@ static double across(alpi_point axis, alpi_point p)
 
 static alpi_box box_of(alpi_point axis, const alpi_point *hull, size_t size)
 {
-    double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
+    double low_x = HUGE_VAL, high_x = -HUGE_VAL, low_y = HUGE_VAL, high_y = -HUGE_VAL;
     for (size_t i = 0; i < size; i++) {
         double x = along(axis, hull[i]), y = across(axis, hull[i]);
         low_x = fmin(low_x, x);

@@ -153,7 +153,7 @@ static double centroid(const alp_atlas *atlas, uint32_t triangle, int side)
 static uint32_t part_triangles(const alp_atlas *atlas, const alpi_chart *chart, uint32_t *triangles)
 {
     int side = chart->height > chart->width;
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
         low = fmin(low, centroid(atlas, triangles[i], side));
         high = fmax(high, centroid(atlas, triangles[i], side));

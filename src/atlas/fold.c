@@ -17,7 +17,7 @@ static bool is_separated(const alpi_flat *a, const alpi_flat *b, double toleranc
         int next = k == 2 ? 0 : k + 1;
         double px = a->x[k], py = a->y[k];
         double ex = a->x[next] - px, ey = a->y[next] - py;
-        double inside = -INFINITY;
+        double inside = -HUGE_VAL;
         for (int i = 0; i < 3; i++) {
             inside = fmax(inside, ex * (b->y[i] - py) - ey * (b->x[i] - px));
         }
@@ -57,7 +57,7 @@ static bool row_range(const alpi_fold *fold, const alpi_flat *t, uint32_t row, u
     // The outermost rows and a little more than each row: rounding must lose nothing.
     low = row == 0 ? -(double)INFINITY : low - 1e-9 * fold->cell;
     high = row + 1 == fold->rows ? (double)INFINITY : high + 1e-9 * fold->cell;
-    double left = INFINITY, right = -INFINITY;
+    double left = HUGE_VAL, right = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
         int next = k == 2 ? 0 : k + 1;
         double x0 = t->x[k], y0 = t->y[k], x1 = t->x[next], y1 = t->y[next];
@@ -109,7 +109,7 @@ static size_t visit_cells(alpi_fold *fold, uint32_t triangle, bool store)
 /// Bounds, tolerance and a grid of about `wanted` cells.
 static void choose_grid(alpi_fold *fold, double wanted)
 {
-    double low_x = INFINITY, low_y = INFINITY, high_x = -INFINITY, high_y = -INFINITY;
+    double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
     for (uint32_t i = 0; i < fold->count; i++) {
         low_x = fmin(low_x, min3(fold->triangles[i].x));
         low_y = fmin(low_y, min3(fold->triangles[i].y));

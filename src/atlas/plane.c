@@ -28,8 +28,8 @@ alpi_plane alpi_plane_make(vec3 normal, vec3 origin)
 
 void alpi_plane_project(const alpi_plane *plane, vec3 point, double *x, double *y)
 {
-    double d[3] = {(double)point.x - plane->origin[0], (double)point.y - plane->origin[1],
-                   (double)point.z - plane->origin[2]};
+    const double d[3] = {(double)point.x - plane->origin[0], (double)point.y - plane->origin[1],
+                         (double)point.z - plane->origin[2]};
     *x = d[0] * plane->t[0] + d[1] * plane->t[1] + d[2] * plane->t[2];
     *y = d[0] * plane->b[0] + d[1] * plane->b[1] + d[2] * plane->b[2];
 }

@@ -62,10 +62,11 @@ static void clip(const polygon *in, int axis, double at, bool keep_low, polygon 
     }
 }
 
-/// Area and centroid of a convex polygon; 0 where it has no area.
+/// Area and centroid of a convex polygon; all 0 where it has no area.
 static double measure(const polygon *shape, double *x, double *y)
 {
     double area = 0.0, sx = 0.0, sy = 0.0;
+    *x = *y = 0.0;
     const double *o = shape->p[0];
     for (int i = 1; i + 1 < shape->count; i++) {
         double ax = shape->p[i][0] - o[0], ay = shape->p[i][1] - o[1];
@@ -135,7 +136,7 @@ static bool set_up(const alp_atlas *atlas, uint32_t triangle, active *a)
 /// Least distance of a point from the triangle's edges, negative outside.
 static double depth_inside(const active *a, double x, double y)
 {
-    double depth = INFINITY;
+    double depth = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
         const double *p = a->p[k], *q = a->p[k == 2 ? 0 : k + 1];
         double ex = q[0] - p[0], ey = q[1] - p[1];
@@ -197,8 +198,8 @@ static void add_shape(const raster *r, const active *a, const polygon *shape, ui
 /// Where a horizontal line cuts the triangle: false = not at all.
 static bool cross_section(const active *a, double y, double *left, double *right)
 {
-    *left = INFINITY;
-    *right = -INFINITY;
+    *left = HUGE_VAL;
+    *right = -HUGE_VAL;
     for (int k = 0; k < 3; k++) {
         const double *p = a->p[k], *q = a->p[k == 2 ? 0 : k + 1];
         if ((p[1] <= y && q[1] >= y) || (q[1] <= y && p[1] >= y)) {

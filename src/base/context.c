@@ -152,7 +152,7 @@ const char *alp_result_name(alp_result result)
     }
 }
 
-alp_result alpi_fail(alp_context *context, alp_result code, const char *format, ...)
+alp_result(alpi_fail)(alp_context *context, alp_result code, const char *format, ...)
 {
     char text[MESSAGE_SIZE]; // an argument may be the old message, to which more is said
     va_list arguments;

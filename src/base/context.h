@@ -17,6 +17,15 @@
 /// Stores the message "what, where, what to do" and returns `code`. May be called from a worker.
 alp_result alpi_fail(alp_context *context, alp_result code, const char *format, ...)
     ALP_PRINTF(3, 4);
+#ifdef __clang_analyzer__ // it looks at one file at a time: let it know that this returns `code`
+static inline alp_result alpi_failed_with(alp_result code, alp_result same)
+{
+    (void)same;
+    return code;
+}
+#define alpi_fail(context, code, ...)                                                              \
+    alpi_failed_with((code), (alpi_fail)((context), (code), __VA_ARGS__))
+#endif
 
 /// Sends a warning or a note to the context's log. `object` may be NULL.
 void alpi_warn(alp_context *context, const char *code, const char *object, const char *format, ...)

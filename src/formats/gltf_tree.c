@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-alp_result alpi_gltf_fail(const alpi_gltf_document *document, const char *owner, const char *format,
-                          ...)
+alp_result(alpi_gltf_fail)(const alpi_gltf_document *document, const char *owner,
+                           const char *format, ...)
 {
     char fault[512];
     va_list arguments;

@@ -11,6 +11,9 @@ enum { ALPI_GLTF_OWNER_SIZE = 96 };
 /// INVALID_DATA with "path: owner: fault".
 alp_result alpi_gltf_fail(const alpi_gltf_document *document, const char *owner, const char *format,
                           ...) ALP_PRINTF(3, 4);
+#ifdef __clang_analyzer__
+#define alpi_gltf_fail(...) alpi_failed_with(ALP_ERROR_INVALID_DATA, (alpi_gltf_fail)(__VA_ARGS__))
+#endif
 
 /// A non-negative integer, `fallback` when absent.
 alp_result alpi_gltf_size_or(const alpi_gltf_document *document, json_t *object, const char *member,

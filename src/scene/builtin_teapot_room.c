@@ -84,7 +84,7 @@ static void build_shells(alpi_builder *builder, uint32_t plaster, uint32_t oak)
 static void build_skirting(alpi_builder *builder, uint32_t material)
 {
     const float height = 0.08f, thick = 0.015f, wall = 2.0f, end = wall - thick;
-    const float back = wall + SUNK, door_low = ROOM.z[1] - 0.01f, door_high = ROOM.z[2] + 0.01f;
+    const float back = wall + SUNK, door_low = ROOM.z[1], door_high = ROOM.z[2];
     alpi_builder_surface(builder, "skirting", material);
     alpi_builder_box(builder, (vec3){-wall, -SUNK, -back}, (vec3){wall, height, -end},
                      ALPI_FACE_TOP | ALPI_FACE_FRONT);
@@ -92,9 +92,10 @@ static void build_skirting(alpi_builder *builder, uint32_t material)
                      ALPI_FACE_TOP | ALPI_FACE_BACK);
     alpi_builder_box(builder, (vec3){end, -SUNK, -end}, (vec3){back, height, end},
                      ALPI_FACE_TOP | ALPI_FACE_LEFT);
-    alpi_builder_box(builder, (vec3){-back, -SUNK, -end}, (vec3){-end, height, door_low},
+    // At the door the ends are flush with the doorway's sides, and so are not sunk into the wall.
+    alpi_builder_box(builder, (vec3){-wall, -SUNK, -end}, (vec3){-end, height, door_low},
                      ALPI_FACE_TOP | ALPI_FACE_RIGHT | ALPI_FACE_FRONT);
-    alpi_builder_box(builder, (vec3){-back, -SUNK, door_high}, (vec3){-end, height, end},
+    alpi_builder_box(builder, (vec3){-wall, -SUNK, door_high}, (vec3){-end, height, end},
                      ALPI_FACE_TOP | ALPI_FACE_RIGHT | ALPI_FACE_BACK);
 }
 
