@@ -20,7 +20,7 @@ check_format() {
 }
 
 check_rooms() {
-    python3 scripts/check_rooms.py
+    scripts/check_rooms.py
 }
 
 check_cppcheck() {

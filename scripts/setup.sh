@@ -26,7 +26,7 @@ build_packages="
     zlib1g-dev          -"
 check_packages="
     g++                 g++
-    python3             python3
+    python3             -
     libcmocka-dev       -
     clang               clang
     libclang-rt-14-dev  -

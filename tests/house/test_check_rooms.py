@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Breaks the law of the rooms in every way, one at a time: each fault must be named."""
 import pathlib

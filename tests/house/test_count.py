@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """The line that counts the tests: cases, programs without cases, crashes, skips and their reasons."""
 import importlib.util
