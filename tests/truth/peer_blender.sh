@@ -10,6 +10,10 @@ if [ ! -x /usr/bin/blender ]; then
     echo "blender is absent: skipped (apt-get install blender python3-numpy)"
     exit 77
 fi
+if ! blender -b --factory-startup --python-exit-code 3 --python-expr "import numpy" >/dev/null 2>&1; then
+    echo "Blender's Python has no numpy: skipped (apt-get install python3-numpy)"
+    exit 77
+fi
 if [ ! -r "$peer/bake_peer.py" ]; then
     echo "$peer is absent: skipped (set ALPENGLOW_SHARED)"
     exit 77
