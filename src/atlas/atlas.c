@@ -194,7 +194,10 @@ alp_result alp_atlas_create(const alp_scene *scene, const alp_atlas_options *opt
     made->context = scene->context;
     made->options = chosen;
     made->info.width = made->info.height = chosen.size;
+    alpi_watch former = alpi_set_watch(
+        made->context, (alpi_watch){.callback = chosen.progress, .user = chosen.progress_user});
     alp_result result = build(made);
+    alpi_set_watch(made->context, former);
     if (result != ALP_OK) {
         alp_atlas_destroy(made);
         return result;

@@ -27,6 +27,7 @@ struct alp_context {
     char max_isa[ISA_SIZE];
     uint32_t worker_count;
     struct alpi_pool *pool;
+    alpi_watch watch;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
     _Atomic uint64_t memory_now;
@@ -199,6 +200,11 @@ struct alpi_pool *alpi_context_pool(alp_context *context)
         context->pool = alpi_pool_create(context, context->worker_count);
     }
     return context->pool;
+}
+
+struct alpi_watch *alpi_context_watch(alp_context *context)
+{
+    return &context->watch;
 }
 
 const alp_context_options *alpi_context_options(const alp_context *context)
