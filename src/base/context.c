@@ -37,7 +37,7 @@ struct alp_context {
 static void *default_allocate(void *user, size_t size)
 {
     (void)user;
-    return malloc(size);
+    return calloc(1, size); // fresh pages come zeroed and cost nothing before they are used
 }
 
 static void default_release(void *user, void *pointer)
@@ -241,7 +241,8 @@ void *alpi_allocate(alp_context *context, size_t count, size_t size)
     }
     block->size = bytes;
     count_memory(context, bytes);
-    return memset(block + 1, 0, bytes);
+    bool zeroed = context->options.allocate == default_allocate;
+    return zeroed ? block + 1 : memset(block + 1, 0, bytes);
 }
 
 void alpi_release(alp_context *context, void *pointer)
