@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/tasks.h"
 
 #include <string.h>
 
@@ -21,6 +22,9 @@ static uint64_t hash_position(const uint32_t bits[3])
 {
     return alpi_hash64(alpi_hash64(((uint64_t)bits[0] << 32) | bits[1]) ^ bits[2]);
 }
+
+// Items between two questions whether to go on: well below a hundredth of a second.
+enum { TICK_INTERVAL = 1 << 14 };
 
 /// The smallest power of two that is at least `count` (and 16).
 static size_t table_size(size_t count)
@@ -43,7 +47,11 @@ static alp_result weld_vertices(const alp_scene *scene, uint32_t **weld_out)
         alpi_release(scene->context, table);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t v = 0; v < scene->vertex_count; v++) {
+    alp_result result = ALP_OK;
+    for (uint32_t v = 0; v < scene->vertex_count && result == ALP_OK; v++) {
+        if (v % TICK_INTERVAL == 0) {
+            result = alpi_tick(scene->context, "adjacency", 0, scene->triangle_count);
+        }
         uint32_t bits[3], other[3];
         position_bits(scene->positions[v], bits);
         size_t slot = (size_t)hash_position(bits) & (size - 1);
@@ -60,6 +68,10 @@ static alp_result weld_vertices(const alp_scene *scene, uint32_t **weld_out)
         }
     }
     alpi_release(scene->context, table);
+    if (result != ALP_OK) {
+        alpi_release(scene->context, weld);
+        return result;
+    }
     *weld_out = weld;
     return ALP_OK;
 }
@@ -106,9 +118,14 @@ static void insert_half_edge(edge_table *edges, size_t half_edge)
 
 /// Joins the two triangles of every edge that has two, where they run along it in opposite
 /// directions: else one of them is turned inside out, and no chart may hold both.
-static void join_triangles(const edge_table *edges, uint32_t (*neighbours)[3])
+static alp_result join_triangles(const edge_table *edges, uint32_t (*neighbours)[3])
 {
+    const alp_scene *scene = edges->scene;
     for (size_t slot = 0; slot < edges->size; slot++) {
+        if (slot % TICK_INTERVAL == 0) {
+            ALP_TRY(alpi_tick(scene->context, "adjacency", scene->triangle_count,
+                              scene->triangle_count));
+        }
         if (edges->slots[slot] == 0) {
             continue;
         }
@@ -125,6 +142,7 @@ static void join_triangles(const edge_table *edges, uint32_t (*neighbours)[3])
             neighbours[second / 3][second % 3] = (uint32_t)(first / 3);
         }
     }
+    return ALP_OK;
 }
 
 static alp_result find_neighbours(edge_table *edges, uint32_t (*neighbours)[3])
@@ -136,13 +154,15 @@ static alp_result find_neighbours(edge_table *edges, uint32_t (*neighbours)[3])
     ALPI_TRY_NEW(scene->context, edges->second, half_edges);
     ALPI_TRY_NEW(scene->context, edges->crowded, half_edges);
     for (size_t h = 0; h < half_edges; h++) {
+        if (h % TICK_INTERVAL == 0) {
+            ALP_TRY(alpi_tick(scene->context, "adjacency", h / 3, scene->triangle_count));
+        }
         neighbours[h / 3][h % 3] = ALPI_NONE;
         if (scene->triangle_usable[h / 3]) {
             insert_half_edge(edges, h);
         }
     }
-    join_triangles(edges, neighbours);
-    return ALP_OK;
+    return join_triangles(edges, neighbours);
 }
 
 alp_result alpi_adjacency_create(const alp_scene *scene, uint32_t (**neighbours)[3])

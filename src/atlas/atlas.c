@@ -66,35 +66,47 @@ static alp_result check_options(const alp_scene *scene, const alp_atlas_options 
     return ALP_OK;
 }
 
+/// The first usable triangle in [begin, end), or ALPI_NONE.
+static uint32_t first_usable(const alp_scene *scene, uint32_t begin, uint32_t end)
+{
+    while (begin < end && !scene->triangle_usable[begin]) {
+        begin++;
+    }
+    return begin < end ? begin : ALPI_NONE;
+}
+
+static void place_at_middle(alp_atlas *atlas, uint32_t triangle, uint32_t from)
+{
+    const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[from];
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 2; i++) {
+            atlas->corner_uvs[triangle][k][i] = (uv[0][i] + uv[1][i] + uv[2][i]) / 3.0f;
+        }
+    }
+    atlas->triangle_pages[triangle] = atlas->triangle_pages[from];
+    atlas->triangle_charts[triangle] = ALPI_NONE;
+}
+
 /// Gives every unusable triangle a point of the page, so that no coordinate is left undefined: the
-/// middle of the nearest usable triangle before it in the scene, else after it.
+/// middle of the nearest usable triangle before it on its surface, else of the surface's first;
+/// where the surface has none, of the nearest before it in the scene, else of the scene's first.
+/// Linear in triangles.
 static void place_unusable(alp_atlas *atlas)
 {
     const alp_scene *scene = atlas->scene;
-    uint32_t nearest = 0;
-    while (!scene->triangle_usable[nearest]) {
-        nearest++; // there is one
-    }
-    for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        if (scene->triangle_usable[t]) {
-            nearest = t;
-            continue;
-        }
-        uint32_t from = nearest, surface = scene->triangle_surface[t];
-        for (uint32_t next = t + 1;
-             scene->triangle_surface[from] != surface && next < scene->triangle_count &&
-             scene->triangle_surface[next] == surface;
-             next++) {
-            from = scene->triangle_usable[next] ? next : from; // the same surface is better
-        }
-        const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[from];
-        for (int k = 0; k < 3; k++) {
-            for (int i = 0; i < 2; i++) {
-                atlas->corner_uvs[t][k][i] = (uv[0][i] + uv[1][i] + uv[2][i]) / 3.0f;
+    uint32_t nearest = first_usable(scene, 0, scene->triangle_count); // there is one
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        uint32_t begin = scene->surfaces[s].first_triangle;
+        uint32_t end = begin + scene->surfaces[s].triangle_count;
+        uint32_t own = first_usable(scene, begin, end);
+        nearest = own != ALPI_NONE ? own : nearest;
+        for (uint32_t t = begin; t < end; t++) {
+            if (scene->triangle_usable[t]) {
+                nearest = t;
+            } else {
+                place_at_middle(atlas, t, nearest);
             }
         }
-        atlas->triangle_pages[t] = atlas->triangle_pages[from];
-        atlas->triangle_charts[t] = ALPI_NONE;
     }
 }
 
@@ -182,7 +194,10 @@ alp_result alp_atlas_create(const alp_scene *scene, const alp_atlas_options *opt
     made->context = scene->context;
     made->options = chosen;
     made->info.width = made->info.height = chosen.size;
+    alpi_watch former = alpi_set_watch(
+        made->context, (alpi_watch){.callback = chosen.progress, .user = chosen.progress_user});
     alp_result result = build(made);
+    alpi_set_watch(made->context, former);
     if (result != ALP_OK) {
         alp_atlas_destroy(made);
         return result;

@@ -5,6 +5,7 @@
 #include "atlas/stages.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <math.h>
 
@@ -128,6 +129,9 @@ alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     for (uint32_t c = 0; c < charts->count && result == ALP_OK; c++) {
         project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
         result = turn_chart(atlas, neighbours, &charts->charts[c], charts->triangles, &turn);
+        if (result == ALP_OK) {
+            result = alpi_tick(atlas->context, "charts", c, charts->count);
+        }
     }
     turner_destroy(&turn);
     return result;

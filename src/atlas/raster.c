@@ -5,6 +5,7 @@
 #include "atlas/stages.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <math.h>
 
@@ -15,7 +16,10 @@ static const double FULL_TEXEL = 1.02;
 // A centre this far inside two triangles (in texels) is in both, not on the edge between them.
 static const double CENTER_MARGIN = 1e-3;
 
-enum { POLYGON_LIMIT = 8 }; // a triangle cut by four lines has at most 7 corners
+enum {
+    POLYGON_LIMIT = 8,      // a triangle cut by four lines has at most 7 corners
+    TICK_INTERVAL = 1 << 14 // triangles between two questions whether to go on
+};
 
 typedef struct polygon {
     int count;
@@ -264,13 +268,16 @@ static void add_row(const raster *r, const active *a, uint32_t y)
 // --- pages ---------------------------------------------------------------------------------------
 
 /// Lists the page's triangles by the row they begin in.
-static void list_rows(raster *r, uint32_t page)
+static alp_result list_rows(raster *r, uint32_t page)
 {
     const alp_atlas *atlas = r->atlas;
     for (uint32_t y = 0; y < atlas->info.height; y++) {
         r->row_first[y] = ALPI_NONE;
     }
     for (uint32_t t = atlas->scene->triangle_count; t-- > 0;) { // the first comes first in its list
+        if (t % TICK_INTERVAL == 0) {
+            ALP_TRY(alpi_tick(atlas->context, "texels", page, atlas->info.pages));
+        }
         active a;
         if (atlas->triangle_pages[t] == page && atlas->scene->triangle_usable[t] &&
             set_up(atlas, t, &a)) {
@@ -278,6 +285,7 @@ static void list_rows(raster *r, uint32_t page)
             r->row_first[a.first_row] = t;
         }
     }
+    return ALP_OK;
 }
 
 static alp_result begin_triangles(raster *r, uint32_t y)
@@ -323,8 +331,10 @@ static alp_result raster_pages(raster *r, uint32_t first_page, uint32_t end_page
     ALPI_TRY_NEW(atlas->context, r->next, atlas->scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, r->cells, atlas->info.width);
     for (uint32_t page = first_page; page < end_page; page++) {
-        list_rows(r, page);
+        ALP_TRY(list_rows(r, page));
         for (uint32_t y = 0; y < atlas->info.height; y++) {
+            ALP_TRY(alpi_tick(atlas->context, "texels", (uint64_t)page * atlas->info.height + y,
+                              (uint64_t)atlas->info.pages * atlas->info.height));
             ALP_TRY(begin_triangles(r, y));
             if (r->active_count > 0) {
                 ALP_TRY(finish_row(r, page, y, finish, user));

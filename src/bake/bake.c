@@ -141,7 +141,11 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_bake_job job = {.scene = scene,
                          .context = scene->context,
                          .options = options ? *options : alp_bake_options_default()};
+    alpi_watch former =
+        alpi_set_watch(job.context, (alpi_watch){.callback = job.options.progress,
+                                                 .user = job.options.progress_user});
     alp_result result = run(&job);
+    alpi_set_watch(job.context, former);
     if (result == ALP_OK && report != NULL) {
         job.report.scene = alp_scene_get_info(scene);
         job.report.threads = alp_context_worker_count(job.context);

@@ -27,6 +27,7 @@ struct alp_context {
     char max_isa[ISA_SIZE];
     uint32_t worker_count;
     struct alpi_pool *pool;
+    alpi_watch watch;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
     _Atomic uint64_t memory_now;
@@ -36,7 +37,7 @@ struct alp_context {
 static void *default_allocate(void *user, size_t size)
 {
     (void)user;
-    return malloc(size);
+    return calloc(1, size); // fresh pages come zeroed and cost nothing before they are used
 }
 
 static void default_release(void *user, void *pointer)
@@ -201,6 +202,11 @@ struct alpi_pool *alpi_context_pool(alp_context *context)
     return context->pool;
 }
 
+struct alpi_watch *alpi_context_watch(alp_context *context)
+{
+    return &context->watch;
+}
+
 const alp_context_options *alpi_context_options(const alp_context *context)
 {
     return &context->options;
@@ -235,7 +241,8 @@ void *alpi_allocate(alp_context *context, size_t count, size_t size)
     }
     block->size = bytes;
     count_memory(context, bytes);
-    return memset(block + 1, 0, bytes);
+    bool zeroed = context->options.allocate == default_allocate;
+    return zeroed ? block + 1 : memset(block + 1, 0, bytes);
 }
 
 void alpi_release(alp_context *context, void *pointer)

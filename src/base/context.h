@@ -36,6 +36,9 @@ void alpi_note(alp_context *context, const char *code, const char *object, const
 struct alpi_pool;
 /// The context's thread pool, started at its first use; NULL when threads cannot be started.
 struct alpi_pool *alpi_context_pool(alp_context *context);
+struct alpi_watch;
+/// Where the context keeps who is asked whether to go on: see tasks.h.
+struct alpi_watch *alpi_context_watch(alp_context *context);
 /// The host's scheduler, or NULL.
 const alp_context_options *alpi_context_options(const alp_context *context);
 

@@ -50,6 +50,30 @@ double alpi_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+alpi_watch alpi_set_watch(alp_context *context, alpi_watch watch)
+{
+    alpi_watch former = *alpi_context_watch(context);
+    *alpi_context_watch(context) = watch;
+    return former;
+}
+
+alp_result alpi_tick(alp_context *context, const char *stage, uint64_t done, uint64_t total)
+{
+    alpi_watch *watch = alpi_context_watch(context);
+    if (watch->callback == NULL) {
+        return ALP_OK;
+    }
+    double now = alpi_seconds();
+    if (now - watch->last < PROGRESS_INTERVAL) {
+        return ALP_OK;
+    }
+    watch->last = now;
+    alp_progress report = {.stage = stage, .done = done, .total = total, .seconds_left = -1.0};
+    return watch->callback(watch->user, &report)
+               ? ALP_OK
+               : alpi_fail(context, ALP_ERROR_CANCELLED, "cancelled");
+}
+
 static void loop_fail(loop *l, uint32_t begin, alp_result failure)
 {
     pthread_mutex_lock(&l->lock);

@@ -29,6 +29,22 @@ typedef struct alpi_task_progress {
 alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grain,
                              alpi_task_fn *body, void *user, const alpi_task_progress *progress);
 
+/// Who is asked whether to go on while a call works on one thread alone.
+typedef struct alpi_watch {
+    alp_progress_fn *callback; // NULL: nobody
+    void *user;
+    double last; // alpi_seconds() when it was asked
+} alpi_watch;
+
+/// Sets who alpi_tick asks from now on and gives back who it was: a call that takes a progress
+/// callback sets its own first and puts the former back last.
+alpi_watch alpi_set_watch(alp_context *context, alpi_watch watch);
+
+/// Says how far serial work is and asks whether to go on, at most 20 times a second; cheap enough
+/// for every row or thousandth item. On the calling thread only.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_tick(alp_context *context, const char *stage, uint64_t done, uint64_t total);
+
 /// Seconds of a steady clock, for durations.
 double alpi_seconds(void);
 

@@ -4,6 +4,7 @@
 #include "formats/formats.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <openexr.h>
 
@@ -20,7 +21,7 @@ typedef struct exr_stream {
     const uint8_t *input; // reading
     uint8_t *output;      // writing
     size_t size, capacity;
-    bool out_of_memory;
+    bool out_of_memory, cancelled;
     char message[160];
 } exr_stream;
 
@@ -413,9 +414,14 @@ static void aim_encoder(exr_encode_pipeline_t *encode, const alp_image *image,
 static exr_result_t write_chunks(exr_context_t exr, const alp_image *image,
                                  const char *const *channels, exr_encode_pipeline_t *encode)
 {
+    exr_stream *stream = stream_of(exr);
     int32_t lines = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(exr, 0, &lines);
     for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < image->info.height; y += (uint32_t)lines) {
+        if (alpi_tick(image->context, "write", y, image->info.height) != ALP_OK) {
+            stream->cancelled = true;
+            return EXR_ERR_UNKNOWN;
+        }
         exr_chunk_info_t chunk;
         code = exr_write_scanline_chunk_info(exr, 0, (int)y, &chunk);
         if (code == EXR_ERR_SUCCESS) {
@@ -460,6 +466,9 @@ alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size
     }
     if (code != EXR_ERR_SUCCESS) {
         alpi_release(context, stream.output);
+        if (stream.cancelled) {
+            return ALP_ERROR_CANCELLED; // the message says so
+        }
         bool memory = code == EXR_ERR_OUT_OF_MEMORY || stream.out_of_memory;
         return alpi_fail(context, memory ? ALP_ERROR_OUT_OF_MEMORY : ALP_ERROR_IO,
                          "writing an EXR image: %s",

@@ -3,6 +3,7 @@
 // are ignored, as glTF asks. libpng reports errors by longjmp, so everything that must be released
 // lives in a struct outside the function that it jumps to.
 #include "base/memory.h"
+#include "base/tasks.h"
 #include "formats/formats.h"
 
 #include <png.h>
@@ -167,6 +168,10 @@ static void write_image(png_job *job, const alp_image *image)
     const uint8_t *pixels = image->pixels;
     size_t row_size = (size_t)info->width * info->channels;
     for (uint32_t y = 0; y < info->height; y++) {
+        job->code = alpi_tick(job->context, "write", y, info->height);
+        if (job->code != ALP_OK) {
+            png_error(job->png, "cancelled");
+        }
         png_write_row(job->png, pixels + y * row_size);
     }
     png_write_end(job->png, NULL);

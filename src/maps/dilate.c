@@ -4,9 +4,13 @@
 #include "maps/lightmap.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <assert.h>
 #include <string.h>
+
+// Texels between two questions whether to go on.
+enum { TICK_INTERVAL = 1 << 16 };
 
 typedef struct wave {
     float *page;
@@ -25,9 +29,12 @@ static void reach(wave *w, size_t from, size_t to)
     }
 }
 
-static void spread(wave *w)
+static alp_result spread(wave *w, alp_context *context)
 {
     for (size_t i = 0; i < w->count; i++) {
+        if (i % TICK_INTERVAL == 0) {
+            ALP_TRY(alpi_tick(context, "dilation", i, (uint64_t)w->width * w->height));
+        }
         size_t at = w->queue[i];
         uint32_t x = (uint32_t)(at % w->width), y = (uint32_t)(at / w->width);
         if (x > 0) {
@@ -43,6 +50,7 @@ static void spread(wave *w)
             reach(w, at, at + w->width);
         }
     }
+    return ALP_OK;
 }
 
 alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32_t height)
@@ -60,8 +68,7 @@ alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32
                 w.queue[w.count++] = (uint32_t)i;
             }
         }
-        spread(&w);
-        result = ALP_OK;
+        result = spread(&w, context);
     }
     alpi_release(context, w.filled);
     alpi_release(context, w.queue);

@@ -97,6 +97,95 @@ static void occlusion_by_rays_meets_the_closed_form(void **state)
     alp_context_destroy(context);
 }
 
+/// A picture of a few pixels that all look at the origin from `height` on the y axis.
+static alp_render_options look_at_origin(float height)
+{
+    alp_render_options options = alp_render_options_default();
+    options.width = options.height = 8;
+    options.samples = 1;
+    options.occlusion.samples = 1u << 10;
+    options.occlusion.distance = INFINITY;
+    options.camera = (alp_camera){
+        .position = {0, height, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov = 0.002f};
+    return options;
+}
+
+/// Mean and number of different values of the 64 pixels.
+static double picture_mean(const alp_scene *scene, const alp_render_options *options,
+                           int *different)
+{
+    alp_image *image = NULL;
+    ASSERT_OK(scene->context, alp_render(scene, options, &image));
+    const float(*pixels)[4] = (const float(*)[4])alp_image_floats(image);
+    double mean = 0.0;
+    *different = 0;
+    for (int i = 0; i < 64; i++) {
+        ASSERT_NEAR(pixels[i][3], 1.0, 0.0);
+        mean += (double)pixels[i][0] / 64;
+        *different += pixels[i][0] != pixels[0][0];
+    }
+    alp_image_destroy(image);
+    return mean;
+}
+
+static void each_side_has_its_own_occlusion(void **state)
+{
+    (void)state;
+    // A floor with a rectangle of 1 × 1 m a metre below it: open above, oracle 6 below.
+    alp_context *context = test_context(2);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){-9, 0, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
+    test_mesh_quad(mesh, (double[]){0, -1, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    int different = 0;
+    alp_render_options options = look_at_origin(0.5f);
+    ASSERT_NEAR(picture_mean(scene, &options, &different), 1.0, 0.0);
+    options = look_at_origin(-0.5f);
+    ASSERT_NEAR(picture_mean(scene, &options, &different), 1.0 - 0.138531606, 1e-3);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void pixels_have_samples_of_their_own(void **state)
+{
+    (void)state;
+    // What all pixels share would show as a pattern: no error may be that of its neighbour.
+    alp_context *context = test_context(2);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){-9, 0, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
+    test_mesh_quad(mesh, (double[]){0, 1, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    int different = 0;
+    alp_render_options options = look_at_origin(0.5f);
+    options.occlusion.samples = 64;
+    ASSERT_NEAR(picture_mean(scene, &options, &different), 1.0 - 0.138531606, 2e-3);
+    assert_true(different > 32);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void the_border_of_things_keeps_their_colour(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_scene(context);
+    alp_render_options options = look_ahead();
+    options.height = 20; // 5 pixels a metre: the panel's left side is inside a pixel
+    options.width = 39;
+    alp_image *image = NULL;
+    ASSERT_OK(context, alp_render(scene, &options, &image));
+    int partly = 0;
+    for (int i = 0; i < 10 * 39; i++) {
+        const float *p = alp_image_floats(image) + 4 * (size_t)i;
+        partly += p[3] > 0.0f && p[3] < 1.0f;
+        ASSERT_NEAR(p[0], p[3] > 0.0f ? 0.8 : 0.0, 1e-6); // not darkened by what is not covered
+    }
+    assert_true(partly >= 4);
+    alp_image_destroy(image);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void workers_change_no_bit(void **state)
 {
     (void)state;
@@ -177,6 +266,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(things_appear_where_the_camera_says),
         cmocka_unit_test(occlusion_by_rays_meets_the_closed_form),
+        cmocka_unit_test(each_side_has_its_own_occlusion),
+        cmocka_unit_test(pixels_have_samples_of_their_own),
+        cmocka_unit_test(the_border_of_things_keeps_their_colour),
         cmocka_unit_test(workers_change_no_bit),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(the_automatic_camera_sees_the_scene),

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// How samples are used: any number of them counts exactly, each receiver has its own, they continue
+// one sequence, and each of a receiver's two normals does its own work.
+#include "test_scenes.h"
+
+#include "transport/occlusion.h"
+
+#include <math.h>
+
+/// A lid of side 1 over a corner, at height 1 (oracle 6).
+static alp_scene *lid_scene(alp_context *context)
+{
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){0, 1, 0}, (double[]){1, 0, 0}, (double[]){0, 0, 1});
+    return test_mesh_scene(context, mesh, 1);
+}
+
+static alp_occlusion_options open_options(uint32_t samples)
+{
+    alp_occlusion_options options = alp_occlusion_options_default();
+    options.samples = samples;
+    options.falloff = ALP_FALLOFF_NONE;
+    options.distance = INFINITY;
+    return options;
+}
+
+static void any_number_of_samples_counts_exactly(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1.0, 16, 8, 1.0, 0);
+    alp_scene *closed = test_mesh_scene(context, mesh, 1);
+    for (uint32_t samples = 1; samples <= 25; samples++) {
+        for (int falloff = 0; falloff < 2; falloff++) {
+            alp_occlusion_options options = open_options(samples);
+            options.falloff = (alp_falloff)falloff;
+            options.distance = falloff == 0 ? INFINITY : 1e30f; // w = 1 − t, t ≈ 0
+            double point[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+            ASSERT_NEAR(test_occlusion(closed, point, up, &options), 0.0, 1e-6);
+        }
+    }
+    alp_scene_destroy(closed);
+    alp_context_destroy(context);
+}
+
+static void a_run_of_samples_continues_the_sequence(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = lid_scene(context);
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    alp_occlusion_options options = open_options(256);
+    alpi_occlusion_setup setup = alpi_occlusion_prepare(scene, tracer, &options);
+    int different = 0;
+    for (uint64_t key = 0; key < 8; key++) {
+        alpi_receiver receiver = {
+            .key = key, .geometric_normal = {0, 1, 0}, .shading_normal = {0, 1, 0}};
+        double first = alpi_occlusion_sum(&setup, &receiver, 0, 100);
+        double second = alpi_occlusion_sum(&setup, &receiver, 100, 156);
+        ASSERT_NEAR(first + second, alpi_occlusion_sum(&setup, &receiver, 0, 256), 0.0);
+        different += first != alpi_occlusion_sum(&setup, &receiver, 100, 100);
+    }
+    assert_true(different > 0); // else a second run of samples would be the first one again
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void every_receiver_has_its_own_samples(void **state)
+{
+    (void)state;
+    enum { COUNT = 64 };
+    alp_context *context = test_context(1);
+    alp_scene *scene = lid_scene(context);
+    static float positions[COUNT][3], normals[COUNT][3], values[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        normals[i][1] = 1.0f;
+    }
+    alp_occlusion_options options = open_options(64);
+    ASSERT_OK(context, alp_occlusion_at_points(scene, COUNT, positions[0], NULL, normals[0],
+                                               &options, values));
+    double mean = 0.0;
+    int different = 0;
+    for (int i = 0; i < COUNT; i++) {
+        mean += (double)values[i] / COUNT;
+        different += values[i] != values[0];
+    }
+    assert_true(different > COUNT / 2);
+    // And errors that differ cancel: 64 × 64 samples meet the closed form.
+    ASSERT_NEAR(mean, 1.0 - 0.138531606, 2e-3);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void the_shading_normal_is_the_axis(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = lid_scene(context);
+    const double corners[4][3] = {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};
+    const double point[3] = {0, 0, 0}, shading[3] = {0.8, 0.6, 0.0};
+    float position[3] = {0, 0, 0}, up[3] = {0, 1, 0}, axis[3] = {0.8f, 0.6f, 0.0f}, value = 0.0f;
+    alp_occlusion_options options = open_options(1u << 16);
+    ASSERT_OK(context, alp_occlusion_at_points(scene, 1, position, up, axis, &options, &value));
+    ASSERT_NEAR(value, 1.0 - test_polygon_form_factor(point, shading, corners, 4), 1e-3);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void rays_start_on_the_geometric_side(void **state)
+{
+    (void)state;
+    // A floor seen from above with an axis that points into it: every ray hits the floor. Had the
+    // start been moved along the axis, it would be below the floor and every ray free.
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){-9, 1, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    float position[3] = {0.5f, 1.0f, 0.25f}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, value = 1.0f;
+    alp_occlusion_options options = open_options(256);
+    options.cone = 1.0f;
+    ASSERT_OK(context, alp_occlusion_at_points(scene, 1, position, up, down, &options, &value));
+    ASSERT_NEAR(value, 0.0, 0.0);
+    ASSERT_OK(context, alp_occlusion_at_points(scene, 1, position, down, down, &options, &value));
+    ASSERT_NEAR(value, 1.0, 0.0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void the_automatic_distance_is_a_fifth_of_the_diagonal(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){5, 0, 0}, (double[]){2, 0, 0}, (double[]){0, 3, 6});
+    alp_scene *scene = test_mesh_scene(context, mesh, 1);
+    alp_occlusion_options options = alp_occlusion_options_default();
+    ASSERT_NEAR(alp_occlusion_distance(scene, &options), 0.2 * 7.0, 1e-6);
+    options.distance = 0.75f;
+    ASSERT_NEAR(alp_occlusion_distance(scene, &options), 0.75, 0.0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_number_of_samples_counts_exactly),
+        cmocka_unit_test(a_run_of_samples_continues_the_sequence),
+        cmocka_unit_test(every_receiver_has_its_own_samples),
+        cmocka_unit_test(the_shading_normal_is_the_axis),
+        cmocka_unit_test(rays_start_on_the_geometric_side),
+        cmocka_unit_test(the_automatic_distance_is_a_fifth_of_the_diagonal),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
