@@ -85,12 +85,14 @@ static void loop_fail(loop *l, uint32_t begin, alp_result failure)
     atomic_store_explicit(&l->stop, true, memory_order_relaxed);
 }
 
-/// On the calling thread only: tells the user, at most every PROGRESS_INTERVAL.
+/// On the calling thread only: tells the user, at most every PROGRESS_INTERVAL; nothing any more
+/// once the loop was stopped, as who refused must not be asked again.
 static void loop_report(loop *l, bool always)
 {
     const alpi_task_progress *p = l->progress;
     double now = alpi_seconds();
-    if (p == NULL || p->callback == NULL || (!always && now - l->reported < PROGRESS_INTERVAL)) {
+    if (p == NULL || p->callback == NULL || (!always && now - l->reported < PROGRESS_INTERVAL) ||
+        atomic_load_explicit(&l->stop, memory_order_relaxed)) {
         return;
     }
     l->reported = now;
