@@ -2,6 +2,8 @@
 // Texels: areas add up, receivers lie on the surface, and nothing is too thin to have one.
 #include "atlas_scenes.h"
 
+#include <stdlib.h>
+
 static void check_texels(alp_context *context, alp_scene *scene, uint32_t size, double density)
 {
     alp_atlas_options options = alp_atlas_options_default();
@@ -66,6 +68,78 @@ static void areas_add_up(void **state)
     check_texels(context, scene_sphere(context, 60, 120), 16, 0.0); // triangles below a texel
     check_texels(context, scene_spiral(context, 3), 100, 0.0);
     check_texels(context, scene_confetti(context, 30), 64, 0.0);
+    alp_context_destroy(context);
+}
+
+static void normals_that_point_inside_are_not_used(void **state)
+{
+    (void)state;
+    // A square whose vertex normals are turned over: a hemisphere inside the surface sees nothing.
+    alp_context *context = test_context(1);
+    const float positions[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}};
+    const float normals[4][3] = {{0, -1, 0}, {0, -1, 0}, {0, -1, 0}, {0, -1, 0}};
+    const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const alp_mesh mesh = {.vertex_count = 4,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .triangle_count = 2,
+                           .indices = indices[0]};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    check_texels(context, scene, 16, 0.0);
+    alp_context_destroy(context);
+}
+
+/// Utilisation as conventions.md defines it, texel by texel.
+static double plain_utilisation(const alp_atlas *atlas, const alpi_texels *texels, int padding)
+{
+    int size = (int)atlas->info.width;
+    size_t room = (size_t)atlas->info.pages * (size_t)size * (size_t)size, taken = 0;
+    bool *used = calloc(room, sizeof *used);
+    assert_non_null(used);
+    for (uint32_t i = 0; i < texels->count; i++) {
+        int x = texels->pixels[i][0], y = texels->pixels[i][1];
+        for (int v = y - padding; v <= y + padding; v++) {
+            for (int u = x - padding; u <= x + padding; u++) {
+                if (u >= 0 && v >= 0 && u < size && v < size) {
+                    used[((size_t)texels->pages[i] * (size_t)size + (size_t)v) * (size_t)size +
+                         (size_t)u] = true;
+                }
+            }
+        }
+    }
+    for (size_t i = 0; i < room; i++) {
+        taken += used[i];
+    }
+    free(used);
+    return (double)taken / (double)room;
+}
+
+static void utilisation_counts_charts_and_padding(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = scene_confetti(context, 200);
+    const uint32_t paddings[] = {0, 1, 2, 5};
+    int several = 0;
+    for (int i = 0; i < 8; i++) {
+        alp_atlas_options options = alp_atlas_options_default();
+        options.mode = ALP_ATLAS_CHARTS;
+        options.size = 64;
+        options.padding = paddings[i / 2];
+        options.texels_per_metre = i % 2 == 0 ? 0.0 : 45.0; // one page, or several
+        alp_atlas *atlas = NULL;
+        alpi_texels texels;
+        ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+        ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+        several += atlas->info.pages > 1;
+        ASSERT_NEAR(atlas->info.utilisation,
+                    plain_utilisation(atlas, &texels, (int)options.padding), 1e-12);
+        alpi_texels_destroy(context, &texels);
+        alp_atlas_destroy(atlas);
+    }
+    assert_true(several >= 4);
+    alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
 
@@ -218,6 +292,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(normals_that_point_inside_are_not_used),
+        cmocka_unit_test(utilisation_counts_charts_and_padding),
         cmocka_unit_test(a_center_is_the_receiver),
         cmocka_unit_test(thin_triangles_have_texels),
         cmocka_unit_test(a_side_on_a_border_does_not_leak),

@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 
 #include <stdatomic.h>
+#include <unistd.h>
 
 enum { ITEMS = 10007 };
 
@@ -79,6 +80,66 @@ static alp_result slow(void *user, uint32_t begin, uint32_t end, uint32_t worker
     return ALP_OK;
 }
 
+static alp_result fail_slowly_at_first(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)user;
+    (void)end;
+    (void)worker;
+    if (begin == 0) {
+        usleep(30000);
+        return ALP_ERROR_INVALID_DATA;
+    }
+    return ALP_ERROR_IO;
+}
+
+static void the_lowest_failure_is_the_one_told(void **state)
+{
+    (void)state;
+    const uint32_t workers[] = {1, 2, 7};
+    for (int i = 0; i < 3; i++) {
+        alp_context *context = test_context(workers[i]);
+        for (int repeat = 0; repeat < 5; repeat++) { // range 0 always runs, and ends last
+            assert_int_equal(alpi_parallel_for(context, 100, 1, fail_slowly_at_first, NULL, NULL),
+                             ALP_ERROR_INVALID_DATA);
+        }
+        alp_context_destroy(context);
+    }
+}
+
+typedef struct questions {
+    int asked, answered_yes;
+} questions;
+
+static bool say_yes_a_few_times(void *user, const alp_progress *progress)
+{
+    questions *q = user;
+    assert_string_equal(progress->stage, "serial");
+    assert_int_equal(progress->total, 10);
+    return q->asked++ < q->answered_yes;
+}
+
+static void serial_work_can_be_cancelled(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    questions q = {0, 1};
+    assert_int_equal(alpi_tick(context, "serial", 0, 10), ALP_OK); // nobody to ask
+    alpi_watch nobody = alpi_set_watch(context, (alpi_watch){say_yes_a_few_times, &q, 0.0});
+    assert_null(nobody.callback);
+    assert_int_equal(alpi_tick(context, "serial", 1, 10), ALP_OK);
+    assert_int_equal(alpi_tick(context, "serial", 2, 10), ALP_OK); // too soon to ask again
+    assert_int_equal(q.asked, 1);
+    usleep(60000);
+    assert_int_equal(alpi_tick(context, "serial", 3, 10), ALP_ERROR_CANCELLED);
+    assert_int_equal(q.asked, 2);
+    alpi_watch former = alpi_set_watch(context, nobody);
+    assert_ptr_equal(former.user, &q);
+    usleep(60000);
+    assert_int_equal(alpi_tick(context, "serial", 4, 10), ALP_OK);
+    assert_int_equal(q.asked, 2);
+    alp_context_destroy(context);
+}
+
 static void progress_can_cancel(void **state)
 {
     (void)state;
@@ -137,8 +198,12 @@ static void no_items_is_no_work(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_item_runs_once), cmocka_unit_test(a_failure_ends_the_loop),
-        cmocka_unit_test(progress_can_cancel),  cmocka_unit_test(a_host_scheduler_is_used),
+        cmocka_unit_test(every_item_runs_once),
+        cmocka_unit_test(a_failure_ends_the_loop),
+        cmocka_unit_test(the_lowest_failure_is_the_one_told),
+        cmocka_unit_test(serial_work_can_be_cancelled),
+        cmocka_unit_test(progress_can_cancel),
+        cmocka_unit_test(a_host_scheduler_is_used),
         cmocka_unit_test(no_items_is_no_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,7 +31,7 @@ static void nearest_value_spreads(void **state)
             }
             assert_in_range(value, 0, 2);
             assert_int_equal(abs(x - seeds[value][0]) + abs(y - seeds[value][1]), best);
-            assert_true(page[y][x][1] == 0.5f);
+            assert_true(page[y][x][1] == 0.5f && page[y][x][2] == 0.5f);
             assert_true((page[y][x][3] > 0.0f) == (best == 0));
         }
     }

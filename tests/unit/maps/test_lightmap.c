@@ -55,6 +55,46 @@ static void a_linear_function_is_read_back(void **state)
     alp_context_destroy(context);
 }
 
+static void values_go_to_their_own_page(void **state)
+{
+    (void)state;
+    // Squares of one metre at 16 texels per metre, one to a page of 16.
+    enum { SQUARES = 3 };
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    for (int i = 0; i < SQUARES; i++) {
+        test_mesh_quad(mesh, (double[]){2.0 * i, 0, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
+    }
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_CHARTS;
+    options.size = 16;
+    options.texels_per_metre = 16.0;
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alpi_lightmap_create(atlas, &lightmap));
+    assert_int_equal(alp_lightmap_page_count(lightmap), SQUARES);
+    const alpi_texels *texels = &lightmap->texels;
+    static float values[SQUARES * 16 * 16];
+    assert_int_equal(texels->count, SQUARES * 16 * 16);
+    for (uint32_t i = 0; i < texels->count; i++) {
+        values[i] = 0.1f + 0.2f * (float)(texels->triangles[i] / 2);
+    }
+    ASSERT_OK(context, alpi_lightmap_store(lightmap, values));
+    for (uint32_t t = 0; t < 2 * SQUARES; t++) {
+        float rgb[3];
+        alpi_lightmap_sample(lightmap, t, 0.3f, 0.3f, rgb);
+        ASSERT_NEAR(rgb[0], 0.1f + 0.2f * (float)(t / 2), 1e-6);
+    }
+    for (uint32_t p = 0; p <= SQUARES; p++) { // texels are listed page by page
+        assert_int_equal(texels->page_first[p], p * 16 * 16);
+    }
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void pages_become_images(void **state)
 {
     (void)state;
@@ -94,6 +134,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_linear_function_is_read_back),
+        cmocka_unit_test(values_go_to_their_own_page),
         cmocka_unit_test(pages_become_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
