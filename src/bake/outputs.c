@@ -109,10 +109,11 @@ static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_p
     if (result != ALP_OK || job->options.maps_folder == NULL) {
         return result;
     }
-    ALP_TRY(alpi_lightmap_page_image(job->lightmap, page, ALP_COMPONENT_FLOAT, &image));
-    result = alpi_exr_encode(image, &out->exr, &out->exr_size);
-    alp_image_destroy(image);
-    return result;
+    const alp_lightmap *l = job->lightmap; // encoded where it lies: a copy of it may be gigabytes
+    const alp_image view = {.context = job->context,
+                            .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
+                            .pixels = l->pages[page]};
+    return alpi_exr_encode(&view, &out->exr, &out->exr_size);
 }
 
 static alp_result append_map(const alpi_bake_job *job, uint32_t page, const char *ending,
