@@ -13,6 +13,8 @@
 #include <string.h>
 
 enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 4096 };
+// Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
+enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64 };
 enum { STREAM_PIXEL = 1 }; // random numbers of camera rays, apart from those of occlusion
 
 typedef struct render_job {
@@ -210,8 +212,12 @@ static alp_result run(render_job *job)
                                    .stage = "render",
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
-    return alpi_parallel_for(job->scene->context, o->width * o->height, 64, render_range, job,
-                             &progress);
+    uint64_t rays = o->samples; // of a pixel, at most
+    rays += o->method == ALP_RENDER_AO ? rays * job->occlusion_rays : 0;
+    uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
+                                                              : (uint32_t)(RAYS_PER_RANGE / rays);
+    return alpi_parallel_for(job->scene->context, o->width * o->height, grain > 0 ? grain : 1,
+                             render_range, job, &progress);
 }
 
 alp_result alp_render(const alp_scene *scene, const alp_render_options *options, alp_image **image)

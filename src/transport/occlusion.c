@@ -236,13 +236,23 @@ static float scene_reach(const alp_scene *scene)
     return fmaxf(low, high);
 }
 
+typedef struct offset_job {
+    const alp_scene *scene;
+    const alpi_tracer *tracer;
+    const alpi_receivers *receivers;
+} offset_job;
+
 /// Points come without the triangle they lie on, which their offset depends on: looks for it with
 /// one short ray down through each point. A point on no surface needs no lift beyond its own
 /// rounding.
-static void find_offsets(const alp_scene *scene, const alpi_tracer *tracer, alpi_receivers *r)
+static alp_result find_offsets(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
+    (void)worker;
+    const offset_job *job = user;
+    const alp_scene *scene = job->scene;
+    const alpi_receivers *r = job->receivers;
     float reach = 8.0f * 0x1p-23f * scene_reach(scene);
-    for (uint32_t i = 0; i < r->count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         vec3 p = vec3_load(r->positions[i]), n = vec3_load(r->geometric_normals[i]);
         vec3 start = vec3_mad(p, reach, n);
         alpi_rays ray = {.origin_x = {start.x},
@@ -254,12 +264,13 @@ static void find_offsets(const alp_scene *scene, const alpi_tracer *tracer, alpi
                          .maximum = {2.0f * reach}};
         alpi_hits hit;
         vec3 corners[3];
-        alpi_trace_nearest(tracer, &ray, 1u, (alpi_trace_filter){0}, &hit);
+        alpi_trace_nearest(job->tracer, &ray, 1u, (alpi_trace_filter){0}, &hit);
         if (hit.triangle[0] != ALPI_NONE) {
             alpi_triangle_corners(scene, hit.triangle[0], corners);
         }
         r->offsets[i] = alpi_receiver_offset(p, hit.triangle[0] != ALPI_NONE ? corners : NULL);
     }
+    return ALP_OK;
 }
 
 static alp_result copy_receivers(alp_context *context, const float *positions,
@@ -301,7 +312,13 @@ alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const
     alp_result result =
         copy_receivers(scene->context, positions, geometric_normals, shading_normals, &receivers);
     if (result == ALP_OK) {
-        find_offsets(scene, tracer, &receivers);
+        offset_job job = {scene, tracer, &receivers};
+        const alpi_task_progress progress = {
+            .callback = o.progress, .user = o.progress_user, .stage = "offsets"};
+        result =
+            alpi_parallel_for(scene->context, count, RAYS_PER_RANGE, find_offsets, &job, &progress);
+    }
+    if (result == ALP_OK) {
         result = alpi_occlusion_gather(scene->context, &setup, &receivers, accessibility);
     }
     alpi_receivers_destroy(scene->context, &receivers);
