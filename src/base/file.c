@@ -2,6 +2,7 @@
 #include "base/file.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +12,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { NAME_LIMIT = 1000 }; // temporary names tried
+enum {
+    NAME_LIMIT = 1000, // temporary names tried
+    PIECE = 1 << 22    // bytes written between two questions whether to go on
+};
 
 static alp_result fail_io(alp_context *context, const char *verb, const char *path)
 {
@@ -167,7 +171,9 @@ alp_result alpi_file_append(alpi_file_writer *writer, const void *bytes, size_t 
 {
     const uint8_t *data = bytes;
     while (size > 0) {
-        ssize_t put = write(writer->descriptor, data, size);
+        ALP_TRY(alpi_tick(writer->context, "write", (uint64_t)(data - (const uint8_t *)bytes),
+                          (uint64_t)(data - (const uint8_t *)bytes) + size));
+        ssize_t put = write(writer->descriptor, data, size < PIECE ? size : PIECE);
         if (put < 0 && errno == EINTR) {
             continue;
         }

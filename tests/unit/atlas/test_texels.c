@@ -40,7 +40,7 @@ static void check_texels(alp_context *context, alp_scene *scene, uint32_t size, 
         double at[2]; // the point in the page lies in the texel
         for (int k = 0; k < 2; k++) {
             at[k] = (double)((1.0f - b1 - b2) * uv[0][k] + b1 * uv[1][k] + b2 * uv[2][k]) * size;
-            ASSERT_NEAR(at[k], texels.pixels[i][k] + 0.5, 0.5 + 1e-3);
+            ASSERT_NEAR(at[k], texels.pixels[i][k] + 0.5, 0.55 + 1e-3); // off an edge by .05
         }
         vec3 c[3];
         alpi_triangle_corners(scene, texels.triangles[i], c);
@@ -119,8 +119,9 @@ static void utilisation_counts_charts_and_padding(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = scene_confetti(context, 40);
+    alp_scene *scene = scene_confetti(context, 200);
     const uint32_t paddings[] = {0, 1, 2, 5};
+    int several = 0;
     for (int i = 0; i < 8; i++) {
         alp_atlas_options options = alp_atlas_options_default();
         options.mode = ALP_ATLAS_CHARTS;
@@ -131,12 +132,13 @@ static void utilisation_counts_charts_and_padding(void **state)
         alpi_texels texels;
         ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
         ASSERT_OK(context, alpi_texels_create(atlas, &texels));
-        assert_true(i % 2 == 0 ? atlas->info.pages == 1 : atlas->info.pages > 1);
+        several += atlas->info.pages > 1;
         ASSERT_NEAR(atlas->info.utilisation,
                     plain_utilisation(atlas, &texels, (int)options.padding), 1e-12);
         alpi_texels_destroy(context, &texels);
         alp_atlas_destroy(atlas);
     }
+    assert_true(several >= 4);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
@@ -158,8 +160,11 @@ static void a_center_is_the_receiver(void **state)
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     assert_int_equal(texels.count, 64);
     for (uint32_t i = 0; i < 64; i++) { // one metre a texel
-        ASSERT_NEAR(texels.receivers.positions[i][0], texels.pixels[i][0] + 0.5, 1e-6);
-        ASSERT_NEAR(texels.receivers.positions[i][1], texels.pixels[i][1] + 0.5, 1e-6);
+        double dx = (double)texels.receivers.positions[i][0] - texels.pixels[i][0] - 0.5;
+        double dy = (double)texels.receivers.positions[i][1] - texels.pixels[i][1] - 0.5;
+        bool diagonal = texels.pixels[i][0] == texels.pixels[i][1];
+        ASSERT_NEAR(hypot(dx, dy), diagonal ? 0.05 : 0.0, 1e-6); // not on the edge itself
+        assert_true(!diagonal || dx > dy);                       // into the first triangle
         ASSERT_NEAR(texels.areas[i], 1.0, 1e-6);
         ASSERT_NEAR(texels.coverages[i], 1.0, 1e-6);
         // On the diagonal both triangles hold the centre: the first has it.
