@@ -19,7 +19,7 @@ typedef struct source {
 static alpi_wrap read_wrap(json_t *sampler, const char *member)
 {
     enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 };
-    json_int_t value = json_integer_value(json_object_get(sampler, member));
+    double value = json_number_value(json_object_get(sampler, member));
     return value == CLAMP_TO_EDGE     ? ALPI_WRAP_CLAMP
            : value == MIRRORED_REPEAT ? ALPI_WRAP_MIRROR
                                       : ALPI_WRAP_REPEAT;

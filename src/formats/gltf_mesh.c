@@ -409,7 +409,8 @@ static void tell_oddities(const plan *p)
                   p->without_material);
     }
     if (p->skinned > 0) {
-        alpi_note(context, "skin", path, "%u skinned nodes are taken in their rest pose",
+        alpi_note(context, "skin", path,
+                  "%u skinned nodes are taken as their mesh stands at the node, without the skin",
                   p->skinned);
     }
     if (p->morphed > 0) {
