@@ -35,7 +35,7 @@ typedef struct alpi_texels {
 
 /// A texel is covered when a usable triangle has area inside it. Its receiver lies at its centre
 /// where the centre is inside a triangle, else at the centroid of the largest piece of a triangle
-/// inside it.
+/// inside it; off the triangle's edges by a twentieth of a texel, as far as the triangle has room.
 alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 

@@ -213,6 +213,30 @@ static void clamp_materials(alp_scene *scene)
     }
 }
 
+/// A metal has no diffuse albedo, and glTF's default material is one: a scene of it bounces no
+/// light.
+static void warn_of_metal(const alp_scene *scene)
+{
+    double metal = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        uint32_t material = scene->surfaces[scene->triangle_surface[t]].material;
+        if (material != ALPI_NONE && scene->triangle_usable[t] &&
+            scene->materials[material].metallic >= 1.0f &&
+            scene->materials[material].metallic_texture.image == ALPI_NONE) {
+            vec3 c[3];
+            alpi_triangle_corners(scene, t, c);
+            metal += vec3_triangle_area(c[0], c[1], c[2]);
+        }
+    }
+    if (metal > 0.5 * scene->area) {
+        alpi_warn(
+            scene->context, "metal", scene->name,
+            "%.0f %% of the surface is metal, which is what glTF takes a material for that does "
+            "not say: it has no diffuse colour and will bounce no light",
+            100.0 * metal / scene->area);
+    }
+}
+
 /// Float coordinates far from the origin cannot hold fine detail: say so where it will be seen.
 static void warn_of_precision(const alp_scene *scene)
 {
@@ -239,6 +263,7 @@ alp_result alpi_scene_finish(alp_scene *scene)
     mark_triangles(scene);
     repair_normals(scene); // asks which triangles are usable
     clamp_materials(scene);
+    warn_of_metal(scene);
     warn_of_precision(scene);
     return ALP_OK;
 }

@@ -24,3 +24,8 @@ changed seed --size 32 --seed 5
 # defaults that are given change nothing
 changed defaults --size 32 --padding 2 --ao-distance auto --ao-falloff smooth --ao-cone 90 \
     --ao-distribution cosine --seed 0 --maps ao --atlas auto --texels-per-metre auto
+# what was used stands in the asset, in the library's units
+alpenglow bake builtin:sphere-plane -q -o out.gltf --size 40 --padding 3 --ao-samples 8 \
+    --ao-distance 0.75 --ao-falloff exp --ao-cone 45 --ao-distribution uniform --one-sided --seed 11
+grep -oE '"(samples|distance_m|falloff|cone_rad|distribution|one_sided|seed|atlas|size|padding)": ?[^,}]*' \
+    out.gltf | tr -d ' ' | sort -u

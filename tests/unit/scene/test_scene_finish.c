@@ -216,10 +216,29 @@ static void indices_out_of_range_are_errors(void **state)
     }
 }
 
+static void a_metal_scene_says_so(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    for (int metal = 0; metal <= 1; metal++) {
+        alpi_builder builder;
+        start(&builder, context);
+        add_triangle(&builder, 2.0f, UP);
+        alp_scene *scene = finish(&builder);
+        scene->materials[0].metallic = metal ? 1.0f : 0.99f;
+        test_log_clear();
+        ASSERT_OK(context, alpi_scene_finish(scene));
+        assert_int_equal(test_log_has("metal"), metal);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_good_scene_says_nothing),
+        cmocka_unit_test(a_metal_scene_says_so),
         cmocka_unit_test(triangles_without_area_are_left_out),
         cmocka_unit_test(coordinates_that_are_no_numbers),
         cmocka_unit_test(bad_normals_become_the_triangles),
