@@ -56,6 +56,11 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
     ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    alp_result result = alpi_bake_check_memory(job, &atlas->info);
+    if (result != ALP_OK) {
+        alp_atlas_destroy(atlas);
+        return result;
+    }
     ALP_TRY(alpi_lightmap_create(atlas, &job->lightmap));
     job->report.atlas = atlas->info;
     job->report.atlas.texels = job->lightmap->texels.count;
