@@ -117,8 +117,9 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
-    ALP_TRY(alpi_bake_check_outputs(job));
+    ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
+    ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     float *values = ALPI_NEW(job->context, float, job->lightmap->texels.count);
     if (values == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;

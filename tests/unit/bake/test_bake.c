@@ -173,6 +173,18 @@ static void nothing_is_overwritten_unasked(void **state)
     free(bytes);
     options.overwrite = true;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+    options.maps_folder = test_path(folder, "maps"); // a later page is looked for before the rays
+    options.atlas.texels_per_metre = 40.0;           // six walls of 40² on pages of 64²
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+    assert_int_equal(remove(test_path(folder, "maps/ao.exr")), 0);
+    assert_int_equal(remove(test_path(folder, "maps/ao.png")), 0);
+    assert_int_equal(remove(options.output), 0);
+    options.overwrite = false;
+    stopper never = {"occlusion", 0};
+    options.progress = stop_at_stage;
+    options.progress_user = &never;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_IO);
+    assert_non_null(strstr(alp_context_message(context), "ao.1.exr"));
     options.output = test_path(folder, "no/such/folder/out.glb");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_IO);
     options.output = test_path(folder, "out.obj");
