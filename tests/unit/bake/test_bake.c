@@ -143,7 +143,7 @@ static void cancelling_leaves_nothing(void **state)
         stopper s = {stages[i], 0};
         alp_bake_options options = small_options();
         options.output = test_path(folder, "out.glb");
-        options.maps_folder = folder;
+        options.maps_folder = test_path(folder, "new"); // made for the bake, and gone with it
         options.progress = stop_at_stage;
         options.progress_user = &s;
         assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
