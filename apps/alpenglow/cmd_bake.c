@@ -113,13 +113,26 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 
+/// The report must not take the place of the scene that was read or baked.
+static int check_report(const command_line *a, const char *output)
+{
+    const char *json = a->values[OPTION_JSON].text;
+    if (json == NULL) {
+        return EXIT_DONE;
+    }
+    if ((output != NULL && output_is_same(json, output)) || output_is_same(json, a->operands[0])) {
+        return usage_error(COMMAND_BAKE, "--json %s: is the name of %s too; give another", json,
+                           output != NULL && output_is_same(json, output) ? "-o" : "SCENE");
+    }
+    return output_check(json, a->values[OPTION_FORCE].given);
+}
+
 int command_bake(const command_line *a)
 {
     alp_bake_options options;
-    const char *json = a->values[OPTION_JSON].text;
     int code = read_options(a, &options);
-    if (code == EXIT_DONE && json != NULL) {
-        code = output_check(json, a->values[OPTION_FORCE].given);
+    if (code == EXIT_DONE) {
+        code = check_report(a, options.output);
     }
     if (code != EXIT_DONE) {
         return code;

@@ -101,6 +101,9 @@ static int check_outputs(const command_line *arguments)
     if (heatmap != NULL && !path_ends(heatmap, ".png")) {
         return usage_error(COMMAND_COMPARE, "--heatmap %s: the name must end in .png", heatmap);
     }
+    if (heatmap != NULL && json != NULL && output_is_same(heatmap, json)) {
+        return usage_error(COMMAND_COMPARE, "--heatmap and --json name the same file: %s", json);
+    }
     int code = heatmap != NULL ? output_check(heatmap, overwrite) : EXIT_DONE;
     return code == EXIT_DONE && json != NULL ? output_check(json, overwrite) : code;
 }

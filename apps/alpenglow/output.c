@@ -70,6 +70,16 @@ int output_check(const char *path, bool overwrite)
     return code;
 }
 
+bool output_is_same(const char *a, const char *b)
+{
+    struct stat first, second;
+    if (strcmp(a, b) == 0) {
+        return true;
+    }
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
 static bool write_all(FILE *file, const char *text)
 {
     bool good = fputs(text, file) >= 0 && fputc('\n', file) != EOF;

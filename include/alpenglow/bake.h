@@ -21,10 +21,12 @@ typedef struct alp_bake_options {
     alp_atlas_options atlas;         ///< its progress is ignored
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_existing_ao existing_ao;
-    const char *output;        ///< .glb or .gltf, or NULL: no asset
-    const char *maps_folder;   ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
-    bool overwrite;            ///< default false: an existing file stops the job before it starts
-    alp_progress_fn *progress; ///< stages "atlas", "build", "occlusion", "write"
+    const char *output;      ///< .glb or .gltf, or NULL: no asset
+    const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
+    bool overwrite;          ///< default false: an existing file stops the job before it starts
+    /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
+    /// "texels"; "build"; "occlusion"; "dilation"; "write". Parts of short work may stay unheard.
+    alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
 ALP_API alp_bake_options alp_bake_options_default(void);
@@ -50,8 +52,9 @@ typedef struct alp_lightmap alp_lightmap;
 /// its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
-/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake); LIMIT; IO; OUT_OF_MEMORY;
-/// CANCELLED
+/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake, or a second UV set that cannot
+///         be kept); UNSUPPORTED (an output that is neither .glb nor .gltf); LIMIT; IO;
+///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

@@ -42,9 +42,11 @@ ALP_API float alp_occlusion_distance(const alp_scene *scene, const alp_occlusion
 ///
 ///     A(p) = 1 − E[w(t)],   directions in the cone about n, cosine-distributed or uniform
 ///
-/// which for w = 1 and the full hemisphere is (1/π) ∫ V(p, ω) (n·ω) dω. An open point is exactly 1.
-/// Owen-scrambled Sobol' samples keyed by (seed, index of the point, sample): unbiased over seeds,
-/// the same bits for any number of workers.
+/// which for w = 1 and the full hemisphere is (1/π) ∫ V(p, ω) (n·ω) dω. An open point is exactly 1,
+/// unless its shading normal leans away from the geometric one: directions below its own surface
+/// are closed, a share of (1 − cos δ)/2 for a lean of δ, a full cosine hemisphere and a flat
+/// surface. Owen-scrambled Sobol' samples keyed by (seed, index of the point, sample): unbiased
+/// over seeds, the same bits for any number of workers.
 /// @param positions         [count][3] metres; a ray starts a few float steps along the geometric
 /// normal
 /// @param geometric_normals [count][3] unit, side from which the surface is seen; NULL = shading

@@ -23,6 +23,13 @@ typedef struct fault_list {
     char text[160];
 } fault_list;
 
+/// Whether two surfaces are one primitive placed by two nodes: then they share coordinates too.
+static bool shares_mesh(const alp_scene *scene, uint32_t a, uint32_t b)
+{
+    return scene->surfaces[a].mesh == scene->surfaces[b].mesh &&
+           scene->surfaces[a].primitive == scene->surfaces[b].primitive;
+}
+
 static void add_fault(fault_list *list, uint32_t triangle, uint32_t other)
 {
     uint32_t surface = list->scene->triangle_surface[triangle];
@@ -47,7 +54,9 @@ static void add_fault(fault_list *list, uint32_t triangle, uint32_t other)
         uint32_t with = list->scene->triangle_surface[other];
         length = snprintf(at, room, "%s%u with %u%s", comma, index,
                           other - list->scene->surfaces[with].first_triangle,
-                          with == surface ? "" : " of another surface");
+                          with == surface                           ? ""
+                          : shares_mesh(list->scene, with, surface) ? " of another node of its mesh"
+                                                                    : " of another surface");
     }
     list->used += length > 0 && (size_t)length < room ? (size_t)length : 0;
 }

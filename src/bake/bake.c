@@ -6,7 +6,9 @@
 #include "base/tasks.h"
 #include "transport/occlusion.h"
 
+#include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 alp_bake_options alp_bake_options_default(void)
 {
@@ -56,6 +58,11 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
     ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    alp_result result = alpi_bake_check_memory(job, &atlas->info);
+    if (result != ALP_OK) {
+        alp_atlas_destroy(atlas);
+        return result;
+    }
     ALP_TRY(alpi_lightmap_create(atlas, &job->lightmap));
     job->report.atlas = atlas->info;
     job->report.atlas.texels = job->lightmap->texels.count;
@@ -77,10 +84,13 @@ static double area_mean(const alpi_texels *texels, const float *values)
 static void warn_of_darkness(const alpi_bake_job *job)
 {
     if (job->report.ao_mean < 0.05) {
-        alpi_warn(job->context, "dark", job->scene->name,
-                  "the mean accessibility is %.1f %%: a closed room is dark without a distance "
-                  "limit; give one (--ao-distance auto, or metres)",
-                  100.0 * job->report.ao_mean);
+        bool limited = isfinite(job->report.ao_distance);
+        alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
+                  100.0 * job->report.ao_mean,
+                  limited ? "nearly everything is closed within the distance limit; a shorter one "
+                            "(--ao-distance) shows more"
+                          : "a closed room is dark without a distance limit; give one "
+                            "(--ao-distance auto, or metres)");
     }
 }
 
@@ -112,8 +122,9 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
-    ALP_TRY(alpi_bake_check_outputs(job));
+    ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
+    ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     float *values = ALPI_NEW(job->context, float, job->lightmap->texels.count);
     if (values == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -144,8 +155,13 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_watch former =
         alpi_set_watch(job.context, (alpi_watch){.callback = job.options.progress,
                                                  .user = job.options.progress_user});
+    const char *folder = job.options.maps_folder;
+    bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     alp_result result = run(&job);
     alpi_set_watch(job.context, former);
+    if (result != ALP_OK && folder_is_new) {
+        rmdir(folder); // only if empty: nothing was written is then true
+    }
     if (result == ALP_OK && report != NULL) {
         job.report.scene = alp_scene_get_info(scene);
         job.report.threads = alp_context_worker_count(job.context);

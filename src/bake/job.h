@@ -15,8 +15,14 @@ typedef struct alpi_bake_job {
     alp_bake_report report;
 } alpi_bake_job;
 
-/// Fails before the long work if an output could not be written at its end.
-alp_result alpi_bake_check_outputs(const alpi_bake_job *job);
+/// Bytes of ours that a bake on this atlas holds at its peak, the scene and the tracer apart.
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas);
+/// LIMIT when that is more than nine tenths of the machine's memory.
+alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
+
+/// Fails before the long work if an output could not be written at its end. Asked for one page
+/// before the atlas is made, and for all of them after.
+alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 

@@ -38,7 +38,7 @@ static alp_result check_map(alp_context *context, const char *folder, uint32_t p
     return result;
 }
 
-alp_result alpi_bake_check_outputs(const alpi_bake_job *job)
+alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
     if (o->output != NULL) {
@@ -46,12 +46,14 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job)
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
         }
-        ALP_TRY(alpi_gltf_check_output(job->scene, 1, o->output, o->overwrite));
+        ALP_TRY(alpi_gltf_check_output(job->scene, pages, o->output, o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
-        ALP_TRY(check_map(job->context, o->maps_folder, 0, ".exr", o->overwrite));
-        ALP_TRY(check_map(job->context, o->maps_folder, 0, ".png", o->overwrite));
+        for (uint32_t p = 0; p < pages; p++) {
+            ALP_TRY(check_map(job->context, o->maps_folder, p, ".exr", o->overwrite));
+            ALP_TRY(check_map(job->context, o->maps_folder, p, ".png", o->overwrite));
+        }
     }
     return ALP_OK;
 }

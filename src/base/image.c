@@ -96,7 +96,15 @@ static uint32_t wrap_index(int64_t i, uint32_t n, alpi_wrap wrap)
     return (uint32_t)(r < size ? r : period - 1 - r);
 }
 
-void alpi_image_sample(const alp_image *image, float u, float v, alpi_wrap wrap_u, alpi_wrap wrap_v,
+static void sampled_pixel(const alp_image *image, uint32_t x, uint32_t y, bool srgb, float rgba[4])
+{
+    alpi_image_pixel(image, x, y, rgba);
+    for (int k = 0; srgb && k < 3; k++) {
+        rgba[k] = alpi_srgb_to_linear(rgba[k]);
+    }
+}
+
+void alpi_image_sample(const alp_image *image, float u, float v, alpi_sampler sampler,
                        float rgba[4])
 {
     // Coordinates far outside a 2^40-fold repeat have lost all their texels anyway.
@@ -106,15 +114,15 @@ void alpi_image_sample(const alp_image *image, float u, float v, alpi_wrap wrap_
     double x = known_u * image->info.width - 0.5, y = known_v * image->info.height - 0.5;
     double fx = floor(x), fy = floor(y);
     float wx = (float)(x - fx), wy = (float)(y - fy);
-    uint32_t x0 = wrap_index((int64_t)fx, image->info.width, wrap_u);
-    uint32_t x1 = wrap_index((int64_t)fx + 1, image->info.width, wrap_u);
-    uint32_t y0 = wrap_index((int64_t)fy, image->info.height, wrap_v);
-    uint32_t y1 = wrap_index((int64_t)fy + 1, image->info.height, wrap_v);
+    uint32_t x0 = wrap_index((int64_t)fx, image->info.width, sampler.wrap_u);
+    uint32_t x1 = wrap_index((int64_t)fx + 1, image->info.width, sampler.wrap_u);
+    uint32_t y0 = wrap_index((int64_t)fy, image->info.height, sampler.wrap_v);
+    uint32_t y1 = wrap_index((int64_t)fy + 1, image->info.height, sampler.wrap_v);
     float a[4], b[4], c[4], d[4];
-    alpi_image_pixel(image, x0, y0, a);
-    alpi_image_pixel(image, x1, y0, b);
-    alpi_image_pixel(image, x0, y1, c);
-    alpi_image_pixel(image, x1, y1, d);
+    sampled_pixel(image, x0, y0, sampler.srgb, a);
+    sampled_pixel(image, x1, y0, sampler.srgb, b);
+    sampled_pixel(image, x0, y1, sampler.srgb, c);
+    sampled_pixel(image, x1, y1, sampler.srgb, d);
     for (int k = 0; k < 4; k++) {
         float top = a[k] + wx * (b[k] - a[k]);
         float bottom = c[k] + wx * (d[k] - c[k]);

@@ -18,10 +18,16 @@ struct alp_image {
 /// Wrapping of a texture coordinate, as glTF names it.
 typedef enum alpi_wrap { ALPI_WRAP_REPEAT = 0, ALPI_WRAP_CLAMP, ALPI_WRAP_MIRROR } alpi_wrap;
 
+/// How a look-up reads an image.
+typedef struct alpi_sampler {
+    alpi_wrap wrap_u, wrap_v;
+    bool srgb; // decode red, green and blue from sRGB, each texel before the mean, as glTF says
+} alpi_sampler;
+
 /// Bilinear look-up at (u, v), v = 0 at the top row, as glTF defines it; texel centres at
-/// ((x+½)/W, (y+½)/H). Missing channels are filled: grey to RGB, alpha 1. No colour decoding.
+/// ((x+½)/W, (y+½)/H). Missing channels are filled: grey to RGB, alpha 1.
 /// Bytes come out as value/255. A non-finite coordinate reads as 0.
-void alpi_image_sample(const alp_image *image, float u, float v, alpi_wrap wrap_u, alpi_wrap wrap_v,
+void alpi_image_sample(const alp_image *image, float u, float v, alpi_sampler sampler,
                        float rgba[4]);
 
 /// One pixel with channels filled as above; x and y must be inside.

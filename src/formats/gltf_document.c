@@ -138,8 +138,13 @@ static alp_result read_container(alpi_gltf_document *document)
 static alp_result parse_json(alpi_gltf_document *document)
 {
     json_error_t error;
-    document->root = json_loadb(document->text, document->text_size,
-                                JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, &error);
+    size_t flags = JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL;
+    document->root = json_loadb(document->text, document->text_size, flags, &error);
+    if (document->root == NULL && json_error_code(&error) == json_error_numeric_overflow) {
+        // Extras may hold integers beyond 64 bits, hashes for example; as reals they can be read.
+        document->root = json_loadb(document->text, document->text_size,
+                                    flags | JSON_DECODE_INT_AS_REAL, &error);
+    }
     if (document->root == NULL) {
         alp_result code = json_error_code(&error) == json_error_out_of_memory
                               ? ALP_ERROR_OUT_OF_MEMORY

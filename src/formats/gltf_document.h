@@ -42,6 +42,9 @@ alp_result alpi_gltf_document_parse(alp_context *context, const char *path, uint
                                     size_t size, alpi_gltf_document **document);
 void alpi_gltf_document_destroy(alpi_gltf_document *document); // NULL does nothing
 
+/// extras.alpenglow of a material that a bake gave to a primitive without one.
+#define ALPI_GLTF_NO_MATERIAL "no material"
+
 // --- typed access to the tree; all check, none trusts -------------------------------------------
 
 /// Object `index` of the root array `kind` ("nodes", "meshes" …), or NULL when there is none such.

@@ -19,7 +19,7 @@ typedef struct source {
 static alpi_wrap read_wrap(json_t *sampler, const char *member)
 {
     enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 };
-    json_int_t value = json_integer_value(json_object_get(sampler, member));
+    double value = json_number_value(json_object_get(sampler, member));
     return value == CLAMP_TO_EDGE     ? ALPI_WRAP_CLAMP
            : value == MIRRORED_REPEAT ? ALPI_WRAP_MIRROR
                                       : ALPI_WRAP_REPEAT;
@@ -158,6 +158,13 @@ static alp_result read_occlusion(const source *from, alpi_material *material)
     return read_texture(from, from->object, "occlusionTexture", &material->occlusion_texture);
 }
 
+/// Whether a bake made this material for a primitive that had none.
+static bool stands_for_none(const source *from)
+{
+    json_t *mark = json_object_get(json_object_get(from->object, "extras"), "alpenglow");
+    return json_is_string(mark) && strcmp(json_string_value(mark), ALPI_GLTF_NO_MATERIAL) == 0;
+}
+
 static alp_result read_material(const source *from, alpi_material *material)
 {
     char *name = alpi_gltf_copy_name(from->reader->context, from->object);
@@ -170,6 +177,10 @@ static alp_result read_material(const source *from, alpi_material *material)
     json_t *glossiness = alpi_gltf_extension(from->object, "KHR_materials_pbrSpecularGlossiness");
     ALP_TRY(glossiness != NULL ? read_specular_glossiness(from, glossiness, material)
                                : read_metallic_roughness(from, material));
+    if (stands_for_none(from)) { // what the primitive was before: a grey, no metal
+        material->metallic = 0.0f;
+        material->base_color[0] = material->base_color[1] = material->base_color[2] = 0.5f;
+    }
     ALP_TRY(read_emission(from, material));
     ALP_TRY(read_alpha(from, material));
     return read_occlusion(from, material);

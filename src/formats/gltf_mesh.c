@@ -396,24 +396,25 @@ static void tell_oddities(const plan *p)
     alp_context *context = p->reader->context;
     const char *path = p->reader->document->path;
     if (p->not_triangles > 0) {
-        alpi_note(context, "not-triangles", path, "%u primitives of points or lines are left out",
+        alpi_note(context, "not-triangles", path, "primitives of points or lines left out: %u",
                   p->not_triangles);
     }
     if (p->without_position > 0) {
-        alpi_note(context, "no-positions", path, "%u primitives without POSITION are left out",
+        alpi_note(context, "no-positions", path, "primitives without POSITION left out: %u",
                   p->without_position);
     }
     if (p->without_material > 0) {
         alpi_note(context, "no-material", path,
-                  "%u primitives have no material: a grey of albedo 0.5 is used",
+                  "primitives without a material, taken as a grey of albedo 0.5: %u",
                   p->without_material);
     }
     if (p->skinned > 0) {
-        alpi_note(context, "skin", path, "%u skinned nodes are taken in their rest pose",
+        alpi_note(context, "skin", path,
+                  "%u skinned nodes are taken as their mesh stands at the node, without the skin",
                   p->skinned);
     }
     if (p->morphed > 0) {
-        alpi_note(context, "morph", path, "%u primitives are taken without their morph targets",
+        alpi_note(context, "morph", path, "primitives taken without their morph targets: %u",
                   p->morphed);
     }
     if (p->instanced > 0) {

@@ -19,13 +19,13 @@ static alp_result read_node_index(const alpi_gltf_reader *reader, json_t *array,
                                   const char *owner, uint32_t *node)
 {
     json_t *value = json_array_get(array, i);
-    if (!json_is_integer(value) || json_integer_value(value) < 0 ||
-        json_integer_value(value) >= (json_int_t)reader->node_count) {
+    double number = json_is_number(value) ? json_number_value(value) : -1.0;
+    if (!(number >= 0.0 && number < (double)reader->node_count) || number != floor(number)) {
         return alpi_gltf_fail(reader->document, owner,
                               "its entry %zu is not the index of a node (there are %u)", i,
                               reader->node_count);
     }
-    *node = (uint32_t)json_integer_value(value);
+    *node = (uint32_t)number;
     return ALP_OK;
 }
 
@@ -194,8 +194,7 @@ static alp_result walk(alpi_gltf_reader *reader, const uint32_t *parent, node_st
         ALP_TRY(read_children(reader, node, &children));
         for (size_t k = json_array_size(children); k-- > 0;) {
             // Checked by find_parents.
-            stack->nodes[stack->count++] =
-                (uint32_t)json_integer_value(json_array_get(children, k));
+            stack->nodes[stack->count++] = (uint32_t)json_number_value(json_array_get(children, k));
         }
     }
     return ALP_OK;

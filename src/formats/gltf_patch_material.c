@@ -152,7 +152,9 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
     print_texture(p, n, &value);
     alp_result result = ALP_OK;
     if (n->old == ALPI_GLTF_NONE) {
-        alpi_bytes_print(&text, "{\"occlusionTexture\":%s}", (const char *)value.bytes);
+        // Looks like glTF's default material; the mark tells a later reading that there was none.
+        alpi_bytes_print(&text, "{\"occlusionTexture\":%s,\"extras\":{\"alpenglow\":\"%s\"}}",
+                         (const char *)value.bytes, ALPI_GLTF_NO_MATERIAL);
         n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
     } else {
         alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];

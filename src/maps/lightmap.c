@@ -84,7 +84,8 @@ void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float
                       .info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT},
                       .pixels = lightmap->pages[lightmap->atlas->triangle_pages[triangle]]};
     float rgba[4];
-    alpi_image_sample(&view, u, v, ALPI_WRAP_CLAMP, ALPI_WRAP_CLAMP, rgba);
+    alpi_image_sample(&view, u, v,
+                      (alpi_sampler){.wrap_u = ALPI_WRAP_CLAMP, .wrap_v = ALPI_WRAP_CLAMP}, rgba);
     memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
 

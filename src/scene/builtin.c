@@ -21,6 +21,19 @@ static const builtin BUILTINS[] = {
 };
 enum { BUILTIN_COUNT = sizeof BUILTINS / sizeof *BUILTINS };
 
+/// Scenes that are planned: refused by name, so that nobody looks for a typing error.
+static const char *const PLANNED[] = {"windows", "atrium", "terrain"};
+
+static bool is_planned(const char *name)
+{
+    for (size_t i = 0; i < sizeof PLANNED / sizeof *PLANNED; i++) {
+        if (strcmp(name, PLANNED[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static alp_result fail_unknown(alp_context *context, const char *name)
 {
     char list[BUILTIN_COUNT * 40] = "";
@@ -29,8 +42,10 @@ static alp_result fail_unknown(alp_context *context, const char *name)
         snprintf(list + used, sizeof list - used, "%s%s", i == 0 ? "" : ", ",
                  BUILTINS[i].name + PREFIX_LENGTH);
     }
-    return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                     "builtin:%s: no such built-in scene; there are: %s", name, list);
+    bool planned = is_planned(name);
+    return alpi_fail(context, planned ? ALP_ERROR_UNSUPPORTED : ALP_ERROR_INVALID_ARGUMENT,
+                     "builtin:%s: %s; there are: %s", name,
+                     planned ? "not built yet" : "no such built-in scene", list);
 }
 
 alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene **scene)

@@ -327,7 +327,7 @@ static float fitting_distance(vec3 size, vec3 view, float tangent)
 
 /// Looks at the whole bounding box from above one of its corners. A scene that is seen mostly from
 /// behind there (a room) is looked at from inside, from near one upper corner towards the opposite
-/// lower one.
+/// lower one. Nobody can stand inside a scene that is flat: cards on a table, a wall of signs.
 static alp_camera automatic_camera(const alp_scene *scene)
 {
     vec3 low = scene->bounds_min, high = scene->bounds_max;
@@ -348,7 +348,10 @@ static alp_camera automatic_camera(const alp_scene *scene)
         }
     }
     alp_camera camera = {.up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
-    if (back > front) {
+    const float flat = 0.05f; // thickness over the largest side
+    bool has_inside =
+        fminf(fminf(size.x, size.y), size.z) > flat * fmaxf(fmaxf(size.x, size.y), size.z);
+    if (back > front && has_inside) {
         vec3 eye = {low.x + 0.88f * size.x, low.y + 0.62f * size.y, low.z + 0.88f * size.z};
         vec3 target = {low.x + 0.35f * size.x, low.y + 0.35f * size.y, low.z + 0.25f * size.z};
         camera.vertical_fov = 1.2f;

@@ -44,16 +44,22 @@ vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, f
                   a[1] + b1 * (b[1] - a[1]) + b2 * (c[1] - a[1])};
 }
 
-static bool read_texture(const alp_scene *scene, const alpi_texture *texture, uint32_t triangle,
-                         float b1, float b2, float rgba[4])
+/// A point of a surface: barycentric weights of corners 1 and 2.
+typedef struct surface_point {
+    uint32_t triangle;
+    float b1, b2;
+} surface_point;
+
+static bool read_texture(const alp_scene *scene, const alpi_texture *texture, surface_point at,
+                         bool srgb, float rgba[4])
 {
     if (texture->image == ALPI_NONE || scene->images[texture->image] == NULL) {
         return false;
     }
-    vec2 uv =
-        alpi_texture_transform(texture, alpi_triangle_uv(scene, triangle, texture->uv_set, b1, b2));
-    alpi_image_sample(scene->images[texture->image], uv.x, uv.y, texture->wrap_u, texture->wrap_v,
-                      rgba);
+    vec2 uv = alpi_texture_transform(
+        texture, alpi_triangle_uv(scene, at.triangle, texture->uv_set, at.b1, at.b2));
+    alpi_sampler sampler = {texture->wrap_u, texture->wrap_v, srgb};
+    alpi_image_sample(scene->images[texture->image], uv.x, uv.y, sampler, rgba);
     return true;
 }
 
@@ -81,8 +87,9 @@ float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, fl
     if (material == NULL || material->alpha_mode == ALPI_ALPHA_OPAQUE) {
         return 1.0f;
     }
+    const surface_point at = {triangle, b1, b2};
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, vertex[4];
-    read_texture(scene, &material->base_color_texture, triangle, b1, b2, texel);
+    read_texture(scene, &material->base_color_texture, at, false, texel); // alpha is linear
     read_vertex_color(scene, triangle, b1, b2, vertex);
     return material->base_color[3] * texel[3] * vertex[3];
 }
@@ -110,15 +117,16 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
         return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
     }
     float color[4], texel[4], vertex[4];
-    bool textured = read_texture(scene, &material->base_color_texture, triangle, b1, b2, texel);
+    const surface_point at = {triangle, b1, b2};
+    bool textured = read_texture(scene, &material->base_color_texture, at, true, texel);
     read_vertex_color(scene, triangle, b1, b2, vertex);
     float metallic = material->metallic, metal_texel[4];
-    if (read_texture(scene, &material->metallic_texture, triangle, b1, b2, metal_texel)) {
+    if (read_texture(scene, &material->metallic_texture, at, false, metal_texel)) {
         metallic *= metal_texel[2];
     }
     for (int k = 0; k < 3; k++) {
-        float value = material->base_color[k] * vertex[k] *
-                      (textured ? alpi_srgb_to_linear(texel[k]) : 1.0f) * (1.0f - metallic);
+        float value =
+            material->base_color[k] * vertex[k] * (textured ? texel[k] : 1.0f) * (1.0f - metallic);
         color[k] = fminf(fmaxf(value, 0.0f), ALBEDO_LIMIT);
     }
     return (vec3){color[0], color[1], color[2]};
@@ -129,8 +137,8 @@ bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1,
 {
     const alpi_material *material = material_of(scene, triangle);
     float texel[4];
-    if (material == NULL ||
-        !read_texture(scene, &material->occlusion_texture, triangle, b1, b2, texel)) {
+    if (material == NULL || !read_texture(scene, &material->occlusion_texture,
+                                          (surface_point){triangle, b1, b2}, false, texel)) {
         return false;
     }
     *accessibility = 1.0f + material->occlusion_strength * (texel[0] - 1.0f);

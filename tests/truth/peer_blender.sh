@@ -10,7 +10,9 @@ if [ ! -x /usr/bin/blender ]; then
     echo "blender is absent: skipped (apt-get install blender python3-numpy)"
     exit 77
 fi
-if ! blender -b --factory-startup --python-exit-code 3 --python-expr "import numpy" >/dev/null 2>&1; then
+# Blender takes the Python it finds first: the system's is the one that has numpy.
+system=/usr/bin:/bin
+if ! PATH=$system blender -b --factory-startup --python-exit-code 3 --python-expr "import numpy" >/dev/null 2>&1; then
     echo "Blender's Python has no numpy: skipped (apt-get install python3-numpy)"
     exit 77
 fi
@@ -21,8 +23,7 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # 1,024 samples leave .001 of noise in the reference.
-# Blender takes the Python it finds first: the system's, which has numpy.
-PATH=/usr/bin:/bin blender -b --factory-startup --python-exit-code 3 --python "$peer/bake_peer.py" -- \
+PATH=$system blender -b --factory-startup --python-exit-code 3 --python "$peer/bake_peer.py" -- \
     --scene "$peer/sphere_plane.glb" --type ao --size 256 --samples 1024 --ao-distance 0.2 \
     --uv TEXCOORD_1 --out "$folder/cycles.exr" >"$folder/log" 2>&1 || {
     tail -20 "$folder/log"

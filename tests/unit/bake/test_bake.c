@@ -3,6 +3,7 @@
 // ends of every range, and what was written reads back.
 #include "test_scenes.h"
 
+#include "bake/job.h"
 #include "maps/lightmap.h"
 #include "scene/scene.h"
 
@@ -142,7 +143,7 @@ static void cancelling_leaves_nothing(void **state)
         stopper s = {stages[i], 0};
         alp_bake_options options = small_options();
         options.output = test_path(folder, "out.glb");
-        options.maps_folder = folder;
+        options.maps_folder = test_path(folder, "new"); // made for the bake, and gone with it
         options.progress = stop_at_stage;
         options.progress_user = &s;
         assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
@@ -172,6 +173,18 @@ static void nothing_is_overwritten_unasked(void **state)
     free(bytes);
     options.overwrite = true;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+    options.maps_folder = test_path(folder, "maps"); // a later page is looked for before the rays
+    options.atlas.texels_per_metre = 40.0;           // six walls of 40² on pages of 64²
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+    assert_int_equal(remove(test_path(folder, "maps/ao.exr")), 0);
+    assert_int_equal(remove(test_path(folder, "maps/ao.png")), 0);
+    assert_int_equal(remove(options.output), 0);
+    options.overwrite = false;
+    stopper never = {"occlusion", 0};
+    options.progress = stop_at_stage;
+    options.progress_user = &never;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_IO);
+    assert_non_null(strstr(alp_context_message(context), "ao.1.exr"));
     options.output = test_path(folder, "no/such/folder/out.glb");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_IO);
     options.output = test_path(folder, "out.obj");
@@ -243,6 +256,31 @@ static void what_cannot_be_baked_says_so(void **state)
     alp_context_destroy(context);
 }
 
+static void memory_is_known_beforehand(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:furnace");
+    alp_bake_options options = small_options();
+    options.atlas.size = 1024;
+    options.occlusion.samples = 1;
+    alp_bake_report report;
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
+    double told = (double)alpi_bake_memory(&report.atlas);
+    ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
+    alp_lightmap_destroy(lightmap);
+
+    // A page that no machine holds is refused with what it takes.
+    alpi_bake_job job = {.scene = scene, .context = context};
+    alp_atlas_info huge = {.pages = 4096, .width = 16384, .height = 16384, .texels = 1ull << 40};
+    assert_int_equal(alpi_bake_check_memory(&job, &huge), ALP_ERROR_LIMIT);
+    assert_non_null(strstr(alp_context_message(context), "GiB"));
+    ASSERT_OK(context, alpi_bake_check_memory(&job, &report.atlas));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void rays_clear_their_own_surface(void **state)
 {
     (void)state;
@@ -276,6 +314,7 @@ int main(void)
         cmocka_unit_test(nothing_is_overwritten_unasked),
         cmocka_unit_test(the_ends_of_ranges_are_sane),
         cmocka_unit_test(what_cannot_be_baked_says_so),
+        cmocka_unit_test(memory_is_known_beforehand),
         cmocka_unit_test(rays_clear_their_own_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

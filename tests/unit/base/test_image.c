@@ -77,7 +77,7 @@ static alp_image *ramp(alp_context *context)
 static float at(const alp_image *image, double u, double v, alpi_wrap wrap)
 {
     float rgba[4];
-    alpi_image_sample(image, (float)u, (float)v, wrap, wrap, rgba);
+    alpi_image_sample(image, (float)u, (float)v, (alpi_sampler){wrap, wrap, false}, rgba);
     return rgba[0];
 }
 
@@ -153,9 +153,35 @@ static void the_srgb_curve_goes_there_and_back(void **state)
     ASSERT_NEAR(alpi_linear_to_srgb(NAN), 0.0, 0.0);
 }
 
+static void srgb_is_decoded_before_the_mean(void **state)
+{
+    (void)state;
+    // Half way between a black and a white texel: light .5, where decoding the mean gives .214.
+    alp_context *context = test_context(1);
+    alp_image *image = NULL;
+    ASSERT_OK(context,
+              alp_image_create(context, (alp_image_info){2, 1, 4, ALP_COMPONENT_U8}, &image));
+    const uint8_t pixels[8] = {0, 0, 0, 0, 255, 255, 255, 255};
+    memcpy(alp_image_bytes(image), pixels, sizeof pixels);
+    float rgba[4];
+    alpi_image_sample(image, 0.5f, 0.5f, (alpi_sampler){ALPI_WRAP_CLAMP, ALPI_WRAP_CLAMP, true},
+                      rgba);
+    ASSERT_NEAR(rgba[0], 0.5, 1e-6);
+    ASSERT_NEAR(rgba[3], 0.5, 1e-6); // alpha is not encoded
+    const uint8_t grey[8] = {128, 128, 128, 128, 128, 128, 128, 128};
+    memcpy(alp_image_bytes(image), grey, sizeof grey);
+    alpi_image_sample(image, 0.5f, 0.5f, (alpi_sampler){ALPI_WRAP_CLAMP, ALPI_WRAP_CLAMP, true},
+                      rgba);
+    ASSERT_NEAR(rgba[1], 0.215861, 1e-5);
+    ASSERT_NEAR(rgba[3], 128.0 / 255.0, 1e-6);
+    alp_image_destroy(image);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(srgb_is_decoded_before_the_mean),
         cmocka_unit_test(limits_are_kept),
         cmocka_unit_test(missing_channels_are_filled),
         cmocka_unit_test(texel_centres_give_texels),

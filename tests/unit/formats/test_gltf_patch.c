@@ -114,7 +114,14 @@ static void the_first_free_set_is_taken(void **state)
     assert_string_equal(quad_text(&bake, "materials/1/occlusionTexture"),
                         "{\"index\":0,\"texCoord\":1}");
     assert_string_equal(quad_text(&bake, "materials/2"),
-                        "{\"occlusionTexture\":{\"index\":0,\"texCoord\":2}}");
+                        "{\"occlusionTexture\":{\"index\":0,\"texCoord\":2},"
+                        "\"extras\":{\"alpenglow\":\"no material\"}}");
+    // Read again it is the grey that the primitive was, not the metal that glTF's default is.
+    const alp_scene *again = bake.result;
+    assert_int_equal(again->surface_count, 3);
+    ASSERT_NEAR(alpi_surface_albedo(again, again->surfaces[0].first_triangle, 0.3f, 0.3f).x, 0, 0);
+    ASSERT_NEAR(alpi_surface_albedo(again, again->surfaces[2].first_triangle, 0.3f, 0.3f).x, 0.5,
+                1e-6);
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), 6);
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"), 0);
     quad_close(&bake);

@@ -129,6 +129,21 @@ static vec3 winding(const alp_scene *scene, uint32_t t)
     return vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 0, 0});
 }
 
+/// Extras belong to somebody else: a hash beyond 64 bits there must not make the asset unreadable.
+static void integers_beyond_64_bits(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene =
+        load(context, SQUARE ",'nodes':[{'children':[1]},{'mesh':0,'translation':[1,2,3]}],"
+                             "'scene':0,'scenes':[{'nodes':[0]}],"
+                             "'extras':{'hash':123456789012345678901234567890}");
+    assert_int_equal(alp_scene_get_info(scene).triangles, 2);
+    assert_vec(scene->positions[0], 1, 2, 3);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void mirrored_nodes(void **state)
 {
     (void)state;
@@ -409,6 +424,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(node_hierarchy),
         cmocka_unit_test(default_scene),
+        cmocka_unit_test(integers_beyond_64_bits),
         cmocka_unit_test(mirrored_nodes),
         cmocka_unit_test(flat_normals),
         cmocka_unit_test(triangle_modes),

@@ -261,6 +261,25 @@ static void the_automatic_camera_sees_the_scene(void **state)
     alp_context_destroy(context);
 }
 
+/// A large card and a small one in front of it: most area faces the centre, but it is no room.
+static void a_flat_scene_is_seen_from_outside(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const double right[3] = {3, 0, 0}, up[3] = {0, 2, 0}, behind[3] = {0, 0, 0};
+    const double half_right[3] = {1, 0, 0}, half_up[3] = {0, 1, 0}, before[3] = {1, 0.5, 0.02};
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, behind, right, up);
+    test_mesh_quad(mesh, before, half_right, half_up);
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alp_camera camera = alp_scene_get_camera(scene, 0);
+    assert_true(camera.position[2] > 1.0f);
+    ASSERT_NEAR(camera.target[0], 1.5, 1e-5);
+    ASSERT_NEAR(camera.target[1], 1.0, 1e-5);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +291,7 @@ int main(void)
         cmocka_unit_test(workers_change_no_bit),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(the_automatic_camera_sees_the_scene),
+        cmocka_unit_test(a_flat_scene_is_seen_from_outside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a bake will need, known as soon as the atlas is: better a message now than a killed process
+// after an hour.
+#include "bake/job.h"
+
+#include <unistd.h>
+
+enum {
+    BYTES_PER_TEXEL = 84,      // alpi_texels 32, its receivers 40, value 4, sum 8
+    BYTES_PER_PAGE_TEXEL = 16, // of every page: float RGBA
+    BYTES_TO_DILATE = 5        // of one page at a time: filled 1, queue 4
+};
+
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas)
+{
+    uint64_t page = (uint64_t)atlas->width * atlas->height;
+    return BYTES_PER_TEXEL * atlas->texels + BYTES_PER_PAGE_TEXEL * page * atlas->pages +
+           BYTES_TO_DILATE * page;
+}
+
+alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
+{
+    long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
+    double needed = (double)alpi_bake_memory(atlas);
+    double present = (double)pages * (double)page_size;
+    if (pages > 0 && page_size > 0 && needed > 0.9 * present) {
+        return alpi_fail(job->context, ALP_ERROR_LIMIT,
+                         "%s: %llu texels need %.1f GiB of the machine's %.1f GiB; use a smaller "
+                         "size or fewer texels per metre",
+                         job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p30,
+                         present / 0x1p30);
+    }
+    return ALP_OK;
+}
