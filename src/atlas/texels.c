@@ -60,7 +60,7 @@ static void leave_edges(const carrier *c, double b[2])
 {
     const double margin = 0.05; // texels; costs as much of the gradient, far below the noise
     const double weights[3] = {1.0 - b[0] - b[1], b[0], b[1]};
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
         nearest = fmin(nearest, weights[k] * c->heights[k]);
     }
