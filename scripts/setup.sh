@@ -6,7 +6,8 @@
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
 #
 # Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
-# comes from npm. Exit status: 0 all is there, 1 something is missing, 2 wrong usage.
+# comes from npm; without it some tests are skipped. Exit status: 0 all is there, 1 something is
+# missing, 2 wrong usage.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -87,8 +88,9 @@ install_validator() { # what package-lock.json pins, once per state of that file
     cmp -s $validator/package-lock.json $validator/node_modules/.installed-for && return 0
     say "installing the npm packages of $validator"
     if ! npm ci --prefix $validator --no-audit --no-fund >&2; then
-        say "npm ci failed in $validator (see above); the network is needed once"
-        exit 1
+        say "npm ci failed in $validator (see above); the network is needed once. Going on: the"
+        say "tests that validate glTF files will be skipped, and say so"
+        return 0
     fi
     cp $validator/package-lock.json $validator/node_modules/.installed-for
 }
