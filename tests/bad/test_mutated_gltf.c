@@ -207,23 +207,6 @@ static void cut_files(void **state)
     alp_context_destroy(context);
 }
 
-/// An allocator that gives out `left` blocks and then no more.
-typedef struct meter {
-    int left;
-} meter;
-
-static void *metered_allocate(void *user, size_t size)
-{
-    meter *m = user;
-    return m->left-- > 0 ? malloc(size) : NULL;
-}
-
-static void metered_release(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
 /// Every allocation of ours fails once; the sanitizer build sees what is not given back.
 static void failing_allocations(void **state)
 {
@@ -234,16 +217,11 @@ static void failing_allocations(void **state)
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allowed = 0;
     for (; result != ALP_OK; allowed++) {
-        meter m = {.left = 2}; // the context and the copy
-        alp_context_options options = alp_context_options_default();
-        options.allocate = metered_allocate;
-        options.release = metered_release;
-        options.allocator_user = &m;
-        alp_context *context = NULL;
-        ASSERT_OK(plain, alp_context_create(&options, &context));
+        int left = 0;
+        alp_context *context = test_context_failing(&left);
         uint8_t *copy = alpi_allocate(context, size, 1);
         memcpy(copy, good, size);
-        m.left = allowed;
+        left = allowed;
         alpi_gltf_document *document = NULL;
         alp_scene *scene = NULL;
         result = alpi_gltf_document_parse(context, "x.glb", copy, size, &document);

@@ -48,6 +48,31 @@ alp_context *test_context(uint32_t workers)
     return context;
 }
 
+static void *allocate_while_any_left(void *user, size_t size)
+{
+    int *left = user;
+    return (*left)-- > 0 ? malloc(size) : NULL;
+}
+
+static void release_any(void *user, void *pointer)
+{
+    (void)user;
+    free(pointer);
+}
+
+alp_context *test_context_failing(int *left)
+{
+    *left = 1 << 30;
+    alp_context_options options = alp_context_options_default();
+    options.allocate = allocate_while_any_left;
+    options.release = release_any;
+    options.allocator_user = left;
+    options.worker_count = 1;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    return context;
+}
+
 void test_log_clear(void)
 {
     log_text[0] = '\0';

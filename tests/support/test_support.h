@@ -30,6 +30,9 @@ void test_assert_ok(alp_context *context, alp_result result, const char *text, c
 
 /// A context with this many workers whose log messages test_log_contains can find.
 alp_context *test_context(uint32_t workers);
+/// A silent context with one worker whose next `*left` allocations succeed and whose later ones fail;
+/// `*left` counts down and may be set again at any time. It begins with room enough.
+alp_context *test_context_failing(int *left);
 /// Forgets logged messages.
 void test_log_clear(void);
 /// Whether a message with this code was logged since the last clear (by any test context).

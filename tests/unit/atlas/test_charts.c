@@ -282,28 +282,11 @@ static void workers_change_nothing(void **state)
 }
 
 /// Allocator that fails once its countdown is at zero.
-static void *allocate_until(void *user, size_t size)
-{
-    int *left = user;
-    return (*left)-- > 0 ? malloc(size) : NULL;
-}
-
-static void release_any(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    int left = 1 << 30, failures = 0;
-    alp_context_options host = alp_context_options_default();
-    host.allocate = allocate_until;
-    host.release = release_any;
-    host.allocator_user = &left;
-    alp_context *context = NULL;
-    assert_int_equal(alp_context_create(&host, &context), ALP_OK);
+    int left = 0, failures = 0;
+    alp_context *context = test_context_failing(&left);
     alp_scene *scene = scene_sphere(context, 6, 12);
     alp_atlas_options options = alp_atlas_options_default();
     options.size = 16;

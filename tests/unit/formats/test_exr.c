@@ -371,29 +371,11 @@ static void broken_files_do_no_harm(void **state)
     alp_context_destroy(context);
 }
 
-static int allocations_left;
-
-static void *allocate(void *user, size_t size)
-{
-    (void)user;
-    return allocations_left-- > 0 ? malloc(size) : NULL;
-}
-
-static void give_back(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
-    alp_context_options options = alp_context_options_default();
-    options.allocate = allocate;
-    options.release = give_back;
-    allocations_left = 1000;
-    alp_context *context = NULL;
-    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    int allocations_left = 0;
+    alp_context *context = test_context_failing(&allocations_left);
     alp_image *image = noise(context, 40, 40, 4), *again = NULL;
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     uint8_t *bytes = NULL;

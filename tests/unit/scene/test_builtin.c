@@ -239,29 +239,11 @@ static void unknown_names_are_told_what_exists(void **state)
     alp_context_destroy(context);
 }
 
-static int allocations_left;
-
-static void *allocate(void *user, size_t size)
-{
-    (void)user;
-    return allocations_left-- > 0 ? malloc(size) : NULL;
-}
-
-static void give_back(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
-    alp_context_options options = alp_context_options_default();
-    options.allocate = allocate;
-    options.release = give_back;
-    allocations_left = 1000;
-    alp_context *context = NULL;
-    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    int allocations_left = 0;
+    alp_context *context = test_context_failing(&allocations_left);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allowed = 0;
     for (; result != ALP_OK; allowed++) {

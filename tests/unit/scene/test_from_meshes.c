@@ -141,38 +141,16 @@ static void nothing_is_an_empty_scene(void **state)
     alp_context_destroy(context);
 }
 
-/// An allocator that fails at the chosen call.
-typedef struct failing {
-    int left;
-} failing;
-
-static void *fail_at(void *user, size_t size)
-{
-    failing *f = user;
-    return f->left-- > 0 ? malloc(size) : NULL;
-}
-
-static void give_back(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
-    failing failing_user = {.left = 1 << 20};
-    alp_context_options options = alp_context_options_default();
-    options.allocate = fail_at;
-    options.release = give_back;
-    options.allocator_user = &failing_user;
-    alp_context *context = NULL;
-    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    int left = 0;
+    alp_context *context = test_context_failing(&left);
     alp_mesh meshes[2] = {square(), square()};
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allowed = 0;
     for (; result != ALP_OK; allowed++) {
-        failing_user.left = allowed;
+        left = allowed;
         alp_scene *scene = NULL;
         result = alp_scene_create_from_meshes(context, meshes, 2, &scene);
         assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
