@@ -30,7 +30,8 @@ void test_assert_ok(alp_context *context, alp_result result, const char *text, c
 
 /// A context with this many workers whose log messages test_log_contains can find.
 alp_context *test_context(uint32_t workers);
-/// A silent context with one worker whose next `*left` allocations succeed and whose later ones fail;
+/// A silent context with one worker whose next `*left` allocations succeed and whose later ones
+/// fail;
 /// `*left` counts down and may be set again at any time. It begins with room enough.
 alp_context *test_context_failing(int *left);
 /// Forgets logged messages.
