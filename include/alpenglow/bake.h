@@ -31,7 +31,7 @@ typedef struct alp_bake_options {
 } alp_bake_options;
 ALP_API alp_bake_options alp_bake_options_default(void);
 
-/// What was done. Strings and arrays are owned by the lightmap.
+/// What was done.
 typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;

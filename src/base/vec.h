@@ -16,11 +16,6 @@ typedef struct vec3 {
     float x, y, z;
 } vec3;
 
-static inline vec3 vec3_make(float x, float y, float z)
-{
-    return (vec3){x, y, z};
-}
-
 static inline vec3 vec3_load(const float *p)
 {
     return (vec3){p[0], p[1], p[2]};

@@ -12,7 +12,7 @@ alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scen
 
 /// Writes the scene's document with the patch to `path` (.glb or .gltf by its ending). A scene that
 /// came from no file is first exported to glTF. Nothing is overwritten unless asked; every file is
-/// written to a temporary one and renamed. `cancelled` (may be NULL) is asked between files.
+/// written to a temporary one and renamed.
 alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                    const char *path, bool overwrite);
 

@@ -130,18 +130,6 @@ json_t *alpi_gltf_extension(json_t *object, const char *name)
     return json_is_object(extension) ? extension : NULL;
 }
 
-bool alpi_gltf_lists(const alpi_gltf_document *document, const char *list, const char *name)
-{
-    json_t *names = json_object_get(document->root, list);
-    for (size_t i = 0; i < json_array_size(names); i++) {
-        const char *text = json_string_value(json_array_get(names, i));
-        if (text != NULL && strcmp(text, name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 void alpi_gltf_clean(char *text)
 {
     for (char *c = text; *c != '\0'; c++) {

@@ -36,8 +36,6 @@ alp_result alpi_gltf_needed_index(const alpi_gltf_document *document, json_t *ob
 const char *alpi_gltf_text(json_t *object, const char *member);
 /// object.extensions[name], or NULL when there is no such object.
 json_t *alpi_gltf_extension(json_t *object, const char *name);
-/// Whether `name` is in the root array of strings `list`.
-bool alpi_gltf_lists(const alpi_gltf_document *document, const char *list, const char *name);
 
 /// Replaces control characters by '?': names from a file reach terminals.
 void alpi_gltf_clean(char *text);

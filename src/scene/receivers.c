@@ -14,7 +14,7 @@ float alpi_receiver_offset(vec3 position, const vec3 *corners)
     for (int k = 0; corners != NULL && k < 3; k++) {
         largest = fmaxf(largest, largest_coordinate(vec3_sub(corners[k], position)));
     }
-    return 2.0f * 0x1p-23f * largest; // one step was measured to be enough, everywhere
+    return 2.0f * 0x1p-23f * largest; // one was enough wherever it was tried
 }
 
 alp_result alpi_receivers_create(alp_context *context, uint32_t count, alpi_receivers *receivers)

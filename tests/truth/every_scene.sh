@@ -18,6 +18,10 @@ count_triangles() {
 }
 find "$shared/scenes/architecture" "$shared/scenes/objects" "$shared/scenes/features" \
     -name '*.gl[bt]*' | sort >"$folder/list"
+[ -s "$folder/list" ] || {
+    echo "no glTF file below $shared/scenes"
+    exit 1
+}
 while read -r scene; do
     out=$folder/$(basename "$scene")
     if ! "$command" bake "$scene" -o "$out" --size 256 --ao-samples 4 --progress off -q \
