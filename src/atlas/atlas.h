@@ -30,7 +30,7 @@ typedef struct alpi_texels {
     float *coverages;         // [count] share of the texel inside its chart(s), (0, 1]
     uint32_t *charts;         // [count]
     uint32_t *page_first;     // [pages + 1] first texel of each page
-    alpi_receivers receivers; // positions, geometric and shading normals
+    alpi_point_array points;  // positions, geometric and shading normals
 } alpi_texels;
 
 /// A texel is covered when a usable triangle has area inside it. Its receiver lies at its centre

@@ -89,13 +89,13 @@ static void find_barycentrics(const carrier *c, double x, double y, double b[2])
 }
 
 /// Position, geometric normal and shading normal at barycentrics of a triangle.
-static void place_receiver(const carrier *c, const double b[2], alpi_receivers *receivers,
+static void place_receiver(const carrier *c, const double b[2], alpi_point_array *points,
                            uint32_t index)
 {
     const double weight[3] = {1.0 - b[0] - b[1], b[0], b[1]};
     float normal[3];
     for (int axis = 0; axis < 3; axis++) {
-        receivers->positions[index][axis] =
+        points->positions[index][axis] =
             (float)(weight[0] * c->corner[0][axis] + weight[1] * c->corner[1][axis] +
                     weight[2] * c->corner[2][axis]);
         normal[axis] = (float)(weight[0] * c->normal[0][axis] + weight[1] * c->normal[1][axis] +
@@ -105,10 +105,9 @@ static void place_receiver(const carrier *c, const double b[2], alpi_receivers *
     if (!(vec3_dot(shading, c->geometric) > 0.0f)) {
         shading = c->geometric; // a hemisphere that points into the surface sees nothing
     }
-    vec3_store(receivers->geometric_normals[index], c->geometric);
-    vec3_store(receivers->shading_normals[index], shading);
-    receivers->offsets[index] =
-        alpi_receiver_offset(vec3_load(receivers->positions[index]), c->place);
+    vec3_store(points->geometric_normals[index], c->geometric);
+    vec3_store(points->shading_normals[index], shading);
+    points->offsets[index] = alpi_receiver_offset(vec3_load(points->positions[index]), c->place);
 }
 
 static alp_result write_row(void *user, const alpi_row *row)
@@ -136,7 +135,7 @@ static alp_result write_row(void *user, const alpi_row *row)
         texels->coverages[i] = (float)fmin(cell->coverage, 1.0);
         texels->charts[i] = w->atlas->triangle_charts[cell->triangle];
         texels->page_first[row->page + 1] = w->count;
-        place_receiver(&w->carrier, b, &texels->receivers, i);
+        place_receiver(&w->carrier, b, &texels->points, i);
     }
     return ALP_OK;
 }
@@ -158,7 +157,7 @@ static alp_result create_texels(const alp_atlas *atlas, alpi_texels *texels)
     ALPI_TRY_NEW(context, texels->coverages, texels->count);
     ALPI_TRY_NEW(context, texels->charts, texels->count);
     ALPI_TRY_NEW(context, texels->page_first, (size_t)atlas->info.pages + 1);
-    ALP_TRY(alpi_receivers_create(context, texels->count, &texels->receivers));
+    ALP_TRY(alpi_point_array_create(context, texels->count, &texels->points));
     texel_writer writer = {.atlas = atlas, .texels = texels, .carrier.triangle = ALPI_NONE};
     ALP_TRY(alpi_raster(atlas, 0, atlas->info.pages, write_row, &writer));
     for (uint32_t p = 0; p < atlas->info.pages; p++) { // pages without texels end where they begin
@@ -189,6 +188,6 @@ void alpi_texels_destroy(alp_context *context, alpi_texels *texels)
     alpi_release(context, texels->coverages);
     alpi_release(context, texels->charts);
     alpi_release(context, texels->page_first);
-    alpi_receivers_destroy(context, &texels->receivers);
+    alpi_point_array_destroy(context, &texels->points);
     *texels = (alpi_texels){0};
 }

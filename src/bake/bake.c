@@ -107,7 +107,8 @@ static alp_result gather_occlusion(alpi_bake_job *job, float *values)
     alpi_occlusion_setup setup = alpi_occlusion_prepare(job->scene, tracer, &options);
     job->report.ao_distance = setup.distance;
     const alpi_texels *texels = &job->lightmap->texels;
-    ALP_TRY(alpi_occlusion_gather(job->context, &setup, &texels->receivers, values));
+    const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
+    ALP_TRY(alpi_occlusion_gather(job->context, &setup, &receivers, NULL, texels->count, values));
     job->report.rays = (uint64_t)texels->count * options.samples;
     job->report.seconds_bake = alpi_seconds() - started;
     job->report.ao_mean = area_mean(texels, values);

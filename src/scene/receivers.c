@@ -17,27 +17,47 @@ float alpi_receiver_offset(vec3 position, const vec3 *corners)
     return 2.0f * 0x1p-23f * largest; // one was enough wherever it was tried
 }
 
-alp_result alpi_receivers_create(alp_context *context, uint32_t count, alpi_receivers *receivers)
+alp_result alpi_point_array_create(alp_context *context, uint32_t count, alpi_point_array *points)
 {
-    *receivers = (alpi_receivers){.count = count};
-    receivers->positions = alpi_allocate(context, count, sizeof *receivers->positions);
-    receivers->geometric_normals =
-        alpi_allocate(context, count, sizeof *receivers->geometric_normals);
-    receivers->shading_normals = alpi_allocate(context, count, sizeof *receivers->shading_normals);
-    receivers->offsets = ALPI_NEW(context, float, count);
-    if (receivers->offsets == NULL || receivers->positions == NULL ||
-        receivers->geometric_normals == NULL || receivers->shading_normals == NULL) {
-        alpi_receivers_destroy(context, receivers);
+    *points = (alpi_point_array){.count = count};
+    points->positions = alpi_allocate(context, count, sizeof *points->positions);
+    points->geometric_normals = alpi_allocate(context, count, sizeof *points->geometric_normals);
+    points->shading_normals = alpi_allocate(context, count, sizeof *points->shading_normals);
+    points->offsets = ALPI_NEW(context, float, count);
+    if (points->offsets == NULL || points->positions == NULL || points->geometric_normals == NULL ||
+        points->shading_normals == NULL) {
+        alpi_point_array_destroy(context, points);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     return ALP_OK;
 }
 
-void alpi_receivers_destroy(alp_context *context, alpi_receivers *receivers)
+void alpi_point_array_destroy(alp_context *context, alpi_point_array *points)
 {
-    alpi_release(context, receivers->positions);
-    alpi_release(context, receivers->geometric_normals);
-    alpi_release(context, receivers->shading_normals);
-    alpi_release(context, receivers->offsets);
-    *receivers = (alpi_receivers){0};
+    alpi_release(context, points->positions);
+    alpi_release(context, points->geometric_normals);
+    alpi_release(context, points->shading_normals);
+    alpi_release(context, points->offsets);
+    *points = (alpi_point_array){0};
+}
+
+static void place_point(const void *user, uint32_t receiver, uint32_t count,
+                        const float (*square)[2], alpi_receiver_point *out)
+{
+    (void)square;
+    const alpi_point_array *points = user;
+    const alpi_receiver_point point = {
+        .position = vec3_load(points->positions[receiver]),
+        .geometric_normal = vec3_load(points->geometric_normals[receiver]),
+        .shading_normal = vec3_load(points->shading_normals[receiver]),
+        .offset = points->offsets[receiver],
+    };
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = point;
+    }
+}
+
+alpi_receivers alpi_point_array_receivers(const alpi_point_array *points)
+{
+    return (alpi_receivers){.count = points->count, .place = place_point, .user = points};
 }

@@ -163,7 +163,8 @@ double alpi_occlusion_sum(const alpi_occlusion_setup *setup, const alpi_receiver
 typedef struct round_job {
     const alpi_occlusion_setup *setup;
     const alpi_receivers *receivers;
-    double *sums;
+    const uint32_t *list;
+    double *sums; // [list_count]
     uint32_t first_sample, sample_count;
 } round_job;
 
@@ -173,13 +174,12 @@ static alp_result run_round(void *user, uint32_t begin, uint32_t end, uint32_t w
     const round_job *job = user;
     const alpi_receivers *r = job->receivers;
     for (uint32_t i = begin; i < end; i++) {
-        alpi_receiver receiver = {
-            .key = i,
-            .position = vec3_load(r->positions[i]),
-            .geometric_normal = vec3_load(r->geometric_normals[i]),
-            .shading_normal = vec3_load(r->shading_normals[i]),
-            .offset = r->offsets[i],
-        };
+        const float center[1][2] = {{0.5f, 0.5f}};
+        uint32_t index = job->list != NULL ? job->list[i] : i;
+        alpi_receiver_point point;
+        r->place(r->user, index, 1, center, &point);
+        alpi_receiver receiver = {index, point.position, point.geometric_normal,
+                                  point.shading_normal, point.offset};
         job->sums[i] +=
             alpi_occlusion_sum(job->setup, &receiver, job->first_sample, job->sample_count);
     }
@@ -187,9 +187,10 @@ static alp_result run_round(void *user, uint32_t begin, uint32_t end, uint32_t w
 }
 
 alp_result alpi_occlusion_gather(alp_context *context, const alpi_occlusion_setup *setup,
-                                 const alpi_receivers *receivers, float *accessibility)
+                                 const alpi_receivers *receivers, const uint32_t *list,
+                                 uint32_t list_count, float *accessibility)
 {
-    double *sums = ALPI_NEW(context, double, receivers->count);
+    double *sums = ALPI_NEW(context, double, list_count);
     if (sums == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -198,23 +199,23 @@ alp_result alpi_occlusion_gather(alp_context *context, const alpi_occlusion_setu
     alp_result result = ALP_OK;
     for (uint32_t first = 0; first < samples && result == ALP_OK; first += SAMPLES_PER_ROUND) {
         uint32_t count = samples - first < SAMPLES_PER_ROUND ? samples - first : SAMPLES_PER_ROUND;
-        round_job job = {setup, receivers, sums, first, count};
+        round_job job = {setup, receivers, list, sums, first, count};
         alpi_task_progress progress = {
             .callback = setup->options.progress,
             .user = setup->options.progress_user,
             .stage = "occlusion",
             .units_per_item = (double)count,
-            .units_before = (double)first * (double)receivers->count,
-            .units_total = (double)samples * (double)receivers->count,
+            .units_before = (double)first * (double)list_count,
+            .units_total = (double)samples * (double)list_count,
             .started = started,
             .units_are_rays = true,
         };
         uint32_t grain = RAYS_PER_RANGE / count;
-        result = alpi_parallel_for(context, receivers->count, grain > 0 ? grain : 1, run_round,
-                                   &job, &progress);
+        result = alpi_parallel_for(context, list_count, grain > 0 ? grain : 1, run_round, &job,
+                                   &progress);
     }
-    for (uint32_t i = 0; result == ALP_OK && i < receivers->count; i++) {
-        accessibility[i] = (float)(1.0 - sums[i] / (double)samples);
+    for (uint32_t i = 0; result == ALP_OK && i < list_count; i++) {
+        accessibility[list != NULL ? list[i] : i] = (float)(1.0 - sums[i] / (double)samples);
     }
     alpi_release(context, sums);
     return result;
@@ -239,7 +240,7 @@ static float scene_reach(const alp_scene *scene)
 typedef struct offset_job {
     const alp_scene *scene;
     const alpi_tracer *tracer;
-    const alpi_receivers *receivers;
+    const alpi_point_array *points;
 } offset_job;
 
 /// Points come without the triangle they lie on, which their offset depends on: looks for it with
@@ -250,7 +251,7 @@ static alp_result find_offsets(void *user, uint32_t begin, uint32_t end, uint32_
     (void)worker;
     const offset_job *job = user;
     const alp_scene *scene = job->scene;
-    const alpi_receivers *r = job->receivers;
+    const alpi_point_array *r = job->points;
     float reach = 8.0f * 0x1p-23f * scene_reach(scene);
     for (uint32_t i = begin; i < end; i++) {
         vec3 p = vec3_load(r->positions[i]), n = vec3_load(r->geometric_normals[i]);
@@ -273,9 +274,9 @@ static alp_result find_offsets(void *user, uint32_t begin, uint32_t end, uint32_
     return ALP_OK;
 }
 
-static alp_result copy_receivers(alp_context *context, const float *positions,
-                                 const float *geometric_normals, const float *shading_normals,
-                                 alpi_receivers *r)
+static alp_result copy_points(alp_context *context, const float *positions,
+                              const float *geometric_normals, const float *shading_normals,
+                              alpi_point_array *r)
 {
     const float *geometric = geometric_normals ? geometric_normals : shading_normals;
     for (uint32_t i = 0; i < r->count; i++) {
@@ -294,6 +295,13 @@ static alp_result copy_receivers(alp_context *context, const float *positions,
     return ALP_OK;
 }
 
+static alp_result gather_points(alp_context *context, const alpi_occlusion_setup *setup,
+                                const alpi_point_array *points, float *accessibility)
+{
+    const alpi_receivers receivers = alpi_point_array_receivers(points);
+    return alpi_occlusion_gather(context, setup, &receivers, NULL, points->count, accessibility);
+}
+
 alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const float *positions,
                                    const float *geometric_normals, const float *shading_normals,
                                    const alp_occlusion_options *options, float *accessibility)
@@ -307,20 +315,20 @@ alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const
     alpi_tracer *tracer = NULL;
     ALP_TRY(alpi_tracer_for_scene(scene, o.progress, o.progress_user, &tracer, NULL));
     alpi_occlusion_setup setup = alpi_occlusion_prepare(scene, tracer, &o);
-    alpi_receivers receivers;
-    ALP_TRY(alpi_receivers_create(scene->context, count, &receivers));
+    alpi_point_array points;
+    ALP_TRY(alpi_point_array_create(scene->context, count, &points));
     alp_result result =
-        copy_receivers(scene->context, positions, geometric_normals, shading_normals, &receivers);
+        copy_points(scene->context, positions, geometric_normals, shading_normals, &points);
     if (result == ALP_OK) {
-        offset_job job = {scene, tracer, &receivers};
+        offset_job job = {scene, tracer, &points};
         const alpi_task_progress progress = {
             .callback = o.progress, .user = o.progress_user, .stage = "offsets"};
         result =
             alpi_parallel_for(scene->context, count, RAYS_PER_RANGE, find_offsets, &job, &progress);
     }
     if (result == ALP_OK) {
-        result = alpi_occlusion_gather(scene->context, &setup, &receivers, accessibility);
+        result = gather_points(scene->context, &setup, &points, accessibility);
     }
-    alpi_receivers_destroy(scene->context, &receivers);
+    alpi_point_array_destroy(scene->context, &points);
     return result;
 }

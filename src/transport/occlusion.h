@@ -36,8 +36,12 @@ typedef struct alpi_receiver {
 double alpi_occlusion_sum(const alpi_occlusion_setup *setup, const alpi_receiver *receiver,
                           uint32_t first, uint32_t count);
 
-/// Accessibility of all receivers, on all workers; progress stage "occlusion", in rays.
+/// Accessibility of the receivers in `list` (NULL = all, then list_count is receivers->count), on
+/// all workers; progress stage "occlusion", in rays. Neighbours in the list should be neighbours in
+/// space: they are traced together.
+/// @param accessibility [receivers->count] out; only those of the list are written
 alp_result alpi_occlusion_gather(alp_context *context, const alpi_occlusion_setup *setup,
-                                 const alpi_receivers *receivers, float *accessibility);
+                                 const alpi_receivers *receivers, const uint32_t *list,
+                                 uint32_t list_count, float *accessibility);
 
 #endif
