@@ -110,7 +110,7 @@ static alp_result gather_occlusion(alpi_bake_job *job, float *values)
     const alpi_texels *texels = &job->lightmap->texels;
     const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
     alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, texels->count, values);
-    job->report.rays = (uint64_t)texels->count * setup.replicates * setup.samples;
+    job->report.rays = (uint64_t)texels->count * setup.samples;
     alpi_occlusion_release(&setup);
     ALP_TRY(result);
     job->report.seconds_bake = alpi_seconds() - started;

@@ -157,7 +157,7 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
             keys[i] = keys[one];
         }
     }
-    alpi_occlusion_of_packet(&job->occlusion, points, keys, dark, job->occlusion.samples, values);
+    alpi_occlusion_of_packet(&job->occlusion, points, keys, dark, values);
     for (int i = 0; i < ALPI_PACKET; i++) {
         if ((dark >> i & 1u) != 0) {
             rgb[i][0] = rgb[i][1] = rgb[i][2] = values[i];
@@ -250,8 +250,7 @@ static alp_result run(render_job *job)
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
     uint64_t rays = o->samples; // of a pixel, at most
-    rays +=
-        o->method == ALP_RENDER_AO ? rays * job->occlusion.replicates * job->occlusion.samples : 0;
+    rays += o->method == ALP_RENDER_AO ? rays * job->occlusion.samples : 0;
     uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
                                                               : (uint32_t)(RAYS_PER_RANGE / rays);
     return alpi_parallel_for(job->scene->context, o->width * o->height, grain > 0 ? grain : 1,

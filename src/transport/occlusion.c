@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLE_LIMIT = 1 << 20 };
+enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 
 static const float DISTANCE_AUTO_SHARE = 0.2f; // of the bounding box's diagonal
 
@@ -75,10 +75,10 @@ static uint32_t sobol_2(uint32_t index)
     return x;
 }
 
-/// The sequence of one replicate: Owen-scrambled Sobol' in three dimensions.
-static void fill_samples(uint64_t seed, uint32_t replicate, uint32_t count, uint32_t (*samples)[3])
+/// Owen-scrambled Sobol' in three dimensions.
+static void fill_samples(uint64_t seed, uint32_t count, uint32_t (*samples)[3])
 {
-    const uint32_t key = alpi_random_key(seed, replicate, ALPI_STREAM_SEQUENCE);
+    const uint32_t key = alpi_random_key(seed, 0, STREAM_SEQUENCE);
     const uint32_t keys[3] = {alpi_hash32(key ^ 0x02e5be93u), alpi_hash32(key ^ 0x967a889bu),
                               alpi_hash32(key ^ 0x368cc8b7u)};
     for (uint32_t s = 0; s < count; s++) {
@@ -105,7 +105,6 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
                                   const alp_occlusion_options *options, alpi_occlusion_setup *setup)
 {
     const bool hemisphere = options->cone >= (float)(ALPI_PI / 2.0) * 0.999999f;
-    const uint32_t replicates = options->samples < ALPI_REPLICATES ? 1 : ALPI_REPLICATES;
     *setup = (alpi_occlusion_setup){
         .context = scene->context,
         .tracer = tracer,
@@ -114,20 +113,15 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),
         .cone_cos = hemisphere ? 0.0f : cosf(options->cone),
         .filter = {.one_sided = options->one_sided},
-        .replicates = replicates,
-        .samples = (options->samples + replicates - 1) / replicates,
+        .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     setup->shift_mask = UINT32_MAX >> shared_bits(setup->samples);
-    setup->sequence =
-        alpi_allocate(scene->context, (size_t)replicates * setup->samples, sizeof *setup->sequence);
+    setup->sequence = alpi_allocate(scene->context, setup->samples, sizeof *setup->sequence);
     if (setup->sequence == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t r = 0; r < replicates; r++) {
-        fill_samples(options->seed, r, setup->samples,
-                     setup->sequence + (size_t)r * setup->samples);
-    }
+    fill_samples(options->seed, setup->samples, setup->sequence);
     return ALP_OK;
 }
 

@@ -9,16 +9,9 @@
 
 #include <alpenglow/occlusion.h>
 
-/// Independent repetitions that the samples of a receiver are split into: their spread is the
-/// standard error of their mean.
-enum { ALPI_REPLICATES = 4 };
-
-/// Uses of random numbers, apart from each other.
-enum {
-    ALPI_STREAM_SEQUENCE = 0x5eed, // of the sequence that all receivers share
-    ALPI_STREAM_DIRECTION = 0,     // + replicate: of one receiver's shifts
-    ALPI_STREAM_PLACE = 0x100,     // + replicate: of its points
-};
+/// Equal parts of a receiver's samples that are counted apart: their spread shows how its error
+/// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
+enum { ALPI_QUARTERS = 4 };
 
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
@@ -30,10 +23,9 @@ typedef struct alpi_occlusion_setup {
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
-    uint32_t replicates;     // 1 or ALPI_REPLICATES
-    uint32_t samples;        // of each replicate
+    uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
-    uint32_t (*sequence)[3]; // [replicates][samples] 32-bit fractions, shared by all receivers
+    uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
@@ -46,28 +38,36 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
                                   alpi_occlusion_setup *setup);
 void alpi_occlusion_release(alpi_occlusion_setup *setup);
 
-/// Eight points, a value of each from its first `count` samples (of each replicate): the way in for
-/// callers that have points at hand one packet at a time, such as a renderer.
+/// Accessibility of eight points from all samples: the way in for callers that have points at hand
+/// one packet at a time, such as a renderer.
 /// @param keys   of the points' random numbers   @param active bit i: point i is asked about
 void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
                               const alpi_receiver_point points[ALPI_PACKET],
-                              const uint64_t keys[ALPI_PACKET], uint32_t active, uint32_t count,
+                              const uint64_t keys[ALPI_PACKET], uint32_t active,
                               float accessibility[ALPI_PACKET]);
 
 /// What rays have met so far, per receiver. Counts, so that any order gives the same bits.
 typedef struct alpi_occlusion_sums {
-    uint32_t (*open)[ALPI_REPLICATES]; // [receivers] free rays of each replicate
-    float (*bent)[3];                  // [receivers] Σ of the free directions, or NULL
+    uint32_t (*open)[ALPI_QUARTERS]; // [receivers] free rays of each quarter
+    uint32_t *done;                  // [receivers] rays sent
+    float (*bent)[3];                // [receivers] Σ of the free directions, or NULL
 } alpi_occlusion_sums;
+alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool bent,
+                                      alpi_occlusion_sums *sums);
+void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums);
+/// Free rays over rays sent; 1 where none was sent.
+float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver);
 
-/// Sends samples [first, first + count) of each replicate from the receivers in `list` (NULL = all,
-/// then list_count is receivers->count) on all workers and adds to `sums`. Eight receivers that
-/// follow each other in the list are traced together: they should be neighbours in space. What a
-/// receiver gets does not depend on the list.
-/// @param progress NULL, or what to tell; its units are filled in here, in rays
+/// Sends samples [first, first + count) from the receivers in `list` (NULL = all, then list_count
+/// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /
+/// ALPI_QUARTERS). Eight receivers that follow each other in the list are traced together: they
+/// should be neighbours in space. What a receiver gets does not depend on the list. After CANCELLED
+/// `sums` holds what was sent.
+/// @param total    of the samples that the receivers will have, a multiple of ALPI_QUARTERS
+/// @param progress NULL, or what to tell; units are filled in here, in rays
 alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *list, uint32_t list_count, uint32_t first,
-                              uint32_t count, const alpi_task_progress *progress,
+                              uint32_t count, uint32_t total, const alpi_task_progress *progress,
                               alpi_occlusion_sums *sums);
 
 /// Accessibility of the receivers in `list` from all samples; stage "occlusion".

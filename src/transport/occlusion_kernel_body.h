@@ -10,7 +10,14 @@
 
 #include <math.h>
 
-#define EACH_LANE _Pragma("GCC ivdep") for (int i = 0; i < ALPI_PACKET; i++)
+// Unrolled by 8 first, a loop of 8 would no longer be seen as one.
+#ifdef __clang__
+#define EACH_LANE                                                                                  \
+    _Pragma("clang loop vectorize(assume_safety) unroll(disable)") for (int i = 0;                 \
+                                                                        i < ALPI_PACKET; i++)
+#else
+#define EACH_LANE _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int i = 0; i < ALPI_PACKET; i++)
+#endif
 
 static inline float to_unit(uint32_t bits)
 {
