@@ -203,6 +203,21 @@ float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *
     return fminf(fmaxf(value, 0.0f), 1.0f); // a cubic may overshoot
 }
 
+uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
+                                    uint32_t around[ALPI_NEIGHBOUR_LIMIT])
+{
+    uint32_t count = 0;
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            const uint32_t n = dx == 0 && dy == 0 ? ALPI_NONE : neighbour(lattice, texel, dx, dy);
+            if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
+                around[count++] = n;
+            }
+        }
+    }
+    return count;
+}
+
 float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel)
 {
     static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};

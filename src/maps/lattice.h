@@ -53,6 +53,11 @@ uint32_t alpi_lattice_reach(uint32_t pass);
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
 
+enum { ALPI_NEIGHBOUR_LIMIT = 8 };
+/// The traced texels among the eight around one, of its chart and turned like it. @return how many
+uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
+                                    uint32_t around[ALPI_NEIGHBOUR_LIMIT]);
+
 /// Largest difference between an interpolated texel and a traced one beside it; 0 without one.
 float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel);
 
