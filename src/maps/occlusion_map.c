@@ -17,11 +17,12 @@ enum {
     TRACED_PER_PROBE = 16
 };
 
-// What may differ and still be interpolated, in standard deviations of the noise (as the spread of
-// quarters has it, about 1.8 true ones): the nearest texels of a stencil, and an interpolated texel
-// and a traced one beside it. Chosen on cornell, teapot-room and torus-plane: with less nearly all
-// is traced, with more the error grows (docs/accuracy.md).
-static const float SPREAD_LIMIT = 8.0f, FLOOD_LIMIT = 5.0f;
+// What is still interpolated, in standard deviations of the noise (by the spread of quarters, which
+// makes about 1.8 of a true one): the bend of a stencil, the difference between its texels, and the
+// kink at a texel beside a traced one. Chosen on cornell, teapot-room and torus-plane: with half of
+// it a tenth more texels are traced and nothing is gained, with twice of it small shadows get lost
+// (docs/accuracy.md).
+static const float BEND_LIMIT = 2.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
 static const double NEAR_DISTANCE = 3.0;
 // A 99th percentile of the error above this multiple of the wanted error asks for more too.
@@ -46,7 +47,7 @@ typedef struct map_job {
     // Of the pass that runs.
     uint32_t pass;
     bool flood;
-    float limit;
+    float spread_limit, bend_limit, kink_limit;
 } map_job;
 
 // --- progress and the deadline -------------------------------------------------------------------
@@ -118,10 +119,11 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
             continue;
         }
         if (job->flood) {
-            job->wanted[t] = alpi_lattice_step(l, t) > job->limit;
+            job->wanted[t] = alpi_lattice_kink(l, t) > job->kink_limit;
         } else if (alpi_lattice_pass(l->texels->pixels[t]) != job->pass || job->wanted[t]) {
             continue;
-        } else if (alpi_lattice_stencil(l, t, &stencil) && stencil.spread <= job->limit) {
+        } else if (alpi_lattice_stencil(l, t, &stencil) && stencil.spread <= job->spread_limit &&
+                   stencil.bend <= job->bend_limit) {
             l->states[t] = ALPI_TEXEL_INTERPOLATED;
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
         } else {
@@ -131,11 +133,10 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-static alp_result judge(map_job *job, uint32_t pass, bool flood, float limit)
+static alp_result judge(map_job *job, uint32_t pass, bool flood)
 {
     job->pass = pass;
     job->flood = flood;
-    job->limit = limit;
     return alpi_parallel_for(job->setup->context, job->order_count, TEXELS_PER_RANGE, judge_range,
                              job, NULL);
 }
@@ -190,26 +191,29 @@ static float measure_noise(const map_job *job)
     return count > 0 ? (float)sqrt(sum / (double)count) : 0.0f;
 }
 
-/// The largest difference over `spacing` texels that is interpolated: seed's Accuracy^Spacing, for
-/// values in [0, 1], or by the noise.
-static float difference_limit(const map_job *job, float spacing, float sigmas)
+/// Limits of a pass that interpolates over `spacing` texels: by the noise, or the seed's
+/// Accuracy^Spacing for values in [0, 1], which looks at differences alone.
+static void set_limits(map_job *job, float spacing)
 {
     const float accuracy = job->options->accuracy;
-    return accuracy > 0.0f ? 1.0f - powf(accuracy, spacing) : sigmas * job->noise;
+    const bool automatic = accuracy < 0.0f;
+    job->spread_limit = automatic ? SPREAD_LIMIT * job->noise : 1.0f - powf(accuracy, spacing);
+    job->bend_limit = automatic ? BEND_LIMIT * job->noise : HUGE_VALF;
+    job->kink_limit = automatic ? KINK_LIMIT * job->noise : 0.5f * (1.0f - accuracy);
 }
 
 static alp_result run_lattice(map_job *job)
 {
-    ALP_TRY(judge(job, 0, false, 0.0f));
+    ALP_TRY(judge(job, 0, false));
     ALP_TRY(trace_wanted(job));
     job->noise = measure_noise(job);
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        const float spacing = 2.0f * (float)alpi_lattice_reach(pass);
-        ALP_TRY(judge(job, pass, false, difference_limit(job, spacing, SPREAD_LIMIT)));
+        set_limits(job, 2.0f * (float)alpi_lattice_reach(pass));
+        ALP_TRY(judge(job, pass, false));
         ALP_TRY(trace_wanted(job));
     }
     for (int round = 0; round < FLOOD_ROUNDS; round++) {
-        ALP_TRY(judge(job, 0, true, difference_limit(job, 1.0f, FLOOD_LIMIT)));
+        ALP_TRY(judge(job, 0, true));
         ALP_TRY(trace_wanted(job));
     }
     return ALP_OK;
@@ -335,12 +339,17 @@ static alp_result run_rounds(map_job *job)
 // --- the map -------------------------------------------------------------------------------------
 
 /// Ends a map that was cut off: what has no value takes one from its neighbours where it can.
-static void make_do(map_job *job)
+static alp_result make_do(map_job *job)
 {
-    const alp_result results[] = {judge(job, 1, false, HUGE_VALF), judge(job, 2, false, HUGE_VALF),
-                                  judge(job, 3, false, HUGE_VALF), judge(job, 4, false, HUGE_VALF)};
-    (void)results;
     job->report->cut_off = true;
+    job->spread_limit = job->bend_limit = HUGE_VALF;
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        job->wanted[job->order[i]] = 0;
+    }
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
+        ALP_TRY(judge(job, pass, false));
+    }
+    return ALP_OK;
 }
 
 static alp_result run(map_job *job)
@@ -353,8 +362,7 @@ static alp_result run(map_job *job)
     alp_result result = run_rounds(job);
     const bool late = alpi_seconds() >= job->options->deadline;
     if (result == ALP_ERROR_CANCELLED && (late || job->options->keep_partial)) {
-        make_do(job);
-        result = ALP_OK;
+        result = make_do(job);
     }
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint8_t state = job->lattice->states[job->order[i]];

@@ -111,7 +111,7 @@ static double pool_variance(const alpi_lattice *l, const alpi_occlusion_sums *su
 }
 
 /// Variance of an interpolated texel, up to the common factor: what its neighbours hand on, and the
-/// chance that the truth bends between them, which grows with their difference.
+/// chance that the truth bends between them otherwise than it seems.
 static double stencil_variance(const alpi_lattice *l, const float *variances, uint32_t texel)
 {
     alpi_stencil s;
@@ -122,11 +122,12 @@ static double stencil_variance(const alpi_lattice *l, const float *variances, ui
     for (uint32_t i = 0; i < s.count; i++) {
         variance += (double)(s.weights[i] * s.weights[i]) * (double)variances[s.texels[i]];
     }
-    const double bend = (double)s.spread / 16.0;
-    return variance + bend * bend;
+    const double bend = (double)s.bend;
+    return variance + 0.25 * bend * bend;
 }
 
-/// Σ (x − y₁)(x − y₂) over the probes in one state, and Σ of their variances up to the factor.
+/// How many times its variance so far a texel in `state` errs: Σ (x − y₁)(x − y₂) over the probes
+/// in that state, over Σ of their variances.
 static double find_factor(const alpi_probes *p, const alpi_lattice *l, const float *variances,
                           alpi_texel_state state)
 {
