@@ -81,7 +81,7 @@ static const char reading[] =
 static const char main_part[] =
     "# Completes within a command.\n"
     "_alpenglow_command() {\n"
-    "    local wanted= ended= given=0 options= operands=0 words= endings= folders= list= lead=\n"
+    "    local wanted= ended= given=0 options= operands=0 words= endings= folders= list=\n"
     "    _alpenglow_walk\n"
     "    if [[ ! $wanted && ! $ended && $1 == --*=* ]]; then\n"
     "        wanted=${1%%=*}\n"

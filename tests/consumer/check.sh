@@ -88,6 +88,7 @@ examples)
     export PKG_CONFIG_PATH=$libraries/pkgconfig
     static=""
     [ -e "$libraries/libalpenglow.so" ] || static=--static
+    # shellcheck disable=SC2086,SC2317 # nothing or one word; called by the line
     pkg-config() { command pkg-config $static "$@"; }
     rm -rf "$work/examples" && mkdir -p "$work/examples"
     for source in "$examples"/*.c; do
