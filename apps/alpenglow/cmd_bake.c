@@ -19,6 +19,38 @@ static int check_output_name(const char *path)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
 }
 
+/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
+/// unless it is given.
+static int read_sampling(const command_line *a, alp_bake_options *o)
+{
+    enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
+    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
+    enum { MOST_SAMPLES = 65536 };
+    const option_value *values = a->values;
+    const option_value *adaptive = &values[OPTION_ADAPTIVE];
+    alp_sampling_options *s = &o->sampling;
+    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
+        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
+                           values[OPTION_QUALITY].text,
+                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
+    }
+    if (values[OPTION_QUALITY].given) {
+        s->error = quality_errors[values[OPTION_QUALITY].choice];
+    } else if (values[OPTION_ERROR].given) {
+        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    }
+    s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
+    if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
+        o->occlusion.samples = MOST_SAMPLES;
+    }
+    s->accuracy = adaptive->choice == ADAPTIVE_AUTO  ? ALP_ADAPTIVE_AUTO
+                  : adaptive->choice == ADAPTIVE_OFF ? ALP_ADAPTIVE_OFF
+                                                     : (float)adaptive->real;
+    s->memory_limit = values[OPTION_MEMORY_LIMIT].given ? values[OPTION_MEMORY_LIMIT].whole : 0;
+    s->keep_partial = values[OPTION_KEEP_PARTIAL].given;
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_bake_options *o)
 {
     const option_value *values = a->values;
@@ -37,7 +69,8 @@ static int read_options(const command_line *a, alp_bake_options *o)
                                          "--maps-dir DIR");
     }
     int code = check_output_name(o->output);
-    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
 
 static void print_atlas(const alp_atlas_info *atlas)
@@ -51,8 +84,7 @@ static void print_atlas(const alp_atlas_info *atlas)
 
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %llu rays per texel, ",
-           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole);
+    printf("occlusion  %u rays per texel, ", r->ao_samples);
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
@@ -61,6 +93,11 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
                                                          : "");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
+    printf(
+        "sampling   %llu texels traced, %llu interpolated; stated error %.2g %% of the mean, 99 %% "
+        "of the texels within %.2g %%\n",
+        (unsigned long long)r->traced, (unsigned long long)r->interpolated,
+        100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
 }
 
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
@@ -70,7 +107,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
-        printf("maps       %s/ao.exr, ao.png%s\n", o->maps_folder,
+        printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
     }
     print_atlas(&r->atlas);
@@ -110,6 +147,10 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         print_summary(s, a, o, &report);
     }
     alp_lightmap_destroy(lightmap);
+    if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {
+        failure("interrupted; what there was is written (--keep-partial)");
+        return EXIT_INTERRUPTED;
+    }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 

@@ -41,9 +41,11 @@ typedef struct alp_bake_options {
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
     alp_existing_ao existing_ao;
-    const char *output;      ///< .glb or .gltf, or NULL: no asset
-    const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
-    bool overwrite;          ///< default false: an existing file stops the job before it starts
+    const char *output; ///< .glb or .gltf, or NULL: no asset
+    /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
+    /// (red traced, green interpolated), or NULL; made if missing
+    const char *maps_folder;
+    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "dilation"; "write". Parts of short work may stay unheard.
     alp_progress_fn *progress;
@@ -55,8 +57,14 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
-    float ao_distance; ///< metres, as used
-    double ao_mean;    ///< area-weighted mean accessibility
+    float ao_distance;                      ///< metres, as used
+    uint32_t ao_samples;                    ///< rays of a traced texel
+    uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
+    /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
+    /// over its mean.
+    double ao_relative_error, ao_p99_error;
+    bool cut_off;   ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean; ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
     uint32_t threads;
