@@ -19,6 +19,31 @@ static int check_output_name(const char *path)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
 }
 
+/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+static int check_vertex_options(const option_value *values)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } of_maps[] = {{OPTION_SIZE, "--size"},
+                   {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
+                   {OPTION_PADDING, "--padding"},
+                   {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+    bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
+    for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
+        if (values[of_maps[i].id].given) {
+            return usage_error(COMMAND_BAKE,
+                               "%s: has no meaning with --atlas vertex, which makes no map",
+                               of_maps[i].name);
+        }
+    }
+    if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
+        return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
+    }
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_bake_options *o)
 {
     const option_value *values = a->values;
@@ -28,6 +53,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
     o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
@@ -36,7 +62,10 @@ static int read_options(const command_line *a, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    int code = check_output_name(o->output);
+    int code = check_vertex_options(values);
+    if (code == EXIT_DONE) {
+        code = check_output_name(o->output);
+    }
     return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
 }
 
@@ -49,10 +78,18 @@ static void print_atlas(const alp_atlas_info *atlas)
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
 }
 
+static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("vertices   %u of different position or normal, %u triangles, values in %s\n",
+           r->vertices, r->scene.usable_triangles,
+           o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
+}
+
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %llu rays per texel, ",
-           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole);
+    printf("occlusion  %llu rays per %s, ",
+           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole,
+           r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
@@ -73,7 +110,11 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("maps       %s/ao.exr, ao.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
     }
-    print_atlas(&r->atlas);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        print_vertices(o, r);
+    } else {
+        print_atlas(&r->atlas);
+    }
     print_occlusion(a, r);
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,

@@ -61,9 +61,28 @@ static void add_surface(json_t *objects, const alp_atlas *atlas, const alp_surfa
     }
 }
 
+/// Without an atlas: how many values each surface has.
+static json_t *make_vertex_objects(const alp_scene *scene, const alp_lightmap *lightmap)
+{
+    json_t *objects = json_array();
+    uint32_t surface_count = alp_scene_get_info(scene).surfaces;
+    for (uint32_t i = 0; i < surface_count; i++) {
+        uint32_t count = 0;
+        alp_lightmap_vertex_values(lightmap, i, &count);
+        json_array_append_new(objects,
+                              json_pack("{s:o, s:I}", "name",
+                                        json_text(alp_scene_get_surface(scene, i).name),
+                                        "vertices", (json_int_t)count));
+    }
+    return objects;
+}
+
 static json_t *make_objects(const alp_scene *scene, const alp_lightmap *lightmap)
 {
     const alp_atlas *atlas = alp_lightmap_atlas(lightmap);
+    if (atlas == NULL) {
+        return make_vertex_objects(scene, lightmap);
+    }
     uint32_t page_count = alp_atlas_get_info(atlas).pages;
     rectangle *pages = allocate_or_exit(NULL, (size_t)page_count * sizeof *pages);
     for (uint32_t i = 0; i < page_count; i++) {

@@ -28,6 +28,7 @@ static alp_result check_options(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
     }
+    ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -81,7 +82,7 @@ static double area_mean(const alpi_texels *texels, const float *values)
     return area > 0.0 ? sum / area : 0.0;
 }
 
-static void warn_of_darkness(const alpi_bake_job *job)
+void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
 {
     if (job->report.ao_mean < 0.05) {
         bool limited = isfinite(job->report.ao_distance);
@@ -112,7 +113,7 @@ static alp_result gather_occlusion(alpi_bake_job *job, float *values)
     job->report.rays = (uint64_t)texels->count * options.samples;
     job->report.seconds_bake = alpi_seconds() - started;
     job->report.ao_mean = area_mean(texels, values);
-    warn_of_darkness(job);
+    alpi_bake_warn_of_darkness(job);
     if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
         alpi_bake_multiply_existing(job, values);
     }
@@ -123,6 +124,9 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_bake_vertices(job);
+    }
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
