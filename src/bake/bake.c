@@ -105,12 +105,15 @@ static alp_result gather_occlusion(alpi_bake_job *job, float *values)
     alp_occlusion_options options = job->options.occlusion;
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
-    alpi_occlusion_setup setup = alpi_occlusion_prepare(job->scene, tracer, &options);
+    alpi_occlusion_setup setup;
+    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
     job->report.ao_distance = setup.distance;
     const alpi_texels *texels = &job->lightmap->texels;
     const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
-    ALP_TRY(alpi_occlusion_gather(job->context, &setup, &receivers, NULL, texels->count, values));
-    job->report.rays = (uint64_t)texels->count * options.samples;
+    alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, texels->count, values);
+    job->report.rays = (uint64_t)texels->count * setup.samples;
+    alpi_occlusion_release(&setup);
+    ALP_TRY(result);
     job->report.seconds_bake = alpi_seconds() - started;
     job->report.ao_mean = area_mean(texels, values);
     alpi_bake_warn_of_darkness(job);

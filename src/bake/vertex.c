@@ -154,11 +154,14 @@ static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *
     alp_occlusion_options options = job->options.occlusion;
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
-    alpi_occlusion_setup setup = alpi_occlusion_prepare(job->scene, tracer, &options);
+    alpi_occlusion_setup setup;
+    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
     job->report.ao_distance = setup.distance;
     const alpi_receivers receivers = alpi_vertex_map_receivers(map);
-    ALP_TRY(alpi_occlusion_gather(job->context, &setup, &receivers, NULL, map->count, values));
-    job->report.rays = (uint64_t)map->count * options.samples;
+    alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, map->count, values);
+    job->report.rays = (uint64_t)map->count * setup.samples;
+    alpi_occlusion_release(&setup);
+    ALP_TRY(result);
     job->report.ao_mean = area_mean(map, values);
     ALP_TRY(alpi_vertex_map_fit(map, values));
     ALP_TRY(check_detail(job, map, tracer, &options, values));

@@ -122,7 +122,7 @@ static inline vec3 vec3_triangle_normal(vec3 a, vec3 b, vec3 c, vec3 fallback)
 /// Revisited. JCGT 6(1), 2017. No branch on a near-singular pole, error below 1e-6.
 static inline void vec3_frame(vec3 n, vec3 *t, vec3 *b)
 {
-    float sign = copysignf(1.0f, n.z);
+    float sign = n.z < -0.5f ? -1.0f : 1.0f; // not at 0: walls stand there, and rounding noise
     float a = -1.0f / (sign + n.z);
     float c = n.x * n.y * a;
     *t = (vec3){1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x};

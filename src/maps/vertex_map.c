@@ -281,5 +281,6 @@ static void place_points(const void *user, uint32_t receiver, uint32_t count,
 
 alpi_receivers alpi_vertex_map_receivers(const alpi_vertex_map *map)
 {
-    return (alpi_receivers){.count = map->count, .place = place_points, .user = map};
+    return (alpi_receivers){
+        .count = map->count, .place = place_points, .user = map, .extended = true};
 }

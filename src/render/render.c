@@ -22,7 +22,6 @@ typedef struct render_job {
     alp_render_options options;
     const alpi_tracer *tracer;
     alpi_occlusion_setup occlusion;
-    uint32_t occlusion_rays; // at the hit of each camera ray
     alp_image *image;
     vec3 origin, forward, right, up; // right and up span half the picture's height at distance 1
     float aspect;
@@ -84,52 +83,86 @@ static alp_result place_camera(render_job *job)
     return ALP_OK;
 }
 
-/// Accessibility by rays at a hit, on the side that is seen.
-static float trace_occlusion(const render_job *job, uint64_t key, vec3 direction, uint32_t triangle,
-                             float b1, float b2)
+/// The point of a hit, on the side that is seen.
+static alpi_receiver_point place_hit(const alp_scene *scene, const alpi_hits *hits, int lane,
+                                     vec3 direction)
 {
-    const alp_scene *scene = job->scene;
-    vec3 c[3], position, geometric, shading = {0.0f, 0.0f, 0.0f};
-    alpi_triangle_corners(scene, triangle, c);
-    float b0 = 1.0f - b1 - b2;
+    const uint32_t triangle = hits->triangle[lane];
+    const float b1 = hits->b1[lane], b2 = hits->b2[lane], b0 = 1.0f - b1 - b2;
     const float weight[3] = {b0, b1, b2};
-    position = vec3_add(vec3_add(vec3_scale(c[0], b0), vec3_scale(c[1], b1)), vec3_scale(c[2], b2));
-    geometric = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
+    vec3 c[3], shading = {0.0f, 0.0f, 0.0f};
+    alpi_triangle_corners(scene, triangle, c);
+    alpi_receiver_point p;
+    p.position =
+        vec3_add(vec3_add(vec3_scale(c[0], b0), vec3_scale(c[1], b1)), vec3_scale(c[2], b2));
+    p.geometric_normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
     for (int k = 0; k < 3; k++) {
         shading =
             vec3_mad(shading, weight[k], vec3_load(scene->normals[scene->triangles[triangle][k]]));
     }
-    shading = vec3_normalize_or(shading, geometric);
-    if (vec3_dot(shading, geometric) <= 0.0f) {
-        shading = geometric;
+    p.shading_normal = vec3_normalize_or(shading, p.geometric_normal);
+    if (vec3_dot(p.shading_normal, p.geometric_normal) <= 0.0f) {
+        p.shading_normal = p.geometric_normal;
     }
-    if (vec3_dot(direction, geometric) > 0.0f) { // seen from behind
-        geometric = vec3_scale(geometric, -1.0f);
-        shading = vec3_scale(shading, -1.0f);
+    if (vec3_dot(direction, p.geometric_normal) > 0.0f) { // seen from behind
+        p.geometric_normal = vec3_scale(p.geometric_normal, -1.0f);
+        p.shading_normal = vec3_scale(p.shading_normal, -1.0f);
     }
-    alpi_receiver r = {key, position, geometric, shading, alpi_receiver_offset(position, c)};
-    double sum = alpi_occlusion_sum(&job->occlusion, &r, 0, job->occlusion_rays);
-    return (float)(1.0 - sum / (double)job->occlusion_rays);
+    p.offset = alpi_receiver_offset(p.position, c);
+    return p;
 }
 
-static void shade(const render_job *job, uint64_t receiver, vec3 direction, const alpi_hits *hits,
-                  int lane, float rgb[3])
+/// What needs no rays. @return false: only rays can tell
+static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int lane, float rgb[3])
 {
-    uint32_t triangle = hits->triangle[lane];
-    float b1 = hits->b1[lane], b2 = hits->b2[lane];
+    const uint32_t triangle = hits->triangle[lane];
+    const float b1 = hits->b1[lane], b2 = hits->b2[lane];
     if (job->options.method == ALP_RENDER_CONSTANT) {
         vec3_store(rgb, alpi_surface_albedo(job->scene, triangle, b1, b2));
-        return;
+        return true;
     }
     if (job->options.lightmap != NULL) {
         alpi_lightmap_sample(job->options.lightmap, triangle, b1, b2, rgb);
-        return;
+        return true;
     }
     float value = 1.0f;
-    if (!alpi_surface_occlusion(job->scene, triangle, b1, b2, &value)) {
-        value = trace_occlusion(job, receiver, direction, triangle, b1, b2);
-    }
+    const bool known = alpi_surface_occlusion(job->scene, triangle, b1, b2, &value);
     rgb[0] = rgb[1] = rgb[2] = value;
+    return known;
+}
+
+/// Shades the lanes of a packet that hit something: bit i of `lanes`.
+static void shade(const render_job *job, uint64_t first_key, const vec3 directions[ALPI_PACKET],
+                  const alpi_hits *hits, uint32_t lanes, float rgb[ALPI_PACKET][3])
+{
+    alpi_receiver_point points[ALPI_PACKET];
+    uint64_t keys[ALPI_PACKET];
+    uint32_t dark = 0; // lanes that need rays
+    int one = 0;       // any of them
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, rgb[i])) {
+            points[i] = place_hit(job->scene, hits, i, directions[i]);
+            keys[i] = first_key + (uint64_t)i;
+            dark |= 1u << i;
+            one = i;
+        }
+    }
+    if (dark == 0) {
+        return;
+    }
+    float values[ALPI_PACKET];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((dark >> i & 1u) == 0) {
+            points[i] = points[one];
+            keys[i] = keys[one];
+        }
+    }
+    alpi_occlusion_of_packet(&job->occlusion, points, keys, dark, values);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((dark >> i & 1u) != 0) {
+            rgb[i][0] = rgb[i][1] = rgb[i][2] = values[i];
+        }
+    }
 }
 
 /// Through the point (x, y) of the picture, in pixels from its upper left corner.
@@ -163,19 +196,22 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
             rays.direction_y[i] = d.y;
             rays.direction_z[i] = d.z;
             rays.minimum[i] = 0.0f;
+            rays.time[i] = 0.0f;
             rays.maximum[i] = INFINITY;
+            rays.id[i] = rays.flags[i] = 0;
         }
         alpi_trace_nearest(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter, &hits);
+        uint32_t hit = 0;
         for (uint32_t i = 0; i < lanes; i++) {
-            if (hits.triangle[i] != ALPI_NONE) {
-                uint64_t receiver = (uint64_t)index * job->options.samples + first + i;
-                float rgb[3];
-                shade(job, receiver, directions[i], &hits, (int)i, rgb);
-                for (int k = 0; k < 3; k++) {
-                    sum[k] += (double)rgb[k];
-                }
-                sum[3] += 1.0;
+            hit |= (hits.triangle[i] != ALPI_NONE ? 1u : 0u) << i;
+        }
+        float rgb[ALPI_PACKET][3];
+        shade(job, (uint64_t)index * job->options.samples + first, directions, &hits, hit, rgb);
+        for (uint32_t i = 0; i < lanes; i++) {
+            for (int k = 0; k < 3 && (hit >> i & 1u) != 0; k++) {
+                sum[k] += (double)rgb[i][k];
             }
+            sum[3] += (double)(hit >> i & 1u);
         }
     }
     for (int k = 0; k < 4; k++) { // colour over what is covered; alpha = covered share
@@ -202,9 +238,10 @@ static alp_result run(render_job *job)
     alpi_tracer *tracer = NULL;
     ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &tracer, NULL));
     job->tracer = tracer;
-    job->occlusion = alpi_occlusion_prepare(job->scene, tracer, &o->occlusion);
-    job->occlusion_rays =
+    alp_occlusion_options occlusion = o->occlusion;
+    occlusion.samples =
         o->occlusion.samples / o->samples + (o->occlusion.samples % o->samples != 0);
+    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &occlusion, &job->occlusion));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
     alpi_task_progress progress = {.callback = o->progress,
@@ -213,7 +250,7 @@ static alp_result run(render_job *job)
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
     uint64_t rays = o->samples; // of a pixel, at most
-    rays += o->method == ALP_RENDER_AO ? rays * job->occlusion_rays : 0;
+    rays += o->method == ALP_RENDER_AO ? rays * job->occlusion.samples : 0;
     uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
                                                               : (uint32_t)(RAYS_PER_RANGE / rays);
     return alpi_parallel_for(job->scene->context, o->width * o->height, grain > 0 ? grain : 1,
@@ -229,6 +266,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     render_job job = {.scene = scene, .options = options ? *options : alp_render_options_default()};
     ALP_TRY(check_options(scene, &job.options));
     alp_result result = run(&job);
+    alpi_occlusion_release(&job.occlusion);
     if (result != ALP_OK) {
         alp_image_destroy(job.image);
         return result;

@@ -24,6 +24,7 @@ typedef void alpi_place_fn(const void *user, uint32_t receiver, uint32_t count,
 /// receiver is its key for random numbers.
 typedef struct alpi_receivers {
     uint32_t count;
+    bool extended; // false: one point each, whatever the square says
     alpi_place_fn *place;
     const void *user; // what `place` reads
 } alpi_receivers;

@@ -9,6 +9,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -270,46 +271,45 @@ static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter 
     return context;
 }
 
-static void fill_rays(const alpi_rays *rays, uint32_t active, struct RTCRay8 *ray, int *valid)
+_Static_assert(sizeof(alpi_rays) == sizeof(struct RTCRay8) &&
+                   offsetof(alpi_rays, direction_x) == offsetof(struct RTCRay8, dir_x) &&
+                   offsetof(alpi_rays, maximum) == offsetof(struct RTCRay8, tfar) &&
+                   offsetof(alpi_rays, flags) == offsetof(struct RTCRay8, flags),
+               "alpi_rays is what Embree takes");
+
+static const _Alignas(32) int ALL_VALID[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+/// Which lanes take part, as Embree wants it; and this build of Embree has ray masks on.
+static const int *start_rays(alpi_rays *rays, uint32_t active, int valid[ALPI_PACKET])
 {
-    memcpy(ray->org_x, rays->origin_x, sizeof ray->org_x);
-    memcpy(ray->org_y, rays->origin_y, sizeof ray->org_y);
-    memcpy(ray->org_z, rays->origin_z, sizeof ray->org_z);
-    memcpy(ray->dir_x, rays->direction_x, sizeof ray->dir_x);
-    memcpy(ray->dir_y, rays->direction_y, sizeof ray->dir_y);
-    memcpy(ray->dir_z, rays->direction_z, sizeof ray->dir_z);
-    memcpy(ray->tnear, rays->minimum, sizeof ray->tnear);
-    memcpy(ray->tfar, rays->maximum, sizeof ray->tfar);
-    memset(ray->time, 0, sizeof ray->time);
-    memset(ray->id, 0, sizeof ray->id);
-    memset(ray->flags, 0, sizeof ray->flags);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        ray->mask[i] = UINT32_MAX; // this build of Embree has ray masks on
+        rays->mask[i] = UINT32_MAX;
+    }
+    if (active == (1u << ALPI_PACKET) - 1u) {
+        return ALL_VALID;
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
         valid[i] = (active >> i & 1u) != 0 ? -1 : 0;
     }
+    return valid;
 }
 
-uint32_t alpi_trace_occluded(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                             alpi_trace_filter filter)
+void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *rays, uint32_t active,
+                         alpi_trace_filter filter)
 {
-    struct RTCRay8 ray;
     _Alignas(32) int valid[ALPI_PACKET];
-    fill_rays(rays, active, &ray, valid);
     trace_context context = start_context(tracer, filter);
-    rtcOccluded8(valid, tracer->embree_scene, &context.embree, &ray);
-    uint32_t occluded = 0;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        occluded |= (ray.tfar[i] < 0.0f ? 1u : 0u) << i; // −∞ marks a hit
-    }
-    return occluded & active;
+    rtcOccluded8(start_rays(rays, active, valid), tracer->embree_scene, &context.embree,
+                 (struct RTCRay8 *)rays);
 }
 
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits)
 {
     struct RTCRayHit8 ray_hit;
-    _Alignas(32) int valid[ALPI_PACKET];
-    fill_rays(rays, active, &ray_hit.ray, valid);
+    _Alignas(32) int some[ALPI_PACKET];
+    memcpy(&ray_hit.ray, rays, sizeof ray_hit.ray);
+    const int *valid = start_rays((alpi_rays *)&ray_hit.ray, active, some);
     memset(&ray_hit.hit, 0xff, sizeof ray_hit.hit); // RTC_INVALID_GEOMETRY_ID everywhere
     trace_context context = start_context(tracer, filter);
     rtcIntersect8(valid, tracer->embree_scene, &context.embree, &ray_hit);

@@ -8,11 +8,15 @@
 
 enum { ALPI_PACKET = 8 };
 
-/// Eight rays, structure of arrays, aligned for SIMD.
+/// Eight rays, structure of arrays, laid out as the ray tracer wants them: nothing is copied.
 typedef struct alpi_rays {
-    _Alignas(32) float origin_x[ALPI_PACKET], origin_y[ALPI_PACKET], origin_z[ALPI_PACKET];
-    _Alignas(32) float direction_x[ALPI_PACKET], direction_y[ALPI_PACKET], direction_z[ALPI_PACKET];
-    _Alignas(32) float minimum[ALPI_PACKET], maximum[ALPI_PACKET]; // along the (unit) direction
+    _Alignas(32) float origin_x[ALPI_PACKET];
+    float origin_y[ALPI_PACKET], origin_z[ALPI_PACKET];
+    float minimum[ALPI_PACKET]; // along the (unit) direction
+    float direction_x[ALPI_PACKET], direction_y[ALPI_PACKET], direction_z[ALPI_PACKET];
+    float time[ALPI_PACKET]; // the tracer's, 0
+    float maximum[ALPI_PACKET];
+    uint32_t mask[ALPI_PACKET], id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
 } alpi_rays;
 
 typedef struct alpi_hits {
@@ -33,10 +37,11 @@ typedef struct alpi_trace_filter {
 alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
                                  void *progress_user, alpi_tracer **tracer, double *seconds);
 
-/// Lane i of `active` (bit i) is traced; others are left alone (occluded: bit 0; nearest:
-/// untouched).
-uint32_t alpi_trace_occluded(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                             alpi_trace_filter filter);
+/// Traces lane i of `active` (bit i); a lane that hits anything gets maximum = −∞, others are left
+/// alone.
+void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *rays, uint32_t active,
+                         alpi_trace_filter filter);
+/// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);
 

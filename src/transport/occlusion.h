@@ -3,45 +3,76 @@
 #ifndef ALPI_TRANSPORT_OCCLUSION_H
 #define ALPI_TRANSPORT_OCCLUSION_H
 
+#include "base/tasks.h"
 #include "scene/receivers.h"
 #include "trace/trace.h"
 
 #include <alpenglow/occlusion.h>
 
+/// Equal parts of a receiver's samples that are counted apart: their spread shows how its error
+/// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
+enum { ALPI_QUARTERS = 4 };
+
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
+    alp_context *context;
     const alpi_tracer *tracer;
     alp_occlusion_options options;
-    float distance;  // metres, INFINITY = no limit
-    float cone_sin2; // sin² of the cone's half-angle
-    float cone_cos;  // cos of it
+    float distance;      // metres, INFINITY = no limit
+    alp_falloff falloff; // NONE where there is no limit
+    float cone_sin, cone_cos;
     alpi_trace_filter filter;
+    bool bent;               // sum the open directions too
+    uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
+    uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
+    uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
 alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_options *options);
 
-/// `options` must have passed the check.
-alpi_occlusion_setup alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
-                                            const alp_occlusion_options *options);
+/// `options` must have passed the check. Release the setup in the end.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
+                                  const alp_occlusion_options *options,
+                                  alpi_occlusion_setup *setup);
+void alpi_occlusion_release(alpi_occlusion_setup *setup);
 
-/// One receiver, as the arrays of alpi_receivers hold it.
-typedef struct alpi_receiver {
-    uint64_t key; // its random numbers
-    vec3 position, geometric_normal, shading_normal;
-    float offset; // metres along the geometric normal at which its rays start
-} alpi_receiver;
+/// Accessibility of eight points from all samples: the way in for callers that have points at hand
+/// one packet at a time, such as a renderer.
+/// @param keys   of the points' random numbers   @param active bit i: point i is asked about
+void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
+                              const alpi_receiver_point points[ALPI_PACKET],
+                              const uint64_t keys[ALPI_PACKET], uint32_t active,
+                              float accessibility[ALPI_PACKET]);
 
-/// Sum of w over samples [first, first + count) of one receiver: accessibility = 1 − sum / samples.
-double alpi_occlusion_sum(const alpi_occlusion_setup *setup, const alpi_receiver *receiver,
-                          uint32_t first, uint32_t count);
+/// What rays have met so far, per receiver. Counts, so that any order gives the same bits.
+typedef struct alpi_occlusion_sums {
+    uint32_t (*open)[ALPI_QUARTERS]; // [receivers] free rays of each quarter
+    uint32_t *done;                  // [receivers] rays sent
+    float (*bent)[3];                // [receivers] Σ of the free directions, or NULL
+} alpi_occlusion_sums;
+alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool bent,
+                                      alpi_occlusion_sums *sums);
+void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums);
+/// Free rays over rays sent; 1 where none was sent.
+float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver);
 
-/// Accessibility of the receivers in `list` (NULL = all, then list_count is receivers->count), on
-/// all workers; progress stage "occlusion", in rays. Neighbours in the list should be neighbours in
-/// space: they are traced together.
+/// Sends samples [first, first + count) from the receivers in `list` (NULL = all, then list_count
+/// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /
+/// ALPI_QUARTERS). Eight receivers that follow each other in the list are traced together: they
+/// should be neighbours in space. What a receiver gets does not depend on the list. After CANCELLED
+/// `sums` holds what was sent.
+/// @param total    of the samples that the receivers will have, a multiple of ALPI_QUARTERS
+/// @param progress NULL, or what to tell; units are filled in here, in rays
+alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                              const uint32_t *list, uint32_t list_count, uint32_t first,
+                              uint32_t count, uint32_t total, const alpi_task_progress *progress,
+                              alpi_occlusion_sums *sums);
+
+/// Accessibility of the receivers in `list` from all samples; stage "occlusion".
 /// @param accessibility [receivers->count] out; only those of the list are written
-alp_result alpi_occlusion_gather(alp_context *context, const alpi_occlusion_setup *setup,
-                                 const alpi_receivers *receivers, const uint32_t *list,
-                                 uint32_t list_count, float *accessibility);
+alp_result alpi_occlusion_gather(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                                 const uint32_t *list, uint32_t list_count, float *accessibility);
 
 #endif

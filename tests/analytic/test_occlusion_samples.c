@@ -52,16 +52,36 @@ static void a_run_of_samples_continues_the_sequence(void **state)
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     alp_occlusion_options options = open_options(256);
-    alpi_occlusion_setup setup = alpi_occlusion_prepare(scene, tracer, &options);
-    int different = 0;
-    for (uint64_t key = 0; key < 8; key++) {
-        alpi_receiver receiver = {
-            .key = key, .geometric_normal = {0, 1, 0}, .shading_normal = {0, 1, 0}};
-        double first = alpi_occlusion_sum(&setup, &receiver, 0, 100);
-        double second = alpi_occlusion_sum(&setup, &receiver, 100, 156);
-        ASSERT_NEAR(first + second, alpi_occlusion_sum(&setup, &receiver, 0, 256), 0.0);
-        different += first != alpi_occlusion_sum(&setup, &receiver, 100, 100);
+    alpi_occlusion_setup setup;
+    ASSERT_OK(context, alpi_occlusion_prepare(scene, tracer, &options, &setup));
+    alpi_point_array points;
+    ASSERT_OK(context, alpi_point_array_create(context, 11, &points)); // a packet and a part
+    for (uint32_t i = 0; i < points.count; i++) {
+        points.geometric_normals[i][1] = points.shading_normals[i][1] = 1.0f;
     }
+    const alpi_receivers receivers = alpi_point_array_receivers(&points);
+    const uint32_t runs[][2] = {{0, 256}, {0, 100}, {100, 156}};
+    alpi_occlusion_sums sums[2];
+    for (int i = 0; i < 2; i++) {
+        ASSERT_OK(context, alpi_occlusion_sums_create(context, points.count, false, &sums[i]));
+    }
+    for (int i = 0; i < 3; i++) { // the first at once, the others one after the other
+        ASSERT_OK(context, alpi_occlusion_add(&setup, &receivers, NULL, points.count, runs[i][0],
+                                              runs[i][1], 256, NULL, &sums[i > 0]));
+    }
+    int different = 0;
+    for (uint32_t i = 0; i < points.count; i++) {
+        for (int q = 0; q < ALPI_QUARTERS; q++) {
+            assert_int_equal(sums[0].open[i][q], sums[1].open[i][q]);
+        }
+        assert_int_equal(sums[1].done[i], 256);
+        different += sums[0].open[i][0] != sums[0].open[i][1];
+    }
+    for (int i = 0; i < 2; i++) {
+        alpi_occlusion_sums_destroy(context, &sums[i]);
+    }
+    alpi_point_array_destroy(context, &points);
+    alpi_occlusion_release(&setup);
     assert_true(different > 0); // else a second run of samples would be the first one again
     alp_scene_destroy(scene);
     alp_context_destroy(context);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "maps/lattice.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TILE_WIDTH = 16, TILE_HEIGHT = 8, BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2 };
+
+// Across a larger angle light changes at once: cos 8°.
+static const float SMOOTH_COSINE = 0.99f;
+
+// --- neighbourhood -------------------------------------------------------------------------------
+
+static uint32_t texel_at(const alpi_lattice *l, uint32_t page, int64_t x, int64_t y)
+{
+    if (x < 0 || y < 0 || x >= l->width || y >= l->height) {
+        return ALPI_NONE;
+    }
+    return l->grid[((size_t)page * l->height + (size_t)y) * l->width + (size_t)x];
+}
+
+static void fill_grid(alpi_lattice *l)
+{
+    const size_t pixels = (size_t)l->page_count * l->width * l->height;
+    memset(l->grid, 0xff, pixels * sizeof *l->grid);
+    for (uint32_t t = 0; t < l->texels->count; t++) {
+        const uint16_t *p = l->texels->pixels[t];
+        l->grid[((size_t)l->texels->pages[t] * l->height + p[1]) * l->width + p[0]] = t;
+    }
+}
+
+/// Appends the texels of one rectangle, row by row.
+static void append_block(const alpi_lattice *l, uint32_t page, uint32_t x0, uint32_t y0,
+                         uint32_t *count)
+{
+    for (uint32_t y = y0; y < y0 + BLOCK_HEIGHT; y++) {
+        for (uint32_t x = x0; x < x0 + BLOCK_WIDTH; x++) {
+            const uint32_t t = texel_at(l, page, x, y);
+            if (t != ALPI_NONE) {
+                l->order[(*count)++] = t;
+            }
+        }
+    }
+}
+
+/// Tiles of 16 × 8 texels in blocks of 4 × 2: eight texels in a row of the order are one block of
+/// the page, and eight of every fourth texel are one tile.
+static void fill_order(alpi_lattice *l)
+{
+    uint32_t count = 0;
+    for (uint32_t page = 0; page < l->page_count; page++) {
+        for (uint32_t ty = 0; ty < l->height; ty += TILE_HEIGHT) {
+            for (uint32_t tx = 0; tx < l->width; tx += TILE_WIDTH) {
+                for (uint32_t y = ty; y < ty + TILE_HEIGHT; y += BLOCK_HEIGHT) {
+                    for (uint32_t x = tx; x < tx + TILE_WIDTH; x += BLOCK_WIDTH) {
+                        append_block(l, page, x, y, &count);
+                    }
+                }
+            }
+        }
+    }
+}
+
+static alp_result create(const alp_atlas *atlas, alpi_lattice *l)
+{
+    const size_t pixels = (size_t)l->page_count * l->width * l->height;
+    ALPI_TRY_NEW(l->context, l->grid, pixels);
+    ALPI_TRY_NEW(l->context, l->order, l->texels->count);
+    ALPI_TRY_NEW(l->context, l->normals, l->texels->count);
+    ALPI_TRY_NEW(l->context, l->states, l->texels->count);
+    ALPI_TRY_NEW(l->context, l->values, l->texels->count);
+    (void)atlas;
+    fill_grid(l);
+    fill_order(l);
+    memcpy(l->normals, l->texels->points.shading_normals, l->texels->count * sizeof *l->normals);
+    return ALP_OK;
+}
+
+alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,
+                               alpi_lattice *lattice)
+{
+    *lattice = (alpi_lattice){.context = atlas->context,
+                              .texels = texels,
+                              .width = atlas->info.width,
+                              .height = atlas->info.height,
+                              .page_count = atlas->info.pages};
+    alp_result result = create(atlas, lattice);
+    if (result != ALP_OK) {
+        alpi_lattice_destroy(lattice);
+    }
+    return result;
+}
+
+void alpi_lattice_destroy(alpi_lattice *lattice)
+{
+    alpi_release(lattice->context, lattice->grid);
+    alpi_release(lattice->context, lattice->order);
+    alpi_release(lattice->context, lattice->normals);
+    alpi_release(lattice->context, lattice->states);
+    alpi_release(lattice->context, lattice->values);
+    *lattice = (alpi_lattice){0};
+}
+
+// --- passes --------------------------------------------------------------------------------------
+
+uint32_t alpi_lattice_pass(const uint16_t pixel[2])
+{
+    for (uint32_t pass = 0, spacing = ALPI_LATTICE_SPACING; spacing > 1; spacing /= 2, pass += 2) {
+        const uint32_t half = spacing / 2, x = pixel[0] % spacing, y = pixel[1] % spacing;
+        if (x % half != 0 || y % half != 0) {
+            continue; // of a finer spacing
+        }
+        return x == 0 && y == 0 ? pass : pass + (x == half && y == half ? 2 : 1);
+    }
+    return 0; // not reached: with spacing 2 every pixel has its place
+}
+
+uint32_t alpi_lattice_reach(uint32_t pass)
+{
+    return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
+}
+
+/// The texel (dx, dy) away, if texel t may be interpolated from it.
+static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
+{
+    const uint16_t *p = l->texels->pixels[t];
+    const uint32_t n = texel_at(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
+    if (n == ALPI_NONE || l->states[n] == ALPI_TEXEL_OPEN ||
+        l->texels->charts[n] != l->texels->charts[t]) {
+        return ALPI_NONE;
+    }
+    const bool smooth =
+        vec3_dot(vec3_load(l->normals[n]), vec3_load(l->normals[t])) >= SMOOTH_COSINE;
+    return smooth ? n : ALPI_NONE;
+}
+
+static void add_to_stencil(alpi_stencil *s, uint32_t texel, float weight)
+{
+    s->texels[s->count] = texel;
+    s->weights[s->count++] = weight;
+}
+
+/// Along one axis, the four nearest at −3h, −h, h, 3h: cubic weights (−1, 9, 9, −1) / 16, or the
+/// mean of the inner two where an outer one is missing. @return false: an inner one is missing
+static bool add_axis(const alpi_lattice *l, uint32_t t, int dx, int dy, float share,
+                     alpi_stencil *s)
+{
+    const uint32_t a = neighbour(l, t, -dx, -dy), b = neighbour(l, t, dx, dy);
+    if (a == ALPI_NONE || b == ALPI_NONE) {
+        return false;
+    }
+    const uint32_t c = neighbour(l, t, -3 * dx, -3 * dy), d = neighbour(l, t, 3 * dx, 3 * dy);
+    const bool cubic = c != ALPI_NONE && d != ALPI_NONE;
+    add_to_stencil(s, a, share * (cubic ? 0.5625f : 0.5f));
+    add_to_stencil(s, b, share * (cubic ? 0.5625f : 0.5f));
+    if (cubic) {
+        add_to_stencil(s, c, share * -0.0625f);
+        add_to_stencil(s, d, share * -0.0625f);
+    }
+    return true;
+}
+
+/// Difference between the largest and smallest of the nearest texels of a stencil.
+static float find_spread(const alpi_lattice *l, const alpi_stencil *s)
+{
+    float low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (s->weights[i] > 0.0f) {
+            low = fminf(low, l->values[s->texels[i]]);
+            high = fmaxf(high, l->values[s->texels[i]]);
+        }
+    }
+    return high - low;
+}
+
+bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
+{
+    const uint16_t *p = lattice->texels->pixels[texel];
+    const uint32_t pass = alpi_lattice_pass(p);
+    const int h = (int)alpi_lattice_reach(pass);
+    stencil->count = 0;
+    bool whole = false;
+    if (pass == 1 || pass == 3) { // halfway between two
+        const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
+        whole = add_axis(lattice, texel, across ? h : 0, across ? 0 : h, 1.0f, stencil);
+    } else if (pass != 0) { // in the middle of four
+        whole = add_axis(lattice, texel, h, 0, 0.5f, stencil) &&
+                add_axis(lattice, texel, 0, h, 0.5f, stencil);
+    }
+    stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
+    return whole;
+}
+
+float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil)
+{
+    float value = 0.0f;
+    for (uint32_t i = 0; i < stencil->count; i++) {
+        value += stencil->weights[i] * lattice->values[stencil->texels[i]];
+    }
+    return fminf(fmaxf(value, 0.0f), 1.0f); // a cubic may overshoot
+}
+
+float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel)
+{
+    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    float step = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
+        if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
+            step = fmaxf(step, fabsf(lattice->values[n] - lattice->values[texel]));
+        }
+    }
+    return step;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The adaptive lattice: every 4th texel is traced, those between are interpolated where the traced
+// ones agree, and traced where they do not.
+// Based on: H. Elias. Radiosity (the adaptive light map: spacing 4, passes of two types, half the
+// spacing). What such a lattice misses, small details, the flood of occlusion_map.c finds.
+#ifndef ALPI_MAPS_LATTICE_H
+#define ALPI_MAPS_LATTICE_H
+
+#include "atlas/atlas.h"
+
+enum { ALPI_LATTICE_SPACING = 4, ALPI_STENCIL_LIMIT = 8 };
+
+typedef enum alpi_texel_state {
+    ALPI_TEXEL_OPEN = 0, // nothing is known yet
+    ALPI_TEXEL_TRACED,
+    ALPI_TEXEL_INTERPOLATED
+} alpi_texel_state;
+
+/// Neighbourhood of the texels of an atlas, and what is known of each.
+typedef struct alpi_lattice {
+    alp_context *context;
+    const alpi_texels *texels;
+    uint32_t width, height, page_count;
+    uint32_t *grid;  // [pages][height][width] texel, ALPI_NONE where there is none
+    uint32_t *order; // [count] all texels, tile by tile: neighbours in it are neighbours in space
+    float (*normals)[3]; // [count] shading normal of each
+    uint8_t *states;     // [count] alpi_texel_state
+    float *values;       // [count] where the state is not OPEN
+} alpi_lattice;
+
+alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,
+                               alpi_lattice *lattice);
+void alpi_lattice_destroy(alpi_lattice *lattice);
+
+/// What an interpolated texel is made of: value = Σ weights · values of `texels`.
+typedef struct alpi_stencil {
+    uint32_t count;
+    uint32_t texels[ALPI_STENCIL_LIMIT];
+    float weights[ALPI_STENCIL_LIMIT];
+    float spread; // largest minus smallest value of the nearest texels of it
+} alpi_stencil;
+
+/// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
+/// between two (type 1) and those in the middle of four (type 2).
+enum { ALPI_LATTICE_PASSES = 5 };
+/// The pass a texel belongs to, by its pixel.
+uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
+/// Distance in texels to the nearest texels that pass `pass` interpolates from: 2, 2, 1, 1.
+uint32_t alpi_lattice_reach(uint32_t pass);
+
+/// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
+/// else linear. @return false: a neighbour is missing, in another chart, or turned away
+bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
+float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
+
+/// Largest difference between an interpolated texel and a traced one beside it; 0 without one.
+float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel);
+
+#endif

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// From receivers to packets. A packet holds one sample of eight neighbouring receivers, not eight
+// samples of one: all receivers use one sequence of samples, each with a digital shift of its own
+// below the leading bits, so the rays of a packet start close to each other and leave in nearly the
+// same direction. Conditional on the sequence the shifts are independent, and each alone is
+// unbiased: the errors of neighbours are not correlated.
+// Based on: C. Kollig, A. Keller. Efficient Multidimensional Sampling. CGF 21(3), 2002.
+#include "transport/occlusion_kernel.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+
+#include <assert.h>
+#include <string.h>
+
+// Uses of random numbers, apart from each other (2 is the sequence's).
+enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
+
+enum {
+    // Directions that leave from one point of a receiver with extent. They are a block of the
+    // sequence and so well spread by themselves; more points would cost set-up and gain little.
+    SAMPLES_PER_POINT = 16,
+    POINTS_PER_CHUNK = 32,
+    // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
+    RAYS_PER_RANGE = 1 << 15,
+    SAMPLES_PER_ROUND = 1 << 14
+};
+
+typedef struct gather_job {
+    const alpi_occlusion_setup *setup;
+    alpi_occlusion_kernel *kernel;
+    const alpi_receivers *receivers;
+    const uint32_t *list;
+    uint32_t list_count;
+    uint32_t first, end, quarter; // samples, and how many make a quarter
+    alpi_occlusion_sums *sums;
+} gather_job;
+
+/// The kernel for this machine, unless the context asks for less.
+static alpi_occlusion_kernel *choose_kernel(alp_context *context)
+{
+#ifdef ALPI_HAS_V3_KERNEL
+    const char *isa = alpi_context_options(context)->max_isa;
+    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
+        __builtin_cpu_supports("bmi2")) {
+        return alpi_occlusion_kernel_v3;
+    }
+#endif
+    (void)context;
+    return alpi_occlusion_kernel_baseline;
+}
+
+static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_point *p)
+{
+    vec3 t, b, n = p->shading_normal;
+    vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
+    vec3_frame(n, &t, &b);
+    const vec3 columns[4] = {origin, t, b, n};
+    float(*const targets[4])[ALPI_PACKET] = {lanes->origin, lanes->tangent, lanes->bitangent,
+                                             lanes->normal};
+    for (int k = 0; k < 4; k++) {
+        targets[k][0][lane] = columns[k].x;
+        targets[k][1][lane] = columns[k].y;
+        targets[k][2][lane] = columns[k].z;
+    }
+}
+
+static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes, int lane,
+                       uint64_t receiver)
+{
+    const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
+    lanes->shift[0][lane] = alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask;
+    lanes->shift[1][lane] = alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask;
+    lanes->shift[2][lane] = alpi_hash32(key ^ 0x967a889bu);
+}
+
+/// Points [first, first + count) of one receiver.
+static void place_points(const gather_job *job, uint32_t receiver, uint32_t first, uint32_t count,
+                         alpi_receiver_point *points)
+{
+    const alpi_receivers *r = job->receivers;
+    float square[POINTS_PER_CHUNK][2];
+    const uint32_t key = alpi_random_key(job->setup->options.seed, receiver, STREAM_PLACE);
+    for (uint32_t k = 0; k < count; k++) {
+        vec2 u = alpi_sample_2d(key, first + k);
+        square[k][0] = u.x;
+        square[k][1] = u.y;
+    }
+    r->place(r->user, receiver, count, (const float(*)[2])square, points);
+}
+
+/// Samples [first, end): as many points of each lane as they take, and from each its block of them.
+static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t first,
+                      uint32_t end, alpi_occlusion_lanes *lanes, alpi_occlusion_tally *tally)
+{
+    alpi_receiver_point points[ALPI_PACKET][POINTS_PER_CHUNK];
+    const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
+    const uint32_t block = job->receivers->extended ? SAMPLES_PER_POINT : UINT32_MAX;
+    const uint32_t first_point = first / block, point_count = (end - 1) / block - first_point + 1;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        place_points(job, ids[i], first_point, point_count, points[i]);
+    }
+    uint32_t at = first;
+    for (uint32_t p = 0; p < point_count; p++) {
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            set_lane(lanes, i, &points[i][p]);
+        }
+        const uint32_t left = block - at % block; // of the point's samples
+        const uint32_t count = end - at < left ? end - at : left;
+        job->kernel(job->setup, lanes, samples + at, count, tally);
+        at += count;
+    }
+}
+
+/// Adds what the lanes that are in use met in samples of one quarter.
+static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t used,
+                      uint32_t quarter, const alpi_occlusion_tally *tally)
+{
+    for (uint32_t i = 0; i < used; i++) {
+        job->sums->open[ids[i]][quarter] += tally->open[i];
+        for (int k = 0; k < 3 && job->setup->bent; k++) {
+            job->sums->bent[ids[i]][k] += tally->bent[k][i];
+        }
+    }
+}
+
+static void run_packet(const gather_job *job, uint32_t first_item)
+{
+    alpi_occlusion_lanes lanes;
+    uint32_t ids[ALPI_PACKET];
+    const uint32_t items = job->list_count - first_item;
+    const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
+    const uint32_t chunk =
+        SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may begin in the middle
+    lanes.active = (1u << used) - 1u;
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t k = first_item + (i < used ? i : used - 1);
+        ids[i] = job->list != NULL ? job->list[k] : k;
+        set_shifts(job->setup, &lanes, (int)i, ids[i]);
+    }
+    for (uint32_t at = job->first; at < job->end;) {
+        const uint32_t quarter = at / job->quarter;
+        uint32_t end = (quarter + 1) * job->quarter;
+        end = end < job->end ? end : job->end;
+        end = job->receivers->extended && end - at > chunk ? at + chunk : end;
+        alpi_occlusion_tally tally = {{0}, {{0}}};
+        run_chunk(job, ids, at, end, &lanes, &tally);
+        add_tally(job, ids, used, quarter, &tally);
+        at = end;
+    }
+    for (uint32_t i = 0; i < used; i++) {
+        job->sums->done[ids[i]] += job->end - job->first;
+    }
+}
+
+static alp_result run_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    for (uint32_t packet = begin; packet < end; packet++) {
+        run_packet(user, packet * ALPI_PACKET);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                              const uint32_t *list, uint32_t list_count, uint32_t first,
+                              uint32_t count, uint32_t total, const alpi_task_progress *progress,
+                              alpi_occlusion_sums *sums)
+{
+    assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
+    gather_job job = {.setup = setup,
+                      .kernel = choose_kernel(setup->context),
+                      .receivers = receivers,
+                      .list = list,
+                      .list_count = list_count,
+                      .quarter = total / ALPI_QUARTERS,
+                      .sums = sums};
+    const uint32_t packets = list_count / ALPI_PACKET + (list_count % ALPI_PACKET != 0);
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    const double before = told.units_before;
+    told.units_are_rays = true;
+    told.units_total += told.units_total > 0.0 ? 0.0 : (double)packets * ALPI_PACKET * count;
+    for (uint32_t done = 0; done < count; done += SAMPLES_PER_ROUND) {
+        const uint32_t samples =
+            count - done < SAMPLES_PER_ROUND ? count - done : SAMPLES_PER_ROUND;
+        const uint32_t rays = samples * ALPI_PACKET; // of a packet
+        const uint32_t grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1;
+        job.first = first + done;
+        job.end = job.first + samples;
+        told.units_per_item = rays;
+        told.units_before = before + (double)packets * ALPI_PACKET * done;
+        ALP_TRY(alpi_parallel_for(setup->context, packets, grain, run_range, &job, &told));
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool bent,
+                                      alpi_occlusion_sums *sums)
+{
+    *sums = (alpi_occlusion_sums){0};
+    sums->open = alpi_allocate(context, receivers, sizeof *sums->open);
+    sums->done = ALPI_NEW(context, uint32_t, receivers);
+    sums->bent = bent ? alpi_allocate(context, receivers, sizeof *sums->bent) : NULL;
+    if (sums->open == NULL || sums->done == NULL || (bent && sums->bent == NULL)) {
+        alpi_occlusion_sums_destroy(context, sums);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    return ALP_OK;
+}
+
+void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums)
+{
+    alpi_release(context, sums->open);
+    alpi_release(context, sums->done);
+    alpi_release(context, sums->bent);
+    *sums = (alpi_occlusion_sums){0};
+}
+
+float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver)
+{
+    const uint32_t *open = sums->open[receiver];
+    const double free_rays = (double)open[0] + (double)open[1] + (double)open[2] + (double)open[3];
+    return sums->done[receiver] > 0 ? (float)(free_rays / (double)sums->done[receiver]) : 1.0f;
+}
+
+alp_result alpi_occlusion_gather(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                                 const uint32_t *list, uint32_t list_count, float *accessibility)
+{
+    alpi_occlusion_sums sums;
+    ALP_TRY(alpi_occlusion_sums_create(setup->context, receivers->count, false, &sums));
+    const alpi_task_progress progress = {.callback = setup->options.progress,
+                                         .user = setup->options.progress_user,
+                                         .stage = "occlusion"};
+    alp_result result = alpi_occlusion_add(setup, receivers, list, list_count, 0, setup->samples,
+                                           setup->samples, &progress, &sums);
+    for (uint32_t i = 0; i < list_count && result == ALP_OK; i++) {
+        const uint32_t id = list != NULL ? list[i] : i;
+        accessibility[id] = alpi_occlusion_value(&sums, id);
+    }
+    alpi_occlusion_sums_destroy(setup->context, &sums);
+    return result;
+}
+
+void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
+                              const alpi_receiver_point points[ALPI_PACKET],
+                              const uint64_t keys[ALPI_PACKET], uint32_t active,
+                              float accessibility[ALPI_PACKET])
+{
+    alpi_occlusion_lanes lanes = {.active = active};
+    alpi_occlusion_tally tally = {{0}, {{0}}};
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        set_lane(&lanes, i, &points[i]);
+        set_shifts(setup, &lanes, i, keys[i]);
+    }
+    choose_kernel(setup->context)(setup, &lanes, (const uint32_t(*)[3])setup->sequence,
+                                  setup->samples, &tally);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        accessibility[i] = (float)((double)tally.open[i] / setup->samples);
+    }
+}
