@@ -10,40 +10,50 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    LOOK_LIMIT = 64, // receivers of one position that are compared: a bound for hostile files
-    TICK_TRIANGLES = 4096
-};
-static const float SAME_NORMAL = 0.9999985f; // cosine of 0.1 degrees
+enum { TICK_TRIANGLES = 4096 };
+// Steps of a normal's coordinates: files round them differently, by far less than this; a tenth of
+// a degree is below what shading shows.
+static const float NORMAL_STEPS = 512.0f;
 
 // --- which vertices are one ----------------------------------------------------------------------
 
-/// Receivers found so far, by position.
+/// What makes vertices one: bits of the position, steps of the normal.
+typedef struct vertex_key {
+    uint32_t position[3];
+    int32_t normal[3];
+} vertex_key;
+
+/// Receivers found so far, by key.
 typedef struct finder {
     const alp_scene *scene;
-    uint32_t *table;   // open addressing: the first receiver of each position, ALPI_NONE = free
+    uint32_t *table;   // open addressing: receiver of each slot, ALPI_NONE = free
     size_t table_size; // a power of two, at least twice the vertices
-    uint32_t *next;    // [vertices] the next receiver of the same position, ALPI_NONE = last
     uint32_t *example; // [vertices] a vertex of each receiver
 } finder;
 
-static bool same_position(const float a[3], const float b[3])
+static vertex_key key_of(const alp_scene *scene, uint32_t vertex)
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; // 0 equals −0
+    vertex_key key;
+    for (int k = 0; k < 3; k++) {
+        float value = scene->positions[vertex][k] + 0.0f; // −0 → 0
+        memcpy(&key.position[k], &value, sizeof value);
+        key.normal[k] = (int32_t)lrintf(scene->normals[vertex][k] * NORMAL_STEPS);
+    }
+    return key;
 }
 
-static size_t find_slot(const finder *f, const float position[3])
+static size_t find_slot(const finder *f, const vertex_key *key)
 {
-    uint32_t bits[3];
+    uint64_t hash = 0;
     for (int k = 0; k < 3; k++) {
-        float value = position[k] + 0.0f; // −0 → 0
-        memcpy(&bits[k], &value, sizeof value);
+        hash = alpi_hash64(hash ^ ((uint64_t)key->position[k] << 32 | (uint32_t)key->normal[k]));
     }
-    uint64_t key = alpi_hash64(((uint64_t)bits[0] << 32 | bits[1]) ^ alpi_hash64(bits[2]));
-    size_t slot = (size_t)key & (f->table_size - 1);
-    while (f->table[slot] != ALPI_NONE &&
-           !same_position(f->scene->positions[f->example[f->table[slot]]], position)) {
-        slot = (slot + 1) & (f->table_size - 1);
+    size_t slot = (size_t)hash & (f->table_size - 1);
+    for (; f->table[slot] != ALPI_NONE; slot = (slot + 1) & (f->table_size - 1)) {
+        vertex_key other = key_of(f->scene, f->example[f->table[slot]]);
+        if (memcmp(&other, key, sizeof other) == 0) {
+            break;
+        }
     }
     return slot;
 }
@@ -51,20 +61,13 @@ static size_t find_slot(const finder *f, const float position[3])
 /// The receiver of a vertex, a new one when there is none with its position and normal.
 static uint32_t find_receiver(finder *f, uint32_t vertex, uint32_t *count)
 {
-    size_t slot = find_slot(f, f->scene->positions[vertex]);
-    vec3 normal = vec3_load(f->scene->normals[vertex]);
-    uint32_t receiver = f->table[slot], looked = 0;
-    for (; receiver != ALPI_NONE && looked < LOOK_LIMIT; looked++) {
-        if (vec3_dot(vec3_load(f->scene->normals[f->example[receiver]]), normal) > SAME_NORMAL) {
-            return receiver;
-        }
-        receiver = f->next[receiver];
+    vertex_key key = key_of(f->scene, vertex);
+    size_t slot = find_slot(f, &key);
+    if (f->table[slot] == ALPI_NONE) {
+        f->example[*count] = vertex;
+        f->table[slot] = (*count)++;
     }
-    uint32_t made = (*count)++;
-    f->example[made] = vertex;
-    f->next[made] = f->table[slot];
-    f->table[slot] = made;
-    return made;
+    return f->table[slot];
 }
 
 /// Numbers receivers in the order of the triangles, so that neighbours are near one another.
@@ -76,7 +79,6 @@ static alp_result number_receivers(alpi_vertex_map *map, finder *f)
     }
     ALPI_TRY_NEW(map->context, f->table, f->table_size);
     memset(f->table, 0xff, f->table_size * sizeof *f->table);
-    ALPI_TRY_NEW(map->context, f->next, scene->vertex_count);
     ALPI_TRY_NEW(map->context, f->example, scene->vertex_count);
     ALPI_TRY_NEW(map->context, map->vertex_receivers, scene->vertex_count);
     memset(map->vertex_receivers, 0xff, scene->vertex_count * sizeof *map->vertex_receivers);
@@ -99,7 +101,6 @@ static alp_result find_receivers(alpi_vertex_map *map)
     finder f = {.scene = map->scene};
     alp_result result = number_receivers(map, &f);
     alpi_release(map->context, f.table);
-    alpi_release(map->context, f.next);
     alpi_release(map->context, f.example);
     return result;
 }
