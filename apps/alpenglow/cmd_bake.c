@@ -38,6 +38,9 @@ static int check_vertex_options(const option_value *values)
                                of_maps[i].name);
         }
     }
+    if (at_vertices && !values[OPTION_OUTPUT].given) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb or -o OUT.gltf");
+    }
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
     }
@@ -58,11 +61,11 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
     o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
-    if (o->output == NULL && o->maps_folder == NULL) {
+    int code = check_vertex_options(values);
+    if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    int code = check_vertex_options(values);
     if (code == EXIT_DONE) {
         code = check_output_name(o->output);
     }
