@@ -90,8 +90,7 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
 
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %llu rays per %s, ",
-           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole,
+    printf("occlusion  %llu rays per %s, ", (unsigned long long)a->values[OPTION_AO_SAMPLES].whole,
            r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");

@@ -69,10 +69,9 @@ static json_t *make_vertex_objects(const alp_scene *scene, const alp_lightmap *l
     for (uint32_t i = 0; i < surface_count; i++) {
         uint32_t count = 0;
         alp_lightmap_vertex_values(lightmap, i, &count);
-        json_array_append_new(objects,
-                              json_pack("{s:o, s:I}", "name",
-                                        json_text(alp_scene_get_surface(scene, i).name),
-                                        "vertices", (json_int_t)count));
+        json_array_append_new(objects, json_pack("{s:o, s:I}", "name",
+                                                 json_text(alp_scene_get_surface(scene, i).name),
+                                                 "vertices", (json_int_t)count));
     }
     return objects;
 }

@@ -18,7 +18,8 @@ typedef enum alp_existing_ao {
 
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
-    /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1. Where
+    /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
+    /// Where
     /// a primitive has COLOR_0 already, its R, G and B are multiplied and A stays (default).
     ALP_VERTEX_COLOR = 0,
     ALP_VERTEX_OCCLUSION = 1 ///< _OCCLUSION, a scalar for shaders that know it; COLOR_0 stays
@@ -26,14 +27,14 @@ typedef enum alp_vertex_attribute {
 
 typedef struct alp_bake_options {
     size_t struct_size;
-    alp_atlas_options atlas;         ///< its progress is ignored
-    alp_occlusion_options occlusion; ///< its progress is ignored
-    alp_existing_ao existing_ao; ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
+    alp_atlas_options atlas;               ///< its progress is ignored
+    alp_occlusion_options occlusion;       ///< its progress is ignored
+    alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
     const char *output;                    ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr … and ao.png, or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
-    bool overwrite;          ///< default false: an existing file stops the job before it starts
+    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "dilation"; "write". With ALP_ATLAS_VERTEX "vertices",
     /// "build", "occlusion", "detail", "write". Parts of short work may stay unheard.

@@ -219,8 +219,8 @@ static alp_result write_asset(const alpi_bake_job *job)
                                 : ALPI_VERTEX_OCCLUSION,
         .extras_json = extras,
     };
-    alp_result result = alpi_gltf_write_patched(job->scene, &patch, job->options.output,
-                                                job->options.overwrite);
+    alp_result result =
+        alpi_gltf_write_patched(job->scene, &patch, job->options.output, job->options.overwrite);
     alpi_release(job->context, extras);
     return result;
 }

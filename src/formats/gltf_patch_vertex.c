@@ -97,9 +97,10 @@ void alpi_patcher_warn_of_former(const alpi_gltf_patcher *p)
     json_t *former = json_object_get(json_object_get(extras, "alpenglow"), "occlusion");
     const char *name = json_string_value(json_object_get(former, "vertex_attribute"));
     if (in_color(p) && name != NULL && strcmp(name, "COLOR_0") == 0) {
-        alpi_warn(p->context, "baked-twice", p->document->path,
-                  "its COLOR_0 holds the occlusion of an earlier bake and is multiplied again; bake "
-                  "the original file");
+        alpi_warn(
+            p->context, "baked-twice", p->document->path,
+            "its COLOR_0 holds the occlusion of an earlier bake and is multiplied again; bake "
+            "the original file");
     }
 }
 
@@ -109,8 +110,8 @@ alp_result alpi_patcher_add_vertex_values(alpi_gltf_patcher *p, const alpi_gltf_
     size_t color = ALPI_GLTF_NONE;
     json_t *attributes = json_object_get(input->primitive, "attributes");
     if (in_color(p)) {
-        ALP_TRY(alpi_gltf_index(p->document, attributes, "COLOR_0", "accessors", input->owner,
-                                &color));
+        ALP_TRY(
+            alpi_gltf_index(p->document, attributes, "COLOR_0", "accessors", input->owner, &color));
     }
     if (color == ALPI_GLTF_NONE) {
         return add_new(p, input, accessor);

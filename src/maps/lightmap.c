@@ -97,8 +97,8 @@ void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float
     if (lightmap->vertex_values != NULL) {
         const uint32_t *corner = lightmap->scene->triangles[triangle];
         const float *values = lightmap->vertex_values;
-        rgb[0] = rgb[1] = rgb[2] = (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] +
-                                   b2 * values[corner[2]];
+        rgb[0] = rgb[1] = rgb[2] =
+            (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] + b2 * values[corner[2]];
         return;
     }
     const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];

@@ -23,8 +23,7 @@ typedef struct measuring {
 
 static void place_point(measuring *m, uint32_t i, uint32_t triangle, float b1, float b2)
 {
-    alpi_receiver_point at =
-        alpi_vertex_map_point(m->map->scene, triangle, (double)b1, (double)b2);
+    alpi_receiver_point at = alpi_vertex_map_point(m->map->scene, triangle, (double)b1, (double)b2);
     m->triangles[i] = triangle;
     m->barycentrics[i][0] = b1;
     m->barycentrics[i][1] = b2;

@@ -219,12 +219,10 @@ alpi_receiver_point alpi_vertex_map_point(const alp_scene *scene, uint32_t trian
     alpi_triangle_corners(scene, triangle, c);
     alpi_receiver_point point = {
         .position = {(float)position[0], (float)position[1], (float)position[2]},
-        .geometric_normal =
-            vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f}),
+        .geometric_normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f}),
     };
-    point.shading_normal =
-        vec3_normalize_or((vec3){(float)normal[0], (float)normal[1], (float)normal[2]},
-                          point.geometric_normal);
+    point.shading_normal = vec3_normalize_or(
+        (vec3){(float)normal[0], (float)normal[1], (float)normal[2]}, point.geometric_normal);
     if (!(vec3_dot(point.shading_normal, point.geometric_normal) > 0.0f)) {
         point.shading_normal = point.geometric_normal; // as at texels: not into the surface
     }

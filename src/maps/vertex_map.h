@@ -7,20 +7,21 @@
 #include "scene/receivers.h"
 #include "scene/scene.h"
 
-/// The vertices of a scene as receivers. Vertices with one position and one normal are one receiver,
-/// so that no seam appears where a file splits them for other reasons (texture coordinates,
-/// materials, primitives); vertices split by their normals are apart.
+/// The vertices of a scene as receivers. Vertices with one position and one normal are one
+/// receiver, so that no seam appears where a file splits them for other reasons (texture
+/// coordinates, materials, primitives); vertices split by their normals are apart.
 ///
 /// The share of a vertex in a triangle is where its barycentric weight is the largest: a third of
 /// the area, the quadrilateral between the corner, the middles of its two edges and the centroid.
 typedef struct alpi_vertex_map {
     alp_context *context;
     const alp_scene *scene;
-    uint32_t *vertex_receivers; // [scene vertices] ALPI_NONE where no usable triangle has the vertex
-    uint32_t count;             // receivers
-    uint32_t *first_share;      // [count + 1] into shares and ends
-    uint32_t *shares;           // 3 × triangle + corner; neighbours of a receiver in triangle order
-    float *ends; // sum of this share and those before it over the sum of all of the receiver
+    uint32_t
+        *vertex_receivers; // [scene vertices] ALPI_NONE where no usable triangle has the vertex
+    uint32_t count;        // receivers
+    uint32_t *first_share; // [count + 1] into shares and ends
+    uint32_t *shares;      // 3 × triangle + corner; neighbours of a receiver in triangle order
+    float *ends;   // sum of this share and those before it over the sum of all of the receiver
     double *areas; // [count] m², of all shares of a receiver
 } alpi_vertex_map;
 

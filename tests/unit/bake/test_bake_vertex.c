@@ -82,7 +82,7 @@ static void vertices_of_unusable_triangles_are_open(void **state)
     ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
     const float *values = alp_lightmap_vertex_values(lightmap, 0, NULL);
     for (int v = 0; v < 6; v++) {
-        assert_true(values[v] < 0.5f);     // below the lid
+        assert_true(values[v] < 0.5f);         // below the lid
         ASSERT_NEAR(values[6 + v], 1.0, 1e-6); // the lid
         ASSERT_NEAR(values[12 + v], 1.0, 0.0); // of no usable triangle
     }

@@ -14,12 +14,11 @@ static const struct {
     const char *type;
     int component_type, count, size; // size in bytes, padded to 4
     bool has_bounds;
-} arrays[] = {{"VEC3", 5126, 4, 48, true},    {"VEC3", 5126, 4, 48, false},
-              {"VEC2", 5126, 4, 32, false},   {"VEC4", 5121, 4, 16, false},
-              {"VEC4", 5126, 4, 64, false},   {"VEC3", 5121, 4, 16, false},
-              {"SCALAR", 5123, 6, 12, false}, {"VEC3", 5126, 4, 48, true},
-              {"SCALAR", 5121, 4, 4, false},  {"MAT2", 5121, 4, 32, false},
-              {"VEC4", 5121, 4, 16, false}};
+} arrays[] = {
+    {"VEC3", 5126, 4, 48, true},    {"VEC3", 5126, 4, 48, false}, {"VEC2", 5126, 4, 32, false},
+    {"VEC4", 5121, 4, 16, false},   {"VEC4", 5126, 4, 64, false}, {"VEC3", 5121, 4, 16, false},
+    {"SCALAR", 5123, 6, 12, false}, {"VEC3", 5126, 4, 48, true},  {"SCALAR", 5121, 4, 4, false},
+    {"MAT2", 5121, 4, 32, false},   {"VEC4", 5121, 4, 16, false}};
 enum { ARRAY_COUNT = sizeof arrays / sizeof *arrays };
 
 typedef struct quad_data {
@@ -83,10 +82,10 @@ static size_t print_json(char *json, size_t size, const char *uri, const char *a
             json + at, size - at,
             "%s{\"bufferView\":%d,\"componentType\":%d,\"count\":%d,\"type\":\"%s\"%s}",
             i ? "," : "", i, arrays[i].component_type, arrays[i].count, arrays[i].type,
-            i == 0   ? ",\"min\":[0,0,0],\"max\":[1,1,0]"
-            : i == 7 ? ",\"min\":[0,0,0.5],\"max\":[0,0,3.5]"
+            i == 0    ? ",\"min\":[0,0,0],\"max\":[1,1,0]"
+            : i == 7  ? ",\"min\":[0,0,0.5],\"max\":[0,0,3.5]"
             : i == 10 ? ",\"normalized\":true"
-                     : "");
+                      : "");
     }
     at += (size_t)snprintf(json + at, size - at, "],%s}", rest);
     assert_true(at < size);

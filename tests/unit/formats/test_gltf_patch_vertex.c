@@ -11,7 +11,7 @@
 #define ASSET "{\"version\":\"2.0\"}"
 #define ONE_NODE "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
 #define MESH(attributes)                                                                           \
-    "\"materials\":[{\"name\":\"m\"}],\"meshes\":[{\"primitives\":[{\"attributes\":{" attributes  \
+    "\"materials\":[{\"name\":\"m\"}],\"meshes\":[{\"primitives\":[{\"attributes\":{" attributes   \
     "},\"indices\":6,\"material\":0}]}]"
 #define POINT "\"POSITION\":0,\"NORMAL\":1"
 #define FIRST "meshes/0/primitives/0/"
@@ -86,9 +86,9 @@ static void containers_of_every_kind(void **state)
     for (int from = 0; from < 2; from++) {
         for (int to = 0; to < 2; to++) {
             const char *rest = ONE_NODE MESH(POINT);
-            quad_bake bake = open_bake(from == 0 ? quad_write_glb(ASSET, rest)
-                                                 : quad_write_gltf(ASSET, rest),
-                                       ALPI_VERTEX_COLOR);
+            quad_bake bake =
+                open_bake(from == 0 ? quad_write_glb(ASSET, rest) : quad_write_gltf(ASSET, rest),
+                          ALPI_VERTEX_COLOR);
             quad_write(&bake, endings[to]);
             require_colors(&bake);
             quad_close(&bake);
@@ -99,8 +99,8 @@ static void containers_of_every_kind(void **state)
 static void byte_colors_are_multiplied(void **state)
 {
     (void)state;
-    quad_bake bake = open_bake(quad_write_glb(ASSET, ONE_NODE MESH(POINT ",\"COLOR_0\":10")),
-                               ALPI_VERTEX_COLOR);
+    quad_bake bake =
+        open_bake(quad_write_glb(ASSET, ONE_NODE MESH(POINT ",\"COLOR_0\":10")), ALPI_VERTEX_COLOR);
     quad_write(&bake, ".glb");
     alpi_gltf_values colors = read_values(&bake, FIRST "attributes/COLOR_0");
     assert_int_equal(colors.component_type, 5123);
@@ -231,8 +231,8 @@ static void a_second_bake_into_colors_is_told(void **state)
                         "{\"vertex_attribute\":\"COLOR_0\"}}}}";
     const char *rest = ONE_NODE MESH(POINT ",\"COLOR_0\":10");
     for (int own = 0; own < 2; own++) {
-        quad_bake bake = open_bake(quad_write_glb(asset, rest),
-                                   own ? ALPI_VERTEX_OCCLUSION : ALPI_VERTEX_COLOR);
+        quad_bake bake =
+            open_bake(quad_write_glb(asset, rest), own ? ALPI_VERTEX_OCCLUSION : ALPI_VERTEX_COLOR);
         test_log_clear();
         quad_write(&bake, ".glb");
         assert_int_equal(test_log_has("baked-twice"), !own);

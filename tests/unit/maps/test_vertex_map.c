@@ -53,11 +53,11 @@ static void equal_position_and_normal_are_one(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    // Two triangles at an edge whose vertices the file splits: 0 = 3 in all; 2 and 4 differ by their
-    // normals; 6 belongs to no triangle.
-    const float positions[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, 0},
+    // Two triangles at an edge whose vertices the file splits: 0 = 3 in all; 2 and 4 differ by
+    // their normals; 6 belongs to no triangle.
+    const float positions[7][3] = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {-0.0f, 0, 0},
                                    {0, 1, 0}, {-1, 0, 0}, {5, 5, 5}};
-    const float normals[7][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1},
+    const float normals[7][3] = {{0, 0, 1},       {0, 0, 1}, {0, 0, 1}, {0, 0, 1},
                                  {0, 0.6f, 0.8f}, {0, 0, 1}, {0, 0, 1}};
     const uint32_t indices[2][3] = {{0, 1, 2}, {3, 4, 5}};
     alp_scene *scene = make_scene(context, 7, positions[0], normals[0], 2, indices[0]);
@@ -166,7 +166,8 @@ static void points_are_uniform_over_the_share(void **state)
 static void one_triangle_has_a_closed_form(void **state)
 {
     (void)state;
-    // Deviations from the mean of the three: (11/18 − 7/36 + 1/2) out = (1 + 1/2) in, out = 18/11 in.
+    // Deviations from the mean of the three: (11/18 − 7/36 + 1/2) out = (1 + 1/2) in, out = 18/11
+    // in.
     alp_context *context = test_context(1);
     const float positions[3][3] = {{0, 0, 0}, {4, 0, 0}, {1, 3, 0}};
     const float normals[3][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
