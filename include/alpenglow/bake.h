@@ -19,16 +19,37 @@ typedef enum alp_existing_ao {
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
-    /// Where
-    /// a primitive has COLOR_0 already, its R, G and B are multiplied and A stays (default).
+    /// Where a primitive has COLOR_0 already, its R, G and B are multiplied, A stays (default).
     ALP_VERTEX_COLOR = 0,
     ALP_VERTEX_OCCLUSION = 1 ///< _OCCLUSION, a scalar for shaders that know it; COLOR_0 stays
 } alp_vertex_attribute;
 
+/// Values of alp_sampling_options.accuracy that are no accuracy.
+#define ALP_ADAPTIVE_OFF 0.0f
+#define ALP_ADAPTIVE_AUTO (-1.0f)
+
+/// How many texels are traced, with how many rays, and when a bake stops. ALP_ATLAS_VERTEX: every
+/// vertex gets all rays, so that accuracy, error, time_limit and keep_partial must stay as they
+/// are.
+typedef struct alp_sampling_options {
+    /// AUTO (default): texels between traced ones are interpolated where those agree within the
+    /// noise; OFF: every texel is traced; in (0, 1): they may differ by 1 − accuracy^distance, the
+    /// distance in texels. .5 is a draft, .98 is careful.
+    float accuracy;
+    /// Wanted relative error: √(mean of squared standard errors) / mean of the map, with the 99th
+    /// percentile below four times as much. Rounds of more and more rays until it is reached or
+    /// occlusion.samples is. 0 (default): occlusion.samples rays in one round.
+    float error;
+    double time_limit;     ///< seconds after which sampling ends with what it has; 0 = none
+    uint64_t memory_limit; ///< bytes of ours, the scene's apart; 0 = nine tenths of the machine's
+    bool keep_partial;     ///< a cancelled bake ends with what it has instead of with nothing
+} alp_sampling_options;
+
 typedef struct alp_bake_options {
     size_t struct_size;
-    alp_atlas_options atlas;               ///< its progress is ignored
-    alp_occlusion_options occlusion;       ///< its progress is ignored
+    alp_atlas_options atlas;         ///< its progress is ignored
+    alp_occlusion_options occlusion; ///< its progress is ignored
+    alp_sampling_options sampling;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
     const char *output;                    ///< .glb or .gltf, or NULL: no asset

@@ -272,6 +272,14 @@ static void what_has_no_meaning_is_refused(void **state)
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.vertex_attribute = ALP_VERTEX_OCCLUSION;
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    options = vertex_options(4);
+    options.sampling.error = 0.01f;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    options = vertex_options(4);
+    options.sampling.memory_limit = 1000;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_LIMIT);
+    options.sampling.memory_limit = 1 << 20;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
     alp_atlas *atlas = NULL;
     options = vertex_options(4);
     assert_int_equal(alp_atlas_create(scene, &options.atlas, &atlas), ALP_ERROR_INVALID_ARGUMENT);
