@@ -70,6 +70,13 @@ static alp_result check_memory(const alpi_bake_job *job)
 
 // --- triangles that are too large ----------------------------------------------------------------
 
+/// Mean square error that is worth a warning. Noise of the values is no fault of the triangles: its
+/// variance is at most 1/4 over the rays, times 3/2 by the fit, times 1/2 by interpolating.
+static double coarse_limit(const alpi_bake_job *job)
+{
+    return COARSE * COARSE + 0.1875 / (double)job->options.occlusion.samples;
+}
+
 /// Where errors shrink with the edge, half of what is worth a warning is reached at this one.
 static double advised_edge(const alpi_vertex_detail *detail)
 {
@@ -90,11 +97,12 @@ static void warn_of_surface(const alpi_bake_job *job, const char *name,
 static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details)
 {
     uint32_t count = job->scene->surface_count;
+    double limit = coarse_limit(job);
     alpi_vertex_detail small = {0}; // surfaces of too few points, together
     for (int named = 0; named < NAMED_LIMIT; named++) {
         uint32_t worst = ALPI_NONE;
         for (uint32_t s = 0; s < count; s++) {
-            if (details[s].point_count >= POINTS_LEAST && details[s].square > COARSE * COARSE &&
+            if (details[s].point_count >= POINTS_LEAST && details[s].square > limit &&
                 (worst == ALPI_NONE || details[s].square > details[worst].square)) {
                 worst = s;
             }
@@ -108,7 +116,7 @@ static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details
     uint32_t more = 0;
     for (uint32_t s = 0; s < count; s++) {
         const alpi_vertex_detail *d = &details[s];
-        more += d->point_count >= POINTS_LEAST && d->square > COARSE * COARSE;
+        more += d->point_count >= POINTS_LEAST && d->square > limit;
         if (d->point_count < POINTS_LEAST) {
             small.point_count += d->point_count;
             small.square += d->square * d->point_count;
@@ -123,7 +131,7 @@ static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details
     if (small.point_count >= POINTS_LEAST && small.weight > 0.0) {
         small.square /= small.point_count;
         small.edge /= small.weight;
-        if (small.square > COARSE * COARSE) {
+        if (small.square > limit) {
             warn_of_surface(job, "small objects together", &small);
         }
     }
