@@ -133,10 +133,13 @@ static void count_shares(alpi_vertex_map *map)
 }
 
 /// Fills shares in triangle order; first_share[i] runs to the end of its own and is set back.
-static void list_shares(alpi_vertex_map *map)
+static alp_result list_shares(alpi_vertex_map *map)
 {
     const alp_scene *scene = map->scene;
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (t % TICK_TRIANGLES == 0) {
+            ALP_TRY(alpi_tick(map->context, "vertices", t, scene->triangle_count));
+        }
         for (uint32_t k = 0; scene->triangle_usable[t] && k < 3; k++) {
             uint32_t receiver = corner_receiver(map, t, k);
             map->areas[receiver] += triangle_area(scene, t) / 3.0;
@@ -147,17 +150,22 @@ static void list_shares(alpi_vertex_map *map)
         map->first_share[i] = map->first_share[i - 1];
     }
     map->first_share[0] = 0;
+    return ALP_OK;
 }
 
-static void sum_shares(alpi_vertex_map *map)
+static alp_result sum_shares(alpi_vertex_map *map)
 {
     for (uint32_t i = 0; i < map->count; i++) {
+        if (i % TICK_TRIANGLES == 0) {
+            ALP_TRY(alpi_tick(map->context, "vertices", i, map->count));
+        }
         double sum = 0.0;
         for (uint32_t s = map->first_share[i]; s < map->first_share[i + 1]; s++) {
             sum += triangle_area(map->scene, map->shares[s] / 3) / 3.0;
             map->ends[s] = (float)(sum / map->areas[i]);
         }
     }
+    return ALP_OK;
 }
 
 static alp_result find_shares(alpi_vertex_map *map)
@@ -173,9 +181,8 @@ static alp_result find_shares(alpi_vertex_map *map)
     ALPI_TRY_NEW(map->context, map->ends, 3 * (size_t)scene->usable_count);
     ALPI_TRY_NEW(map->context, map->areas, map->count);
     count_shares(map);
-    list_shares(map);
-    sum_shares(map);
-    return ALP_OK;
+    ALP_TRY(list_shares(map));
+    return sum_shares(map);
 }
 
 alp_result alpi_vertex_map_create(const alp_scene *scene, alpi_vertex_map *map)
