@@ -29,12 +29,18 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
                    {OPTION_PADDING, "--padding"},
                    {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_QUALITY, "--quality"},
+                   {OPTION_ERROR, "--error"},
+                   {OPTION_ADAPTIVE, "--adaptive"},
+                   {OPTION_TIME_LIMIT, "--time-limit"},
+                   {OPTION_KEEP_PARTIAL, "--keep-partial"},
                    {OPTION_MAPS_FOLDER, "--maps-dir"}};
     bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
         if (values[of_maps[i].id].given) {
             return usage_error(COMMAND_BAKE,
-                               "%s: has no meaning with --atlas vertex, which makes no map",
+                               "%s: has no meaning with --atlas vertex, which makes no map and "
+                               "sends every vertex all rays",
                                of_maps[i].name);
         }
     }
@@ -44,6 +50,38 @@ static int check_vertex_options(const option_value *values)
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
     }
+    return EXIT_DONE;
+}
+
+/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
+/// unless it is given.
+static int read_sampling(const command_line *a, alp_bake_options *o)
+{
+    enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
+    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
+    enum { MOST_SAMPLES = 65536 };
+    const option_value *values = a->values;
+    const option_value *adaptive = &values[OPTION_ADAPTIVE];
+    alp_sampling_options *s = &o->sampling;
+    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
+        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
+                           values[OPTION_QUALITY].text,
+                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
+    }
+    if (values[OPTION_QUALITY].given) {
+        s->error = quality_errors[values[OPTION_QUALITY].choice];
+    } else if (values[OPTION_ERROR].given) {
+        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    }
+    s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
+    if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
+        o->occlusion.samples = MOST_SAMPLES;
+    }
+    s->accuracy = adaptive->choice == ADAPTIVE_AUTO  ? ALP_ADAPTIVE_AUTO
+                  : adaptive->choice == ADAPTIVE_OFF ? ALP_ADAPTIVE_OFF
+                                                     : (float)adaptive->real;
+    s->memory_limit = values[OPTION_MEMORY_LIMIT].given ? values[OPTION_MEMORY_LIMIT].whole : 0;
+    s->keep_partial = values[OPTION_KEEP_PARTIAL].given;
     return EXIT_DONE;
 }
 
@@ -69,7 +107,8 @@ static int read_options(const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE) {
         code = check_output_name(o->output);
     }
-    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
 
 static void print_atlas(const alp_atlas_info *atlas)
@@ -90,7 +129,7 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
 
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %llu rays per %s, ", (unsigned long long)a->values[OPTION_AO_SAMPLES].whole,
+    printf("occlusion  %u rays per %s, ", r->ao_samples,
            r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
@@ -100,6 +139,14 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
                                                          : "");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return; // no texels, no stated error
+    }
+    printf(
+        "sampling   %llu texels traced, %llu interpolated; stated error %.2g %% of the mean, 99 %% "
+        "of the texels within %.2g %%\n",
+        (unsigned long long)r->traced, (unsigned long long)r->interpolated,
+        100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
 }
 
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
@@ -109,7 +156,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
-        printf("maps       %s/ao.exr, ao.png%s\n", o->maps_folder,
+        printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
     }
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
@@ -153,6 +200,10 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         print_summary(s, a, o, &report);
     }
     alp_lightmap_destroy(lightmap);
+    if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {
+        failure("interrupted; what there was is written (--keep-partial)");
+        return EXIT_INTERRUPTED;
+    }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 

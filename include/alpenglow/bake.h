@@ -53,7 +53,8 @@ typedef struct alp_bake_options {
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
     const char *output;                    ///< .glb or .gltf, or NULL: no asset
-    /// ao.exr, ao.1.exr … and ao.png, or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
+    /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
+    /// (red traced, green interpolated), or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
@@ -68,9 +69,15 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
-    uint32_t vertices; ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
-    float ao_distance; ///< metres, as used
-    double ao_mean;    ///< area-weighted mean accessibility
+    uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
+    float ao_distance;   ///< metres, as used
+    uint32_t ao_samples; ///< rays of a traced texel
+    uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
+    /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
+    /// over its mean.
+    double ao_relative_error, ao_p99_error;
+    bool cut_off;   ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean; ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
     uint32_t threads;

@@ -15,6 +15,12 @@ typedef struct alpi_bake_job {
     alp_bake_report report;
 } alpi_bake_job;
 
+/// Tells the user that a stage begins; false from the user cancels.
+alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
+
+/// Occlusion at the texels of the lightmap, stored in it; fills the report.
+alp_result alpi_bake_occlusion(alpi_bake_job *job);
+
 /// Bytes of ours that a bake on this atlas holds at its peak, the scene and the tracer apart.
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas);
 /// LIMIT when that is more than nine tenths of the machine's memory.

@@ -184,6 +184,7 @@ static alp_result store(alpi_bake_job *job, const alpi_vertex_map *map, const fl
 
 static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *values)
 {
+    ALP_TRY(alpi_bake_begin_stage(job, "build"));
     alpi_tracer *tracer = NULL;
     ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
                                   &tracer, &job->report.seconds_build));
@@ -197,6 +198,7 @@ static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *
     const alpi_receivers receivers = alpi_vertex_map_receivers(map);
     alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, map->count, values);
     job->report.rays = (uint64_t)map->count * setup.samples;
+    job->report.ao_samples = setup.samples;
     alpi_occlusion_release(&setup);
     ALP_TRY(result);
     job->report.ao_mean = area_mean(map, values);
@@ -210,6 +212,7 @@ static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *
 static alp_result find_values(alpi_bake_job *job)
 {
     double started = alpi_seconds();
+    ALP_TRY(alpi_bake_begin_stage(job, "vertices"));
     alpi_vertex_map map;
     ALP_TRY(alpi_vertex_map_create(job->scene, &map));
     job->report.atlas = (alp_atlas_info){.mode = ALP_ATLAS_VERTEX};
@@ -269,7 +272,7 @@ alp_result alpi_bake_vertices(alpi_bake_job *job)
     ALP_TRY(check_memory(job));
     ALP_TRY(find_values(job));
     double write_started = alpi_seconds();
-    ALP_TRY(alpi_tick(job->context, "write", 0, 1));
+    ALP_TRY(alpi_bake_begin_stage(job, "write"));
     if (job->options.output != NULL) {
         ALP_TRY(write_asset(job));
     }

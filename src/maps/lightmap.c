@@ -17,6 +17,8 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
     }
     alpi_release(context, lightmap->pages);
     alpi_release(context, lightmap->vertex_values);
+    alpi_release(context, lightmap->errors);
+    alpi_release(context, lightmap->states);
     alpi_texels_destroy(context, &lightmap->texels);
     alp_atlas_destroy(lightmap->atlas);
     alpi_release(context, lightmap);
@@ -28,6 +30,9 @@ static alp_result allocate_pages(alp_lightmap *l)
     if (l->pages == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
+    ALPI_TRY_NEW(l->context, l->errors, l->texels.count);
+    ALPI_TRY_NEW(l->context, l->states, l->texels.count);
+    memset(l->states, ALPI_TEXEL_TRACED, l->texels.count); // until somebody knows better
     for (uint32_t p = 0; p < l->page_count; p++) {
         ALPI_TRY_NEW(l->context, l->pages[p], 4 * (size_t)l->width * l->height);
     }
@@ -82,7 +87,7 @@ alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
         size_t at = (size_t)texels->pixels[i][1] * lightmap->width + texels->pixels[i][0];
         float *pixel = lightmap->pages[texels->pages[i]] + 4 * at;
         pixel[0] = pixel[1] = pixel[2] = values[i];
-        pixel[3] = 1.0f;
+        pixel[3] = lightmap->states[i] != ALPI_TEXEL_OPEN ? 1.0f : 0.0f;
     }
     for (uint32_t p = 0; p < lightmap->page_count; p++) {
         ALP_TRY(
@@ -129,6 +134,38 @@ alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
     for (size_t i = 0; i < count; i++) {
         float value = fminf(fmaxf(source[4 * i], 0.0f), 1.0f);
         target[i] = (uint8_t)(value * 255.0f + 0.5f);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page, alp_image **image)
+{
+    const alpi_texels *texels = &lightmap->texels;
+    alp_image_info info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    float *pixels = (*image)->pixels;
+    for (uint32_t i = texels->page_first[page]; i < texels->page_first[page + 1]; i++) {
+        float *pixel =
+            pixels + 4 * ((size_t)texels->pixels[i][1] * info.width + texels->pixels[i][0]);
+        pixel[0] = pixel[1] = pixel[2] = lightmap->errors[i];
+        pixel[3] = lightmap->states[i] != ALPI_TEXEL_OPEN ? 1.0f : 0.0f;
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
+                                        alp_image **image)
+{
+    static const uint8_t colors[][3] = {[ALPI_TEXEL_OPEN] = {40, 60, 220},
+                                        [ALPI_TEXEL_TRACED] = {220, 40, 40},
+                                        [ALPI_TEXEL_INTERPOLATED] = {40, 180, 60}};
+    const alpi_texels *texels = &lightmap->texels;
+    alp_image_info info = {lightmap->width, lightmap->height, 3, ALP_COMPONENT_U8};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    uint8_t *pixels = (*image)->pixels;
+    for (uint32_t i = texels->page_first[page]; i < texels->page_first[page + 1]; i++) {
+        const size_t at = (size_t)texels->pixels[i][1] * info.width + texels->pixels[i][0];
+        memcpy(pixels + 3 * at, colors[lightmap->states[i]], 3);
     }
     return ALP_OK;
 }

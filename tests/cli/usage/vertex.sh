@@ -7,6 +7,11 @@ try bake scene.glb -o out.glb --atlas vertex --padding 2
 try bake scene.glb -o out.glb --atlas vertex --existing-ao multiply
 try bake scene.glb -o out.glb --atlas vertex --maps-dir maps
 try bake scene.glb --atlas vertex --maps-dir maps
+try bake scene.glb -o out.glb --atlas vertex --error 1
+try bake scene.glb -o out.glb --atlas vertex --quality high
+try bake scene.glb -o out.glb --atlas vertex --time-limit 5
+try bake scene.glb -o out.glb --atlas vertex --keep-partial
+try bake scene.glb -o out.glb --atlas vertex --adaptive off
 try bake scene.glb --atlas vertex
 try bake scene.glb -o out.glb --vertex-attribute color
 try bake scene.glb -o out.glb --atlas charts --vertex-attribute occlusion
