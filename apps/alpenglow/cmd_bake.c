@@ -19,6 +19,40 @@ static int check_output_name(const char *path)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
 }
 
+/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+static int check_vertex_options(const option_value *values)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } of_maps[] = {{OPTION_SIZE, "--size"},
+                   {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
+                   {OPTION_PADDING, "--padding"},
+                   {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_QUALITY, "--quality"},
+                   {OPTION_ERROR, "--error"},
+                   {OPTION_ADAPTIVE, "--adaptive"},
+                   {OPTION_TIME_LIMIT, "--time-limit"},
+                   {OPTION_KEEP_PARTIAL, "--keep-partial"},
+                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+    bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
+    for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
+        if (values[of_maps[i].id].given) {
+            return usage_error(COMMAND_BAKE,
+                               "%s: has no meaning with --atlas vertex, which makes no map and "
+                               "sends every vertex all rays",
+                               of_maps[i].name);
+        }
+    }
+    if (at_vertices && !values[OPTION_OUTPUT].given) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb or -o OUT.gltf");
+    }
+    if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
+        return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
+    }
+    return EXIT_DONE;
+}
+
 /// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
 /// unless it is given.
 static int read_sampling(const command_line *a, alp_bake_options *o)
@@ -60,15 +94,19 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
     o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
     o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
-    if (o->output == NULL && o->maps_folder == NULL) {
+    int code = check_vertex_options(values);
+    if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    int code = check_output_name(o->output);
+    if (code == EXIT_DONE) {
+        code = check_output_name(o->output);
+    }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
@@ -82,9 +120,17 @@ static void print_atlas(const alp_atlas_info *atlas)
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
 }
 
+static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("vertices   %u of different position or normal, %u triangles, values in %s\n",
+           r->vertices, r->scene.usable_triangles,
+           o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
+}
+
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %u rays per texel, ", r->ao_samples);
+    printf("occlusion  %u rays per %s, ", r->ao_samples,
+           r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
@@ -93,6 +139,9 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
                                                          : "");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return; // no texels, no stated error
+    }
     printf(
         "sampling   %llu texels traced, %llu interpolated; stated error %.2g %% of the mean, 99 %% "
         "of the texels within %.2g %%\n",
@@ -110,7 +159,11 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
     }
-    print_atlas(&r->atlas);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        print_vertices(o, r);
+    } else {
+        print_atlas(&r->atlas);
+    }
     print_occlusion(a, r);
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,

@@ -154,12 +154,27 @@ static const option options[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
-     .value = "auto|keep|charts",
-     .choices = "auto|keep|charts",
-     .later_choices = "blend|vertex",
+     .value = "auto|keep|charts|vertex",
+     .choices = "auto|keep|charts|vertex",
+     .later_choices = "blend",
      .initial = "auto",
      .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
-             "charts: unwrap anew. auto: keep where it is valid, else charts."},
+             "charts: unwrap anew. auto: keep where it is valid, else charts. vertex: no map, but "
+             "a value at each vertex, the best for linear interpolation over its triangles; "
+             "options of maps, of their error and of stopping have no meaning then and are "
+             "refused. Warns where triangles are too large for it."},
+    {.id = OPTION_VERTEX_ATTRIBUTE,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--vertex-attribute",
+     .value = "color|occlusion",
+     .choices = "color|occlusion",
+     .initial = "color",
+     .help = "Where --atlas vertex writes its values, 16 bits. color: COLOR_0, which viewers "
+             "multiply into the base colour; colours that are there already are multiplied, "
+             "alpha stays. occlusion: the attribute _OCCLUSION, for shaders that read it; "
+             "COLOR_0 stays as it is."},
     {.id = OPTION_PADDING,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,

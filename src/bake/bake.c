@@ -36,6 +36,7 @@ static alp_result check_options(const alpi_bake_job *job)
                          "(need 0 or more)",
                          (double)s->accuracy, (double)s->error, s->time_limit);
     }
+    ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -81,6 +82,9 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_bake_vertices(job);
+    }
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));

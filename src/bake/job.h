@@ -32,6 +32,17 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 
+/// Refuses what has no meaning together with the choice of values at vertices or of maps.
+alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);
+/// The whole job of ALP_ATLAS_VERTEX, after the options were checked.
+alp_result alpi_bake_vertices(alpi_bake_job *job);
+
+/// The object that goes to asset.extras.alpenglow, as text that the caller releases; NULL without
+/// memory.
+char *alpi_bake_make_extras(const alpi_bake_job *job);
+/// A warning when nearly nothing is open.
+void alpi_bake_warn_of_darkness(const alpi_bake_job *job);
+
 /// Multiplies each value by the occlusion map that the texel's material has already.
 void alpi_bake_multiply_existing(const alpi_bake_job *job, float *accessibility);
 

@@ -21,7 +21,7 @@ static double area_mean(const alpi_texels *texels, const alpi_lattice *lattice)
     return area > 0.0 ? sum / area : 0.0;
 }
 
-static void warn_of_darkness(const alpi_bake_job *job)
+void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
 {
     if (job->report.ao_mean < 0.05) {
         bool limited = isfinite(job->report.ao_distance);
@@ -64,7 +64,7 @@ static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map
     r->ao_p99_error = map->p99;
     r->cut_off = map->cut_off;
     r->ao_mean = area_mean(&job->lightmap->texels, lattice);
-    warn_of_darkness(job);
+    alpi_bake_warn_of_darkness(job);
     warn_of_error(job);
 }
 

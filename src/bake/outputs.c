@@ -76,11 +76,24 @@ static const char *falloff_name(alp_falloff falloff)
 
 static const char *atlas_name(alp_atlas_mode mode)
 {
-    return mode == ALP_ATLAS_KEEP ? "keep" : "charts";
+    return mode == ALP_ATLAS_KEEP ? "keep" : mode == ALP_ATLAS_VERTEX ? "vertex" : "charts";
 }
 
-/// The object that goes to asset.extras.alpenglow: version, options, quantity, input hash.
-static char *make_extras(const alpi_bake_job *job)
+/// Values at vertices have an attribute instead of pages.
+static void replace_pages(const alpi_bake_job *job, json_t *occlusion)
+{
+    bool in_color = job->options.vertex_attribute == ALP_VERTEX_COLOR;
+    json_object_del(occlusion, "size");
+    json_object_del(occlusion, "pages");
+    json_object_del(occlusion, "padding");
+    json_object_del(occlusion, "stated_relative_error"); // none is stated
+    json_object_del(occlusion, "cut_off");
+    json_object_set_new(occlusion, "vertex_attribute",
+                        json_string(in_color ? "COLOR_0" : "_OCCLUSION"));
+}
+
+/// Version, options, quantity, input hash.
+char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
     const alp_occlusion_options *ao = &job->options.occlusion;
     char hash[17];
@@ -97,6 +110,9 @@ static char *make_extras(const alpi_bake_job *job)
         job->report.ao_relative_error, "cut_off", (int)job->report.cut_off, "atlas",
         atlas_name(job->report.atlas.mode), "size", (int)job->report.atlas.width, "pages",
         (int)job->report.atlas.pages, "padding", (int)job->options.atlas.padding);
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        replace_pages(job, json_object_get(object, "occlusion"));
+    }
     char *text = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
     char *copy = text ? alpi_copy_string(job->context, text) : NULL;
@@ -186,7 +202,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     uint32_t count = job->lightmap->page_count;
     const uint8_t **pngs = ALPI_NEW(job->context, const uint8_t *, count);
     size_t *sizes = ALPI_NEW(job->context, size_t, count);
-    char *extras = make_extras(job);
+    char *extras = alpi_bake_make_extras(job);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (pngs != NULL && sizes != NULL && extras != NULL) {
         for (uint32_t p = 0; p < count; p++) {

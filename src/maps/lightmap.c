@@ -16,6 +16,7 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
         alpi_release(context, lightmap->pages[p]);
     }
     alpi_release(context, lightmap->pages);
+    alpi_release(context, lightmap->vertex_values);
     alpi_release(context, lightmap->errors);
     alpi_release(context, lightmap->states);
     alpi_texels_destroy(context, &lightmap->texels);
@@ -47,6 +48,7 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     l->context = atlas->context;
+    l->scene = atlas->scene;
     l->atlas = atlas;
     l->page_count = atlas->info.pages;
     l->width = atlas->info.width;
@@ -60,6 +62,21 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
         return result;
     }
     *lightmap = l;
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
+                                         alp_lightmap **lightmap)
+{
+    alp_lightmap *l = ALPI_NEW(scene->context, alp_lightmap, 1);
+    *lightmap = l;
+    if (l == NULL) {
+        alpi_release(scene->context, values);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    l->context = scene->context;
+    l->scene = scene;
+    l->vertex_values = values;
     return ALP_OK;
 }
 
@@ -82,6 +99,13 @@ alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3])
 {
+    if (lightmap->vertex_values != NULL) {
+        const uint32_t *corner = lightmap->scene->triangles[triangle];
+        const float *values = lightmap->vertex_values;
+        rgb[0] = rgb[1] = rgb[2] =
+            (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] + b2 * values[corner[2]];
+        return;
+    }
     const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
     float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
     float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
@@ -169,4 +193,16 @@ const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)
 {
     return lightmap ? lightmap->atlas : NULL;
+}
+
+const float *alp_lightmap_vertex_values(const alp_lightmap *lightmap, uint32_t surface,
+                                        uint32_t *count)
+{
+    bool there = lightmap != NULL && lightmap->vertex_values != NULL &&
+                 surface < lightmap->scene->surface_count;
+    const alpi_surface *s = there ? &lightmap->scene->surfaces[surface] : NULL;
+    if (count != NULL) {
+        *count = there ? s->vertex_count : 0;
+    }
+    return there ? lightmap->vertex_values + s->first_vertex : NULL;
 }

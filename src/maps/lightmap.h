@@ -11,7 +11,9 @@
 
 struct alp_lightmap {
     alp_context *context;
-    alp_atlas *atlas; // owned
+    const alp_scene *scene;
+    float *vertex_values; // [scene vertices], owned; then there is no atlas and no page. Or NULL.
+    alp_atlas *atlas;     // owned
     alpi_texels texels;
     uint32_t page_count, width, height;
     float *errors;   // [texels] standard error of each
@@ -21,6 +23,10 @@ struct alp_lightmap {
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.
 alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap);
+
+/// Values at the scene's vertices, [scene vertices]; takes them over, also on failure.
+alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
+                                         alp_lightmap **lightmap);
 
 /// Writes one value per texel into R = G = B, coverage 1 into A, and fills the rest of each page
 /// from the nearest covered texel, so that no filter or mip level ever reads something that is no
@@ -34,7 +40,7 @@ alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page
 alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
                                         alp_image **image);
 
-/// Bilinear look-up at a point of a triangle.
+/// Bilinear look-up at a point of a triangle, or linear between the values at its vertices.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
 
