@@ -108,7 +108,7 @@ static alp_result gather_occlusion(alpi_bake_job *job, float *values)
     ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
     job->report.ao_distance = setup.distance;
     const alpi_texels *texels = &job->lightmap->texels;
-    const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
+    const alpi_receivers receivers = alpi_texels_receivers(texels);
     alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, texels->count, values);
     job->report.rays = (uint64_t)texels->count * setup.samples;
     alpi_occlusion_release(&setup);

@@ -75,7 +75,7 @@ static alp_result create(const alp_atlas *atlas, alpi_lattice *l)
     (void)atlas;
     fill_grid(l);
     fill_order(l);
-    memcpy(l->normals, l->texels->points.shading_normals, l->texels->count * sizeof *l->normals);
+    memcpy(l->normals, l->texels->normals, l->texels->count * sizeof *l->normals);
     return ALP_OK;
 }
 
