@@ -11,7 +11,7 @@
 /// What all texels of one triangle share: neighbouring texels mostly lie on the same one.
 typedef struct carrier {
     uint32_t triangle;
-    alpi_page_map map; // from the page's corner
+    alpi_facet_patch map; // from the page's corner
     double edges[2][2], heights[3]; // from corner 0; of the corners above the edges opposite; texels
     alpi_facet facet;
 } carrier;
@@ -21,7 +21,7 @@ static void load_carrier(const alp_atlas *atlas, uint32_t triangle, carrier *c)
     alpi_page_triangle shape;
     alpi_page_triangle_load(atlas, triangle, &shape); // it has area: it has a piece in a texel
     c->triangle = triangle;
-    c->map = alpi_page_map_make(&shape, 0.0, 0.0);
+    c->map = alpi_page_triangle_patch(&shape, 0.0, 0.0);
     double(*e)[2] = c->edges;
     for (int k = 0; k < 2; k++) {
         const double *end = shape.p[shape.turned ? 2 - k : k + 1];
@@ -45,7 +45,7 @@ static void leave_edges(const carrier *c, double b[2])
     const double weights[3] = {1.0 - b[0] - b[1], b[0], b[1]};
     double nearest = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        nearest = fmin(nearest, weights[k] * c->heights[k]);
+        nearest = alpi_lesser(nearest, weights[k] * c->heights[k]);
     }
     if (nearest >= margin) {
         return;
@@ -63,7 +63,7 @@ static void find_barycentrics(const carrier *c, double x, double y, double b[2])
 {
     for (int k = 0; k < 2; k++) {
         b[k] = c->map.at[k] + x * c->map.by_x[k] + y * c->map.by_y[k];
-        b[k] = fmin(fmax(b[k], 0.0), 1.0);
+        b[k] = alpi_lesser(alpi_greater(b[k], 0.0), 1.0);
     }
     double sum = b[0] + b[1];
     if (sum > 1.0) {
@@ -81,8 +81,9 @@ enum { ORDER_CELLS = 64 };
 /// Based on: D. Hilbert. Ueber die stetige Abbildung einer Linie auf ein Flächenstück. 1891.
 static uint32_t cell_of_point(float x, float y)
 {
-    int32_t i = (int32_t)fminf(fmaxf(8.0f * x, 0.0f), 7.0f);
-    int32_t j = (int32_t)fminf(fmaxf(8.0f * y, 0.0f), 7.0f);
+    int32_t i = (int32_t)(8.0f * x), j = (int32_t)(8.0f * y);
+    i = i < 0 ? 0 : i > 7 ? 7 : i;
+    j = j < 0 ? 0 : j > 7 ? 7 : j;
     uint32_t index = 0;
     for (int32_t side = 4; side > 0; side /= 2) {
         const int32_t right = (i & side) != 0, upper = (j & side) != 0;
@@ -150,7 +151,7 @@ static void write_texel(const alp_atlas *atlas, const alpi_band *band, const alp
     record->triangle = cell->triangle;
     record->piece_count = is_whole(atlas, band, cell) ? 0 : write_pieces(band, cell, chunk);
     record->area = (float)cell->area;
-    record->coverage = (float)fmin(cell->coverage, 1.0);
+    record->coverage = (float)alpi_lesser(cell->coverage, 1.0);
     for (int k = 0; k < 2; k++) {
         record->barycentrics[k] = (float)b[k];
     }

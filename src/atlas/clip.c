@@ -73,8 +73,8 @@ bool alpi_page_triangle_load(const alp_atlas *atlas, uint32_t triangle, alpi_pag
         exchange(p[1], p[2]);
     }
     for (int i = 0; i < 2; i++) {
-        out->low[i] = fmin(p[0][i], fmin(p[1][i], p[2][i]));
-        out->high[i] = fmax(p[0][i], fmax(p[1][i], p[2][i]));
+        out->low[i] = alpi_lesser(p[0][i], alpi_lesser(p[1][i], p[2][i]));
+        out->high[i] = alpi_greater(p[0][i], alpi_greater(p[1][i], p[2][i]));
     }
     return out->area > 0.0;
 }
@@ -83,14 +83,14 @@ bool alpi_page_triangle_range(const alpi_page_triangle *triangle, int axis, uint
                               uint32_t *first, uint32_t *last)
 {
     const double low = triangle->low[axis], high = triangle->high[axis];
-    double margin = fmin(0x1p-23 * size + 1e-7, 0.25 * (high - low));
+    double margin = alpi_lesser(0x1p-23 * size + 1e-7, 0.25 * (high - low));
     double begin = floor(low + margin), end = ceil(high - margin) - 1.0;
-    end = fmax(begin, end);
+    end = alpi_greater(begin, end);
     if (!(end >= 0.0) || !(begin <= (double)size)) {
         return false;
     }
-    *first = (uint32_t)fmin(fmax(begin, 0.0), (double)size - 1.0);
-    *last = (uint32_t)fmin(fmax(end, 0.0), (double)size - 1.0);
+    *first = (uint32_t)alpi_lesser(alpi_greater(begin, 0.0), (double)size - 1.0);
+    *last = (uint32_t)alpi_lesser(alpi_greater(end, 0.0), (double)size - 1.0);
     return true;
 }
 
@@ -115,13 +115,13 @@ double alpi_page_triangle_cut(const alpi_page_triangle *t, uint32_t x, uint32_t 
     return shape->count > 2 ? alpi_polygon_measure(shape, centroid) : 0.0;
 }
 
-alpi_page_map alpi_page_map_make(const alpi_page_triangle *t, double x, double y)
+alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *t, double x, double y)
 {
     const double scale = 0.5 / t->area;
     const double e1[2] = {scale * (t->p[1][0] - t->p[0][0]), scale * (t->p[1][1] - t->p[0][1])};
     const double e2[2] = {scale * (t->p[2][0] - t->p[0][0]), scale * (t->p[2][1] - t->p[0][1])};
     const int first = t->turned, second = !t->turned;
-    alpi_page_map map;
+    alpi_facet_patch map;
     map.by_x[first] = e2[1];
     map.by_y[first] = -e2[0];
     map.by_x[second] = -e1[1];

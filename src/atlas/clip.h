@@ -4,6 +4,18 @@
 #define ALPI_ATLAS_CLIP_H
 
 #include "atlas/atlas.h"
+#include "atlas/facet.h"
+
+/// Of two finite numbers. (fmin and fmax, which care for NaN, are calls: half the time of a texel.)
+static inline double alpi_lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double alpi_greater(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 enum { ALPI_POLYGON_LIMIT = 8 }; // a triangle cut by four lines has at most 7 corners
 
@@ -42,11 +54,8 @@ bool alpi_page_triangle_range(const alpi_page_triangle *triangle, int axis, uint
 double alpi_page_triangle_cut(const alpi_page_triangle *triangle, uint32_t x, uint32_t y,
                               alpi_polygon *shape);
 
-/// Barycentrics of a triangle's corners 1 and 2 as functions of the page:
-/// b[k] = at[k] + x · by_x[k] + y · by_y[k], (x, y) from an origin of the caller's.
-typedef struct alpi_page_map {
-    double at[2], by_x[2], by_y[2];
-} alpi_page_map;
-alpi_page_map alpi_page_map_make(const alpi_page_triangle *triangle, double x, double y);
+/// Barycentrics of a triangle's corners 1 and 2 as functions of the page, (x, y) in texels from an
+/// origin of the caller's.
+alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *triangle, double x, double y);
 
 #endif

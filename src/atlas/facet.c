@@ -17,6 +17,27 @@ static const float LEAST_HEIGHT = 1e-6f;
 // get 0.22; more comes from normals averaged over a crease, which describe no surface.
 static const float LARGEST_LIFT = 0.25f;
 
+static float larger(float a, float b)
+{
+    return a > b ? a : b; // fmaxf, which cares for NaN, is a call
+}
+
+/// alpi_receiver_offset for the whole triangle: it is convex there, and largest at a corner.
+static float find_offset(const alpi_facet *f, const vec3 corner[3])
+{
+    float largest = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        largest = larger(largest, larger(fabsf(corner[k].x), fabsf(corner[k].y)));
+        largest = larger(largest, fabsf(corner[k].z));
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double e1 = f->edges[0][axis], e2 = f->edges[1][axis];
+        largest = larger(largest, larger((float)fabs(e1), (float)fabs(e2)));
+        largest = larger(largest, (float)fabs(e2 - e1));
+    }
+    return alpi_receiver_offset((vec3){largest, 0.0f, 0.0f}, NULL);
+}
+
 static void load_shape(alpi_facet *f, const vec3 corner[3])
 {
     const vec3 first = corner[0];
@@ -31,10 +52,7 @@ static void load_shape(alpi_facet *f, const vec3 corner[3])
         f->edges[k][2] = (double)end.z - base[2];
     }
     f->geometric = vec3_triangle_normal(corner[0], corner[1], corner[2], (vec3){0.0f, 1.0f, 0.0f});
-    f->offset = 0.0f; // it is convex over the triangle: largest at a corner
-    for (int k = 0; k < 3; k++) {
-        f->offset = fmaxf(f->offset, alpi_receiver_offset(corner[k], corner));
-    }
+    f->offset = find_offset(f, corner);
 }
 
 /// Heights of the corners above each other's tangent planes; whether any point must be lifted.
@@ -96,13 +114,13 @@ static vec3 find_lift(const alpi_facet *f, const float w[3])
     for (int i = 0; i < 3; i++) {
         const float *h = f->heights[i];
         const float height = w[0] * h[0] + w[1] * h[1] + w[2] * h[2];
-        lift = vec3_mad(lift, -w[i] * fminf(height, 0.0f), vec3_load(f->normals[i]));
+        lift = vec3_mad(lift, -w[i] * (height < 0.0f ? height : 0.0f), vec3_load(f->normals[i]));
     }
     const float length = vec3_length(lift);
     return length > f->lift_limit ? vec3_scale(lift, f->lift_limit / length) : lift;
 }
 
-void alpi_facet_point(const alpi_facet *f, const double b[2], alpi_receiver_point *point)
+static void find_point(const alpi_facet *f, const double b[2], alpi_receiver_point *point)
 {
     point->position.x = (float)(f->corner[0] + b[0] * f->edges[0][0] + b[1] * f->edges[1][0]);
     point->position.y = (float)(f->corner[1] + b[0] * f->edges[0][1] + b[1] * f->edges[1][1]);
@@ -116,5 +134,49 @@ void alpi_facet_point(const alpi_facet *f, const double b[2], alpi_receiver_poin
         if (f->lifted) {
             point->position = vec3_add(point->position, find_lift(f, w));
         }
+    }
+}
+
+void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point)
+{
+    find_point(facet, b, point);
+}
+
+/// The same for a triangle that is flat: all but the position is one for all points.
+static void find_flat_points(const alpi_facet *f, const alpi_facet_patch *patch, uint32_t count,
+                             const float (*square)[2], alpi_receiver_point *points)
+{
+    double origin[3], by_x[3], by_y[3]; // metres
+    for (int axis = 0; axis < 3; axis++) {
+        const double e1 = f->edges[0][axis], e2 = f->edges[1][axis];
+        origin[axis] = f->corner[axis] + patch->at[0] * e1 + patch->at[1] * e2;
+        by_x[axis] = patch->by_x[0] * e1 + patch->by_x[1] * e2;
+        by_y[axis] = patch->by_y[0] * e1 + patch->by_y[1] * e2;
+    }
+    alpi_receiver_point point = {.geometric_normal = f->geometric,
+                                 .shading_normal = f->geometric,
+                                 .offset = f->offset};
+    for (uint32_t i = 0; i < count; i++) {
+        const double x = (double)square[i][0], y = (double)square[i][1];
+        point.position.x = (float)(origin[0] + x * by_x[0] + y * by_y[0]);
+        point.position.y = (float)(origin[1] + x * by_x[1] + y * by_y[1]);
+        point.position.z = (float)(origin[2] + x * by_x[2] + y * by_y[2]);
+        points[i] = point;
+    }
+}
+
+void alpi_facet_points(const alpi_facet *facet, const alpi_facet_patch *patch, uint32_t count,
+                       const float (*square)[2], alpi_receiver_point *points)
+{
+    if (!facet->smooth) {
+        find_flat_points(facet, patch, count, square, points);
+        return;
+    }
+    const alpi_facet_patch p = *patch;
+    for (uint32_t i = 0; i < count; i++) {
+        const double x = (double)square[i][0], y = (double)square[i][1];
+        const double b[2] = {p.at[0] + x * p.by_x[0] + y * p.by_y[0],
+                             p.at[1] + x * p.by_x[1] + y * p.by_y[1]};
+        find_point(facet, b, &points[i]);
     }
 }

@@ -5,31 +5,17 @@
 // goes through pieces and fans by their areas, the second goes from that corner outwards. So
 // neighbours in the square stay neighbours in a piece, and strata stay strata.
 #include "atlas/clip.h"
-#include "atlas/facet.h"
 
 #include <math.h>
 
 enum { BATCH = 64, STRATA = 16 };
-
-/// An affine map of the unit square to the barycentrics of a facet.
-static void place_affine(const alpi_facet *facet, const alpi_page_map *map, uint32_t count,
-                         const float (*square)[2], alpi_receiver_point *points)
-{
-    const alpi_page_map m = *map;
-    for (uint32_t i = 0; i < count; i++) {
-        const double x = (double)square[i][0], y = (double)square[i][1];
-        const double b[2] = {m.at[0] + x * m.by_x[0] + y * m.by_y[0],
-                             m.at[1] + x * m.by_x[1] + y * m.by_y[1]};
-        alpi_facet_point(facet, b, &points[i]);
-    }
-}
 
 // --- cut texels ----------------------------------------------------------------------------------
 
 /// A triangle's part of a texel, as a fan.
 typedef struct fan {
     alpi_facet facet;
-    alpi_page_map map; // from the texel's corner
+    alpi_facet_patch map; // from the texel's corner
     alpi_polygon shape;
     double ends[ALPI_POLYGON_LIMIT]; // of each triangle, ascending to 1
 } fan;
@@ -42,7 +28,7 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     alpi_page_triangle page;
     alpi_page_triangle_load(atlas, triangle, &page);
     alpi_page_triangle_cut(&page, pixel[0], pixel[1], &f->shape);
-    f->map = alpi_page_map_make(&page, pixel[0], pixel[1]);
+    f->map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
     alpi_facet_load(atlas->scene, triangle, (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0,
                     &f->facet);
     double sum = 0.0;
@@ -53,7 +39,7 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     const double *o = f->shape.p[0];
     for (int i = 1; i + 1 < f->shape.count; i++) {
         const double *a = f->shape.p[i], *b = f->shape.p[i + 1];
-        sum += fmax((a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]), 0.0);
+        sum += alpi_greater((a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]), 0.0);
         f->ends[i - 1] = sum;
     }
     for (int i = 1; i + 1 < f->shape.count; i++) {
@@ -69,7 +55,7 @@ static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *
         i++;
     }
     const double begin = i > 0 ? f->ends[i - 1] : 0.0;
-    const double along = f->ends[i] > begin ? fmin((u - begin) / (f->ends[i] - begin), 1.0) : 0.0;
+    const double along = f->ends[i] > begin ? alpi_lesser((u - begin) / (f->ends[i] - begin), 1.0) : 0.0;
     const double outward = sqrt(v); // as many points at a distance as the fan is wide there
     double at[2], b[2];
     for (int k = 0; k < 2; k++) {
@@ -79,7 +65,7 @@ static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *
     }
     for (int k = 0; k < 2; k++) {
         b[k] = f->map.at[k] + at[0] * f->map.by_x[k] + at[1] * f->map.by_y[k];
-        b[k] = fmin(fmax(b[k], 0.0), 1.0);
+        b[k] = alpi_lesser(alpi_greater(b[k], 0.0), 1.0);
     }
     const double sum = b[0] + b[1]; // rounding only: the polygon lies in the triangle
     if (sum > 1.0) {
@@ -173,10 +159,10 @@ static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t c
     alpi_page_triangle page;
     alpi_facet facet;
     alpi_page_triangle_load(texels->atlas, texels->triangles[texel], &page);
-    const alpi_page_map map = alpi_page_map_make(&page, pixel[0], pixel[1]);
+    const alpi_facet_patch map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
     alpi_facet_load(texels->atlas->scene, texels->triangles[texel],
                     (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
-    place_affine(&facet, &map, count, square, points);
+    alpi_facet_points(&facet, &map, count, square, points);
 }
 
 static void place(const void *user, uint32_t texel, uint32_t count, const float (*square)[2],

@@ -80,7 +80,7 @@ static double depth_inside(const active *a, double x, double y)
         const double *p = a->shape.p[k], *q = a->shape.p[k == 2 ? 0 : k + 1];
         double ex = q[0] - p[0], ey = q[1] - p[1];
         double side = ex * (y - p[1]) - ey * (x - p[0]);
-        depth = fmin(depth, side / sqrt(ex * ex + ey * ey));
+        depth = alpi_lesser(depth, side / sqrt(ex * ex + ey * ey));
     }
     return depth;
 }
@@ -116,12 +116,12 @@ static void judge_piece(alpi_cell *cell, const active *a, const part *p)
         } else if (clash) {
             cell->other = triangle;
         }
-        cell->depth = fmax(cell->depth, depth);
+        cell->depth = alpi_greater(cell->depth, depth);
     } else if (!cell->center &&
                (area > cell->piece || (area == cell->piece && triangle < cell->triangle))) {
         take_receiver(cell, a, p->centroid[0], p->centroid[1], false);
     }
-    cell->piece = fmax(cell->piece, area);
+    cell->piece = alpi_greater(cell->piece, area);
     if (cell->coverage > FULL_TEXEL && cell->other == ALPI_NONE) {
         cell->other = triangle;
     }
@@ -154,8 +154,8 @@ static alp_result add_shape(const raster *r, bench *b, alpi_cell *cell, const ac
 {
     part p = {.center = {center[0], center[1]}};
     double area = shape->count > 2 ? alpi_polygon_measure(shape, p.centroid) : 0.0;
-    p.area = fmin(area, 1.0);
-    return area > SMALLEST_PIECE * fmin(1.0, a->shape.area) ? add_piece(r, b, cell, a, &p) : ALP_OK;
+    p.area = alpi_lesser(area, 1.0);
+    return area > SMALLEST_PIECE * alpi_lesser(1.0, a->shape.area) ? add_piece(r, b, cell, a, &p) : ALP_OK;
 }
 
 // --- triangles -----------------------------------------------------------------------------------
@@ -170,8 +170,8 @@ static bool cross_section(const alpi_page_triangle *a, double y, double *left, d
         if ((p[1] <= y && q[1] >= y) || (q[1] <= y && p[1] >= y)) {
             double s = q[1] != p[1] ? (y - p[1]) / (q[1] - p[1]) : 0.0;
             double x = p[0] + s * (q[0] - p[0]);
-            *left = fmin(*left, q[1] != p[1] ? x : fmin(p[0], q[0]));
-            *right = fmax(*right, q[1] != p[1] ? x : fmax(p[0], q[0]));
+            *left = alpi_lesser(*left, q[1] != p[1] ? x : alpi_lesser(p[0], q[0]));
+            *right = alpi_greater(*right, q[1] != p[1] ? x : alpi_greater(p[0], q[0]));
         }
     }
     return *left <= *right;
@@ -185,8 +185,8 @@ static void full_texels(const active *a, uint32_t y, uint32_t *first, uint32_t *
     *first = *end = a->last_column + 1;
     if (cross_section(&a->shape, y, &left[0], &right[0]) &&
         cross_section(&a->shape, y + 1.0, &left[1], &right[1])) {
-        double begin = fmax(ceil(fmax(left[0], left[1])), (double)a->first_column);
-        double stop = fmin(floor(fmin(right[0], right[1])), a->last_column + 1.0);
+        double begin = alpi_greater(ceil(alpi_greater(left[0], left[1])), (double)a->first_column);
+        double stop = alpi_lesser(floor(alpi_lesser(right[0], right[1])), a->last_column + 1.0);
         if (begin < stop) {
             *first = (uint32_t)begin;
             *end = (uint32_t)stop;
