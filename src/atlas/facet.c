@@ -13,9 +13,10 @@ static const float SAME_NORMAL = 1e-10f;
 // A corner this far above another's tangent plane counts, in lengths of the longest edge: more than
 // the rounding of positions and normals.
 static const float LEAST_HEIGHT = 1e-6f;
-// The longest lift, in lengths of the longest edge. A sphere's facets that span 60° need 0.07 and
-// get 0.22; more comes from normals averaged over a crease, which describe no surface.
-static const float LARGEST_LIFT = 0.25f;
+// The longest lift, in lengths of the longest edge. On a sphere whose edges span an angle θ an edge
+// needs up to θ/16, at a quarter of its length: 0.07 on an icosahedron. The formula gives more, and
+// a third where normals are averaged over the creases of a cube, which describe no surface.
+static const float LARGEST_LIFT = 0.125f;
 
 static float larger(float a, float b)
 {

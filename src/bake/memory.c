@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 enum {
-    BYTES_PER_TEXEL = 84,      // alpi_texels 32, its receivers 40, value 4, sum 8
+    BYTES_PER_TEXEL = 61,      // alpi_texels 49, a piece 8, value 4
+    BYTES_TO_GATHER = 20,      // of every texel: sums; gone before the pages are dilated
     BYTES_PER_PAGE_TEXEL = 16, // of every page: float RGBA
     BYTES_TO_DILATE = 5        // of one page at a time: filled 1, queue 4
 };
@@ -14,8 +15,9 @@ enum {
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas)
 {
     uint64_t page = (uint64_t)atlas->width * atlas->height;
+    uint64_t gather = BYTES_TO_GATHER * atlas->texels, dilate = BYTES_TO_DILATE * page;
     return BYTES_PER_TEXEL * atlas->texels + BYTES_PER_PAGE_TEXEL * page * atlas->pages +
-           BYTES_TO_DILATE * page;
+           (gather > dilate ? gather : dilate);
 }
 
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
