@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 enum {
-    // alpi_texels 32, its points 40, lattice 21, error 4, state 1, sums 20, list 5
-    BYTES_PER_TEXEL = 123,
+    // alpi_texels 49, a piece 8, lattice 9, error 4, state 1, sums 20, lists 5
+    BYTES_PER_TEXEL = 96,
     BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
     BYTES_TO_DILATE = 5        // of one page at a time: filled 1, queue 4
 };

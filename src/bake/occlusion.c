@@ -72,7 +72,7 @@ static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lat
 {
     const alp_sampling_options *s = &job->options.sampling;
     const alpi_texels *texels = &job->lightmap->texels;
-    const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
+    const alpi_receivers receivers = alpi_texels_receivers(texels);
     const alpi_occlusion_map_options options = {
         .accuracy = s->accuracy,
         .error = s->error,

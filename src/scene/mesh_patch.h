@@ -17,8 +17,8 @@ typedef enum alpi_vertex_attribute {
 } alpi_vertex_attribute;
 
 typedef struct alpi_mesh_patch {
-    /// Accessibility at the scene's vertices, in [0, 1]: then there are no pages, no coordinates and
-    /// no change of materials. NULL: maps.
+    /// Accessibility at the scene's vertices, in [0, 1]: then there are no pages, no coordinates
+    /// and no change of materials. NULL: maps.
     const float *vertex_values; // [vertex_count]
     alpi_vertex_attribute vertex_attribute;
     uint32_t page_count;

@@ -140,8 +140,8 @@ static void no_stencil_crosses_a_chart_or_takes_the_unknown(void **state)
     const uint32_t middle = l->grid[8 * SIZE + 10];
     alpi_stencil stencil;
     assert_true(alpi_lattice_stencil(l, middle, &stencil));
-    l->normals[l->grid[8 * SIZE + 12]][0] = 1.0f;
-    l->normals[l->grid[8 * SIZE + 12]][1] = 0.0f;
+    s.texels.normals[l->grid[8 * SIZE + 12]][0] = 1.0f;
+    s.texels.normals[l->grid[8 * SIZE + 12]][1] = 0.0f;
     assert_false(alpi_lattice_stencil(l, middle, &stencil));
     tear_down(&s);
 }

@@ -38,7 +38,7 @@ static void set_up(map_setup *setup, uint32_t workers, const char *scene)
     s.truth = calloc(s.texels.count, sizeof *s.truth);
     assert_true(s.errors != NULL && s.truth != NULL);
     *setup = s;
-    setup->receivers = alpi_point_array_receivers(&setup->texels.points);
+    setup->receivers = alpi_texels_receivers(&setup->texels);
 }
 
 static void find_truth(map_setup *s)
