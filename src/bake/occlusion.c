@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/occlusion_map.h"
+#include "maps/validity.h"
 
 #include <math.h>
 
@@ -68,12 +69,57 @@ static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map
     warn_of_error(job);
 }
 
+/// Texels in an order without those that take their value from elsewhere. @return how many
+static uint32_t drop(const alpi_lattice *lattice, uint32_t count, const uint8_t *dropped,
+                     uint32_t *order)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t t = lattice->order[i];
+        if (!dropped[t]) {
+            order[kept++] = t;
+        }
+    }
+    return kept;
+}
+
+/// Looks for texels inside other geometry, then gathers the others.
+static alp_result gather_valid(alpi_bake_job *job, const alpi_occlusion_setup *setup,
+                               const alpi_receivers *receivers, alpi_occlusion_map_options *options,
+                               alpi_lattice *lattice)
+{
+    alpi_texels *texels = &job->lightmap->texels;
+    const alpi_task_progress progress = {
+        .callback = job->options.progress, .user = job->options.progress_user, .stage = "validity"};
+    alpi_validity validity;
+    ALP_TRY(alpi_validity_create(setup, receivers, texels, lattice, lattice->order, texels->count,
+                                 &progress, &validity));
+    job->report.rays += validity.rays;
+    job->report.moved = validity.moved_count;
+    job->report.dropped = validity.dropped_count;
+    options->near = validity.near;
+    uint32_t *order = ALPI_NEW(job->context, uint32_t, texels->count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    alpi_occlusion_map_report report;
+    if (order != NULL) {
+        const uint32_t count = drop(lattice, texels->count, validity.dropped, order);
+        result = alpi_occlusion_map(setup, receivers, order, count, options, lattice,
+                                    job->lightmap->errors, &report);
+    }
+    alpi_release(job->context, order);
+    alpi_validity_destroy(&validity);
+    if (result == ALP_OK) {
+        fill_report(job, &report, lattice);
+    }
+    return result;
+}
+
 static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lattice *lattice)
 {
     const alp_sampling_options *s = &job->options.sampling;
     const alpi_texels *texels = &job->lightmap->texels;
     const alpi_receivers receivers = alpi_texels_receivers(texels);
-    const alpi_occlusion_map_options options = {
+    alpi_occlusion_map_options options = {
         .accuracy = s->accuracy,
         .error = s->error,
         .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
@@ -82,15 +128,11 @@ static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lat
         .progress_user = job->options.progress_user,
     };
     alpi_occlusion_setup setup;
-    alpi_occlusion_map_report report;
     ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &job->options.occlusion, &setup));
     job->report.ao_distance = setup.distance;
-    alp_result result = alpi_occlusion_map(&setup, &receivers, lattice->order, texels->count,
-                                           &options, lattice, job->lightmap->errors, &report);
+    alp_result result = gather_valid(job, &setup, &receivers, &options, lattice);
     alpi_occlusion_release(&setup);
-    ALP_TRY(result);
-    fill_report(job, &report, lattice);
-    return ALP_OK;
+    return result;
 }
 
 static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
