@@ -82,12 +82,16 @@ static double exact_centroid(const alp_atlas *atlas, const alpi_texels *texels, 
         alpi_polygon polygon;
         double middle[2], b[3], place[3];
         if (!scene->triangle_usable[t] || atlas->triangle_pages[t] != texels->pages[texel] ||
-            !alpi_page_triangle_load(atlas, t, &shape) ||
-            alpi_page_triangle_cut(&shape, texels->pixels[texel][0], texels->pixels[texel][1],
-                                   &polygon) <= 0.0) {
+            !alpi_page_triangle_load(atlas, t, &shape)) {
             continue;
         }
-        double part = alpi_polygon_measure(&polygon, middle) * world_per_texel(atlas, t);
+        const uint16_t *pixel = texels->pixels[texel];
+        alpi_page_triangle_cut(&shape, pixel[0], pixel[1], &polygon);
+        double part = polygon.count > 2 ? alpi_polygon_measure(&polygon, middle) : 0.0;
+        if (part <= 0.0) {
+            continue;
+        }
+        part *= world_per_texel(atlas, t);
         find_in_page(atlas, t, middle, b);
         place_on_triangle(scene, t, b, place);
         area += part;
