@@ -15,10 +15,10 @@ struct alp_atlas {
     alp_context *context;
     alp_atlas_options options;
     alp_atlas_info info;
-    float (*corner_uvs)[3][2]; // [triangle_count]
-    uint32_t *triangle_pages;  // [triangle_count]
-    uint32_t *triangle_charts; // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
-                               // KEEP: chart = connected island in uv
+    float (*corner_uvs)[3][2];  // [triangle_count]
+    uint32_t *triangle_pages;   // [triangle_count]
+    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
+                                // KEEP: chart = connected island in uv
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
 

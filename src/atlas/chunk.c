@@ -12,7 +12,8 @@
 typedef struct carrier {
     uint32_t triangle;
     alpi_facet_patch map; // from the page's corner
-    double edges[2][2], heights[3]; // from corner 0; of the corners above the edges opposite; texels
+    double edges[2][2],
+        heights[3]; // from corner 0; of the corners above the edges opposite; texels
     alpi_facet facet;
 } carrier;
 
@@ -102,7 +103,8 @@ static uint32_t cell_of_point(float x, float y)
     return index;
 }
 
-/// Writes the pieces of a cell, sorted along the curve (counting, so linear), to the end of a chunk.
+/// Writes the pieces of a cell, sorted along the curve (counting, so linear), to the end of a
+/// chunk.
 /// @return how many
 static uint32_t write_pieces(const alpi_band *band, const alpi_cell *cell, alpi_texel_chunk *chunk)
 {

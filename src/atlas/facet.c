@@ -154,9 +154,8 @@ static void find_flat_points(const alpi_facet *f, const alpi_facet_patch *patch,
         by_x[axis] = patch->by_x[0] * e1 + patch->by_x[1] * e2;
         by_y[axis] = patch->by_y[0] * e1 + patch->by_y[1] * e2;
     }
-    alpi_receiver_point point = {.geometric_normal = f->geometric,
-                                 .shading_normal = f->geometric,
-                                 .offset = f->offset};
+    alpi_receiver_point point = {
+        .geometric_normal = f->geometric, .shading_normal = f->geometric, .offset = f->offset};
     for (uint32_t i = 0; i < count; i++) {
         const double x = (double)square[i][0], y = (double)square[i][1];
         point.position.x = (float)(origin[0] + x * by_x[0] + y * by_y[0]);

@@ -25,8 +25,8 @@ void alpi_facet_load(const alp_scene *scene, uint32_t triangle, bool lift, alpi_
 /// The point at barycentrics b (weights of corners 1 and 2).
 void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point);
 
-/// Points of a parallelogram of the triangle: that of (x, y) of the unit square lies at barycentrics
-/// at + x · by_x + y · by_y.
+/// Points of a parallelogram of the triangle: that of (x, y) of the unit square lies at
+/// barycentrics at + x · by_x + y · by_y.
 typedef struct alpi_facet_patch {
     double at[2], by_x[2], by_y[2];
 } alpi_facet_patch;

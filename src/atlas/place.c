@@ -74,7 +74,8 @@ static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *
         i++;
     }
     const double begin = i > 0 ? f->ends[i - 1] : 0.0;
-    const double along = f->ends[i] > begin ? alpi_lesser((u - begin) / (f->ends[i] - begin), 1.0) : 0.0;
+    const double along =
+        f->ends[i] > begin ? alpi_lesser((u - begin) / (f->ends[i] - begin), 1.0) : 0.0;
     const double outward = sqrt(v); // as many points at a distance as the fan is wide there
     double at[2], b[2];
     for (int k = 0; k < 2; k++) {

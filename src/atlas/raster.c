@@ -135,12 +135,11 @@ static alp_result add_piece(const raster *r, bench *b, alpi_cell *cell, const ac
                           b->piece_count + 1, sizeof *b->pieces));
     }
     if (cell->coverage <= CROWDED_TEXEL) {
-        b->pieces[b->piece_count] =
-            (alpi_piece){.triangle = a->shape.triangle,
-                         .next = cell->first_piece,
-                         .area = p->area * a->world_per_texel,
-                         .x = (float)(p->centroid[0] - p->center[0] + 0.5),
-                         .y = (float)(p->centroid[1] - p->center[1] + 0.5)};
+        b->pieces[b->piece_count] = (alpi_piece){.triangle = a->shape.triangle,
+                                                 .next = cell->first_piece,
+                                                 .area = p->area * a->world_per_texel,
+                                                 .x = (float)(p->centroid[0] - p->center[0] + 0.5),
+                                                 .y = (float)(p->centroid[1] - p->center[1] + 0.5)};
         b->covered += cell->first_piece == ALPI_NONE;
         cell->first_piece = (uint32_t)b->piece_count++;
     }
@@ -155,7 +154,8 @@ static alp_result add_shape(const raster *r, bench *b, alpi_cell *cell, const ac
     part p = {.center = {center[0], center[1]}};
     double area = shape->count > 2 ? alpi_polygon_measure(shape, p.centroid) : 0.0;
     p.area = alpi_lesser(area, 1.0);
-    return area > SMALLEST_PIECE * alpi_lesser(1.0, a->shape.area) ? add_piece(r, b, cell, a, &p) : ALP_OK;
+    return area > SMALLEST_PIECE * alpi_lesser(1.0, a->shape.area) ? add_piece(r, b, cell, a, &p)
+                                                                   : ALP_OK;
 }
 
 // --- triangles -----------------------------------------------------------------------------------

@@ -68,12 +68,13 @@ static void make_sphere(uint32_t segments, uint32_t rings, double cut, double si
 static void make_icosphere(uint32_t n)
 {
     const double g = (1.0 + sqrt(5.0)) / 2.0;
-    const double v[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                             {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    static const int faces[20][3] = {
-        {0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    const double v[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                             {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                             {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    static const int faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                     {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                     {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                     {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     start_mesh();
     for (int f = 0; f < 20; f++) {
         const double *a = v[faces[f][0]], *b = v[faces[f][1]], *c = v[faces[f][2]];
@@ -169,7 +170,8 @@ static void a_bowl_keeps_its_closed_form(void **state)
     const double cuts[] = {0.0, 0.5, -0.3};
     for (int i = 0; i < 3; i++) {
         make_sphere(64, 32, cuts[i], -1.0);
-        const result lifted = bake(context, 1024, 0), plain = bake(context, 1024, ALPI_TEXEL_NO_LIFT);
+        const result lifted = bake(context, 1024, 0),
+                     plain = bake(context, 1024, ALPI_TEXEL_NO_LIFT);
         ASSERT_NEAR(lifted.mean, (1.0 - cuts[i]) / 2.0, 0.003);
         ASSERT_NEAR(lifted.least, (1.0 - cuts[i]) / 2.0, 0.04);
         ASSERT_NEAR(lifted.most, (1.0 - cuts[i]) / 2.0, 0.04);
