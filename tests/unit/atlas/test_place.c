@@ -333,6 +333,64 @@ static void points_agree_with_brute_force(void **state)
     alp_context_destroy(context);
 }
 
+/// Mean square of the distance (texels) by which the mean of 16 points misses the texel's, over
+/// many sets of points.
+static double scatter(const alpi_texels *texels, const alpi_receivers *r, bool stratified)
+{
+    double sum = 0.0;
+    uint32_t sets = 0;
+    for (uint32_t i = 0; i < texels->count; i++) {
+        double center[3];
+        mean_of_points(texels, i, center);
+        for (uint32_t set = 0; set < 8; set++, sets++) {
+            const uint32_t key = alpi_random_key(5, i, set);
+            float square[16][2];
+            alpi_receiver_point points[16];
+            double mean[3] = {0.0, 0.0, 0.0};
+            for (uint32_t k = 0; k < 16; k++) {
+                const uint32_t other = alpi_random_key(k, i, set);
+                const vec2 u = alpi_sample_2d(stratified ? key : other, stratified ? k : 0);
+                square[k][0] = u.x;
+                square[k][1] = u.y;
+            }
+            r->place(r->user, i, 16, (const float(*)[2])square, points);
+            for (int k = 0; k < 16; k++) {
+                mean[0] += (double)points[k].position.x / 16.0;
+                mean[2] += (double)points[k].position.z / 16.0;
+            }
+            sum += (mean[0] - center[0]) * (mean[0] - center[0]) +
+                   (mean[2] - center[2]) * (mean[2] - center[2]);
+        }
+    }
+    return sum / sets * texels->atlas->info.texels_per_metre *
+           texels->atlas->info.texels_per_metre;
+}
+
+static void stratified_squares_stay_stratified(void **state)
+{
+    (void)state;
+    // 16 random points miss the mean by 1/√96 of a texel; a 4 × 4 net of a square by a 16th of its
+    // variance. Whole texels keep the net; pieces keep the order of its first coordinate, along a
+    // curve that fills the texel.
+    alp_context *context = test_context(1);
+    const uint32_t squares[] = {1, 8, 60}; // of 8 texels a side: whole, two triangles, dozens
+    const double shares[] = {0.05, 0.05, 0.2};
+    for (int i = 0; i < 3; i++) {
+        alp_scene *scene = scene_plane(context, squares[i]);
+        alp_atlas *atlas = charts_of_size(context, scene, 8);
+        alpi_texels texels;
+        ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+        const alpi_receivers r = alpi_texels_receivers(&texels);
+        const double random = scatter(&texels, &r, false), net = scatter(&texels, &r, true);
+        ASSERT_NEAR(random, 1.0 / 96.0, 0.2 / 96.0); // 512 sets: four standard errors
+        assert_true(net < shares[i] * random);
+        alpi_texels_destroy(context, &texels);
+        alp_atlas_destroy(atlas);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
 // --- strata --------------------------------------------------------------------------------------
 
 static void invalid_strata_get_no_points(void **state)
@@ -477,6 +535,7 @@ int main(void)
         cmocka_unit_test(a_known_piece_has_its_known_mean),
         cmocka_unit_test(points_lie_in_their_texel),
         cmocka_unit_test(points_agree_with_brute_force),
+        cmocka_unit_test(stratified_squares_stay_stratified),
         cmocka_unit_test(invalid_strata_get_no_points),
         cmocka_unit_test(any_number_of_workers_gives_the_same),
         cmocka_unit_test(every_allocation_may_fail),
