@@ -39,6 +39,12 @@ static void into_the_middle(const float at[3], float out[3])
     }
 }
 
+static void out_but_upside_down(const float at[3], float out[3])
+{
+    out_of_the_middle(at, out);
+    out[1] = -out[1];
+}
+
 /// Largest distance by which points of a scene's texels are lifted, m.
 static double largest_lift(alp_context *context, alp_scene *scene, bool below_is_fault)
 {
@@ -81,6 +87,8 @@ static void lifts_have_a_limit(void **state)
     ASSERT_NEAR(most, 0.125 * sqrt(8.0), 1e-5);
     // Normals that point inside describe no surface.
     assert_true(largest_lift(context, normal_cube(context, into_the_middle), true) == 0.0);
+    // Nor do those of top and bottom here: along them points would sink.
+    assert_true(largest_lift(context, normal_cube(context, out_but_upside_down), true) > 0.1);
     alp_context_destroy(context);
 }
 

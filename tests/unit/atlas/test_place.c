@@ -163,6 +163,35 @@ static void a_known_piece_has_its_known_mean(void **state)
     alp_context_destroy(context);
 }
 
+static void pieces_count_by_their_area_in_the_world(void **state)
+{
+    (void)state;
+    // Two halves of the only texel; one has three times the legs of the other.
+    alp_context *context = test_context(1);
+    static const float p[6][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0},
+                                  {9, 0, 0}, {9, 0, 3}, {12, 0, 0}};
+    static const float uvs[6][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {1, 0}, {0, 1}};
+    static const uint32_t indices[2][3] = {{0, 1, 2}, {3, 4, 5}};
+    alp_scene *scene = scene_of(context, p, uvs, 6, indices, 2);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_KEEP;
+    options.size = 1;
+    alp_atlas *atlas = NULL;
+    alpi_texels texels;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+    assert_int_equal(texels.piece_first[1], 2);
+    ASSERT_NEAR(texels.areas[0], 5.0, 1e-5);
+    ASSERT_NEAR(texels.piece_ends[0], texels.piece_triangles[0] == 0 ? 0.1 : 0.9, 1e-6);
+    double mean[3];
+    mean_of_points(&texels, 0, mean); // the midpoint rule puts 3 or 4 of 32 columns into a tenth
+    ASSERT_NEAR(mean[0], 0.1 * (1.0 / 3.0) + 0.9 * 10.0, 0.03 * 10.0);
+    alpi_texels_destroy(context, &texels);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// The triangle of a texel's that a point lies on, and where in the page that is.
 static uint32_t triangle_of_point(const alp_atlas *atlas, const alpi_texels *texels, uint32_t texel,
                                   vec3 point, double at[2])
@@ -362,8 +391,7 @@ static double scatter(const alpi_texels *texels, const alpi_receivers *r, bool s
                    (mean[2] - center[2]) * (mean[2] - center[2]);
         }
     }
-    return sum / sets * texels->atlas->info.texels_per_metre *
-           texels->atlas->info.texels_per_metre;
+    return sum / sets * texels->atlas->info.texels_per_metre * texels->atlas->info.texels_per_metre;
 }
 
 static void stratified_squares_stay_stratified(void **state)
@@ -533,6 +561,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_the_centroid),
         cmocka_unit_test(a_known_piece_has_its_known_mean),
+        cmocka_unit_test(pieces_count_by_their_area_in_the_world),
         cmocka_unit_test(points_lie_in_their_texel),
         cmocka_unit_test(points_agree_with_brute_force),
         cmocka_unit_test(stratified_squares_stay_stratified),
