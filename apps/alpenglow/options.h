@@ -41,6 +41,7 @@ typedef enum option_id {
     OPTION_TEXELS_PER_METRE,
     OPTION_ATLAS,
     OPTION_PADDING,
+    OPTION_VERTEX_ATTRIBUTE,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
@@ -48,6 +49,12 @@ typedef enum option_id {
     OPTION_AO_DISTRIBUTION,
     OPTION_ONE_SIDED,
     OPTION_EXISTING_AO,
+    OPTION_QUALITY,
+    OPTION_ERROR,
+    OPTION_TIME_LIMIT,
+    OPTION_MEMORY_LIMIT,
+    OPTION_ADAPTIVE,
+    OPTION_KEEP_PARTIAL,
     OPTION_WITH,
     OPTION_CAMERA,
     OPTION_RESOLUTION,
@@ -72,6 +79,7 @@ typedef enum option_group {
     GROUP_WHAT,
     GROUP_PICTURE,
     GROUP_AO,
+    GROUP_STOP,
     GROUP_RUN,
     GROUP_LATER,
     GROUP_COUNT
@@ -84,6 +92,7 @@ typedef enum option_kind {
     KIND_LIST,   // some of `choices`, with commas between
     KIND_WHOLE,  // a whole number in [minimum, maximum], or one of `choices`
     KIND_REAL,   // a number in [minimum, maximum], or one of `choices`
+    KIND_SIZE,   // bytes: a whole number with an optional K, M, G (of 1024), in [minimum, maximum]
 } option_kind;
 
 typedef struct option {
@@ -129,12 +138,19 @@ typedef struct command_entry {
 
 const command_entry *command_table(void); ///< [COMMAND_COUNT]
 const option *option_table(size_t *count);
+const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
+const char *const *builtin_scene_names(size_t *count);
 const char *option_group_title(option_group group);
+/// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
+bool command_interruptible(command_id command);
 
 /// The option of this name that the command has, or NULL.
 const option *option_find(command_id command, const char *name, size_t length);
 /// Writes the range of a numeric option, such as "1 to 64 texels, or auto".
 void option_range(const option *option, char *text, size_t size);
+/// Writes "Range 1 to 64 texels. Default 2.", as far as there is something to say, else nothing.
+void option_facts(const option *option, char *text, size_t size);
+enum { OPTION_FACTS_SIZE = 256 }; ///< what option_facts may need
 /// The known option or command nearest to a misspelt one, or NULL when nothing is near.
 const char *option_nearest(command_id command, const char *name);
 const char *command_nearest(const char *name);
@@ -145,6 +161,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
 /// Strict numbers: the whole text, no blanks, no hexadecimal, no NaN, no infinity.
 typedef enum number_result { NUMBER_OK, NUMBER_NONE, NUMBER_TOO_LARGE } number_result;
 number_result number_parse_whole(const char *text, uint64_t *number);
+number_result number_parse_size(const char *text, uint64_t *number);
 number_result number_parse_real(const char *text, double *number);
 
 /// Prints "alpenglow COMMAND: message" and where help is, to stderr. @return EXIT_USAGE
@@ -152,6 +169,9 @@ int usage_error(command_id command, const char *format, ...) __attribute__((form
 
 int help_print(void);                       ///< of the whole program, to stdout
 int help_print_command(command_id command); ///< to stdout
+int manual_print(void);                     ///< alpenglow.1, as roff, to stdout
+int manual_print_command(command_id command);
+int completion_print(const char *shell); ///< "bash", "zsh" or "fish"; to stdout
 
 int command_bake(const command_line *arguments);
 int command_render(const command_line *arguments);

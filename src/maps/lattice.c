@@ -64,18 +64,15 @@ static void fill_order(alpi_lattice *l)
     }
 }
 
-static alp_result create(const alp_atlas *atlas, alpi_lattice *l)
+static alp_result create(alpi_lattice *l)
 {
     const size_t pixels = (size_t)l->page_count * l->width * l->height;
     ALPI_TRY_NEW(l->context, l->grid, pixels);
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
-    ALPI_TRY_NEW(l->context, l->normals, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    (void)atlas;
     fill_grid(l);
     fill_order(l);
-    memcpy(l->normals, l->texels->normals, l->texels->count * sizeof *l->normals);
     return ALP_OK;
 }
 
@@ -87,7 +84,7 @@ alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels
                               .width = atlas->info.width,
                               .height = atlas->info.height,
                               .page_count = atlas->info.pages};
-    alp_result result = create(atlas, lattice);
+    alp_result result = create(lattice);
     if (result != ALP_OK) {
         alpi_lattice_destroy(lattice);
     }
@@ -98,7 +95,6 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 {
     alpi_release(lattice->context, lattice->grid);
     alpi_release(lattice->context, lattice->order);
-    alpi_release(lattice->context, lattice->normals);
     alpi_release(lattice->context, lattice->states);
     alpi_release(lattice->context, lattice->values);
     *lattice = (alpi_lattice){0};
@@ -132,8 +128,8 @@ static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
         l->texels->charts[n] != l->texels->charts[t]) {
         return ALPI_NONE;
     }
-    const bool smooth =
-        vec3_dot(vec3_load(l->normals[n]), vec3_load(l->normals[t])) >= SMOOTH_COSINE;
+    const bool smooth = vec3_dot(vec3_load(l->texels->normals[n]),
+                                 vec3_load(l->texels->normals[t])) >= SMOOTH_COSINE;
     return smooth ? n : ALPI_NONE;
 }
 
@@ -156,10 +152,13 @@ static bool add_axis(const alpi_lattice *l, uint32_t t, int dx, int dy, float sh
     const bool cubic = c != ALPI_NONE && d != ALPI_NONE;
     add_to_stencil(s, a, share * (cubic ? 0.5625f : 0.5f));
     add_to_stencil(s, b, share * (cubic ? 0.5625f : 0.5f));
+    float bend = 0.25f * fabsf(l->values[a] - l->values[b]);
     if (cubic) {
         add_to_stencil(s, c, share * -0.0625f);
         add_to_stencil(s, d, share * -0.0625f);
+        bend = 0.0625f * fabsf(l->values[a] + l->values[b] - l->values[c] - l->values[d]);
     }
+    s->bend = fmaxf(s->bend, bend);
     return true;
 }
 
@@ -182,6 +181,7 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     const uint32_t pass = alpi_lattice_pass(p);
     const int h = (int)alpi_lattice_reach(pass);
     stencil->count = 0;
+    stencil->bend = 0.0f;
     bool whole = false;
     if (pass == 1 || pass == 3) { // halfway between two
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
@@ -203,15 +203,42 @@ float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *
     return fminf(fmaxf(value, 0.0f), 1.0f); // a cubic may overshoot
 }
 
-float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel)
+uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
+                                    uint32_t around[ALPI_NEIGHBOUR_LIMIT])
 {
-    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    float step = 0.0f;
-    for (int i = 0; i < 4; i++) {
-        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
-        if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
-            step = fmaxf(step, fabsf(lattice->values[n] - lattice->values[texel]));
+    uint32_t count = 0;
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            const uint32_t n = dx == 0 && dy == 0 ? ALPI_NONE : neighbour(lattice, texel, dx, dy);
+            if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
+                around[count++] = n;
+            }
         }
     }
-    return step;
+    return count;
+}
+
+float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
+{
+    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const float value = lattice->values[texel];
+    float step = 0.0f, sum = 0.0f;
+    uint32_t count = 0;
+    bool traced = false;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
+        if (n == ALPI_NONE) {
+            continue;
+        }
+        count++;
+        sum += lattice->values[n];
+        if (lattice->states[n] == ALPI_TEXEL_TRACED) {
+            traced = true;
+            step = fmaxf(step, fabsf(lattice->values[n] - value));
+        }
+    }
+    if (!traced) {
+        return 0.0f;
+    }
+    return count == 4 ? fabsf(0.25f * sum - value) : 0.5f * step;
 }
