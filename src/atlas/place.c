@@ -156,8 +156,9 @@ static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2],
         const float u = square[i][0] * (float)strata_count;
         uint32_t k = (uint32_t)u;
         k = k < strata_count ? k : strata_count - 1;
-        const float x = (float)(strata[k] % 4) + fminf(u - (float)k, below_one);
-        const float y = (float)(strata[k] / 4) + square[i][1];
+        const uint32_t column = strata[k] % 4u, row = strata[k] / 4u;
+        const float x = (float)column + fminf(u - (float)k, below_one);
+        const float y = (float)row + square[i][1];
         out[i][0] = fminf(0.25f * x, below_one);
         out[i][1] = fminf(0.25f * y, below_one);
     }
