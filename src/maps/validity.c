@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8, RING = 2 };
+enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8 };
 
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
 static const double NEAR_DISTANCE = 3.0;
@@ -73,21 +73,23 @@ static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, floa
     rays->maximum[lane] = reach;
 }
 
-/// Lanes 0 to 3: tangent rays of a texel's length; 4 to 7: upwards at 55°, without end.
-static void look_around(const validity_job *job, const alpi_receiver_point *p, float side,
-                        alpi_rays *rays, alpi_hits *hits)
+/// Sends eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
+/// all_tangent, 4 more tangent ones between the first.
+static void look_around(const validity_job *job, const alpi_receiver_point *p, float length,
+                        bool all_tangent, alpi_rays *rays, alpi_hits *hits)
 {
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
     // Higher than rays usually start: a tangent ray must not graze its own, slightly bent surface.
-    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * side, n);
+    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * length, n);
     for (int i = 0; i < 4; i++) {
-        const vec3 axis = vec3_scale(i % 2 == 0 ? t : b, i < 2 ? 1.0f : -1.0f);
-        const vec3 other = vec3_scale(i % 2 == 0 ? b : t, i < 2 ? 1.0f : -1.0f);
+        const vec3 axes[4] = {t, b, vec3_scale(t, -1.0f), vec3_scale(b, -1.0f)};
+        const vec3 axis = axes[i], other = axes[(i + 1) % 4];
         const vec3 diagonal = vec3_add(axis, other);
-        const vec3 upward = vec3_normalize_or(vec3_add(diagonal, n), n);
-        set_ray(rays, i, origin, axis, side);
-        set_ray(rays, i + 4, origin, upward, INFINITY);
+        const vec3 between = all_tangent ? diagonal : vec3_add(diagonal, n);
+        set_ray(rays, i, origin, axis, length);
+        set_ray(rays, i + 4, origin, vec3_normalize_or(between, n),
+                all_tangent ? length : INFINITY);
     }
     memset(rays->time, 0, sizeof rays->time);
     memset(rays->id, 0, sizeof rays->id);
@@ -169,7 +171,7 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
-    look_around(job, point, side, &rays, &hits);
+    look_around(job, point, side, false, &rays, &hits);
     int tangent = 0, upward = 0;
     for (int k = 0; k < 4; k++) {
         tangent += met_back_face(scene, &rays, &hits, k);
@@ -178,8 +180,8 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     return tangent > 0 || upward >= 3;
 }
 
-/// Which strata of a texel lie inside other geometry: all are asked where the representative point
-/// or one of the corner strata is inside.
+/// Which strata of a texel lie inside other geometry: all are asked where its middle or one of its
+/// corners is inside.
 static uint16_t find_inside(const validity_job *job, uint32_t texel)
 {
     static const int corners[4] = {0, 3, 12, 15};
@@ -187,7 +189,9 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
     alpi_receiver_point points[STRATA], middle;
     alpi_texels_point(job->texels, texel, &middle);
     place_strata(job, texel, points);
-    bool any = is_inside(job, &middle, side);
+    // In a cut texel the corners of the square may lie anywhere.
+    bool any = job->texels->piece_first[texel] < job->texels->piece_first[texel + 1] ||
+               is_inside(job, &middle, side);
     for (int i = 0; i < 4 && !any; i++) {
         any = is_inside(job, &points[corners[i]], side);
     }
@@ -198,19 +202,18 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
     return inside;
 }
 
-/// Whether something is within a texel of a texel that has something near, or back faces are above.
+/// Whether anything is within a texel of a texel's middle: else it is wholly outside, or so far
+/// inside that no filter reads it with one that is seen.
 static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
-    const alp_scene *scene = job->texels->atlas->scene;
     alpi_receiver_point point;
     alpi_rays rays;
     alpi_hits hits;
     alpi_texels_point(job->texels, texel, &point);
-    look_around(job, &point, texel_side(job->texels, texel), &rays, &hits);
+    look_around(job, &point, texel_side(job->texels, texel), true, &rays, &hits);
     bool suspicious = false;
-    for (int k = 0; k < 8; k++) {
-        suspicious = suspicious || (k < 4 && hits.triangle[k] != ALPI_NONE) ||
-                     met_back_face(scene, &rays, &hits, k);
+    for (int k = 0; k < ALPI_PACKET; k++) {
+        suspicious = suspicious || hits.triangle[k] != ALPI_NONE;
     }
     return suspicious;
 }
@@ -236,35 +239,47 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
+typedef bool texel_test(const validity_job *job, uint32_t texel);
+
+static bool is_near(const validity_job *job, uint32_t texel)
+{
+    return job->out->near[texel] != 0;
+}
+
+static bool is_seen(const validity_job *job, uint32_t texel)
+{
+    return job->inside[texel] != UINT16_MAX;
+}
+
+/// Whether a texel or one of the eight around it in its chart passes a test.
+static bool any_around(const validity_job *job, uint32_t texel, texel_test *test)
+{
+    const alpi_texels *t = job->texels;
+    const uint16_t *p = t->pixels[texel];
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + dx,
+                                                  (int64_t)p[1] + dy);
+            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && test(job, n)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const validity_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
-        if (job->out->near[t] && is_suspicious(job, t)) {
+        // Its own few rays may miss the corner of something that those of its neighbours meet.
+        if (any_around(job, t, is_near) && is_suspicious(job, t)) {
             job->inside[t] = find_inside(job, t);
         }
     }
     return ALP_OK;
-}
-
-/// Whether a texel that is not wholly inside is within RING texels, in its chart.
-static bool is_beside_valid(const validity_job *job, uint32_t texel)
-{
-    const alpi_texels *t = job->texels;
-    const uint16_t *p = t->pixels[texel];
-    for (int dy = -RING; dy <= RING; dy++) {
-        for (int dx = -RING; dx <= RING; dx++) {
-            const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + dx,
-                                                  (int64_t)p[1] + dy);
-            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
-                job->inside[n] != UINT16_MAX) {
-                return true;
-            }
-        }
-    }
-    return false;
 }
 
 /// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those
@@ -275,7 +290,7 @@ static alp_result settle(validity_job *job)
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (job->inside[t] == UINT16_MAX) {
-            job->out->dropped[t] = is_beside_valid(job, t);
+            job->out->dropped[t] = any_around(job, t, is_seen);
             job->out->dropped_count += job->out->dropped[t];
         } else if (job->inside[t] != 0) {
             if (texels->valid == NULL) {
