@@ -267,7 +267,7 @@ static void add_row(const raster *r, const active *a, uint32_t y)
 
 // --- pages ---------------------------------------------------------------------------------------
 
-/// Lists the page's triangles by the row they begin in.
+/// Lists the page's triangles that have texels by the row they begin in.
 static alp_result list_rows(raster *r, uint32_t page)
 {
     const alp_atlas *atlas = r->atlas;
@@ -279,7 +279,7 @@ static alp_result list_rows(raster *r, uint32_t page)
             ALP_TRY(alpi_tick(atlas->context, "texels", page, atlas->info.pages));
         }
         active a;
-        if (atlas->triangle_pages[t] == page && atlas->scene->triangle_usable[t] &&
+        if (atlas->triangle_pages[t] == page && atlas->triangle_charts[t] != ALPI_NONE &&
             set_up(atlas, t, &a)) {
             r->next[t] = r->row_first[a.first_row];
             r->row_first[a.first_row] = t;

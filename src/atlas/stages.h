@@ -89,7 +89,7 @@ typedef struct alpi_row {
 } alpi_row;
 typedef alp_result alpi_row_fn(void *user, const alpi_row *row);
 
-/// Clips every usable triangle of the pages [first_page, end_page) against the texels and hands out
+/// Clips every triangle that is in a chart of the pages [first_page, end_page) against the texels and hands out
 /// the rows that hold something, page by page from the top. Memory: the triangles and one row.
 alp_result alpi_raster(const alp_atlas *atlas, uint32_t first_page, uint32_t end_page,
                        alpi_row_fn *finish, void *user);
