@@ -148,7 +148,7 @@ def unlisted_files(root):
 def check(root):
     """All faults of a tree, as lines."""
     lines = []
-    for folder in ("src", "include", "apps"):
+    for folder in ("src", "include", "apps", "examples"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".c", ".h") or path.name.endswith(".h.in"):
                 for number, fault in faults_of_file(root, path):

@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 sources() {
-    find src include apps tests -path '*/node_modules' -prune -o -name '*.[ch]' -print0
+    find src include apps examples tests -path '*/node_modules' -prune -o -name '*.[ch]' -print0
 }
 
 check_format() {
@@ -27,7 +27,7 @@ check_cppcheck() {
     cppcheck --quiet --error-exitcode=1 -j "$jobs" --std=c11 --library=posix --inline-suppr \
         --enable=warning,performance,portability,style --suppress=missingIncludeSystem \
         --suppressions-list=scripts/cppcheck.suppressions -D__GNUC__ \
-        -I include -I build/dev/include -I src -I tests/support src apps tests
+        -I include -I build/dev/include -I src -I tests/support src apps examples tests
 }
 
 check_clang_tidy() {

@@ -36,7 +36,11 @@ check_packages="
     cppcheck            cppcheck
     ca-certificates     -
     nodejs              node
-    npm                 npm"
+    npm                 npm
+    groff-base          groff
+    mandoc              mandoc
+    zsh                 zsh
+    fish                fish"
 validator=tests/validator
 
 say() {

@@ -34,31 +34,32 @@ static void print_paragraph(const char *text, int indent)
     putchar('\n');
 }
 
-/// "Range 1 to 64 texels. Default 2." on a line of its own, as far as there is something to say.
-static void print_facts(const option *o, int indent)
+void option_facts(const option *o, char *text, size_t size)
 {
-    char range[RANGE_SIZE], text[RANGE_SIZE + 96] = "";
+    char range[RANGE_SIZE];
     int length = 0;
+    text[0] = '\0';
     if (o->kind == KIND_WHOLE || o->kind == KIND_REAL) {
         option_range(o, range, sizeof range);
-        length = snprintf(text, sizeof text, "Range %s.", range);
+        length = snprintf(text, size, "Range %s.", range);
     }
-    if (o->initial != NULL && length >= 0) {
-        snprintf(text + length, sizeof text - (size_t)length, "%sDefault %s.",
-                 length > 0 ? " " : "", o->initial);
-    }
-    if (text[0] != '\0') {
-        print_paragraph(text, indent);
+    if (o->initial != NULL && length >= 0 && (size_t)length < size) {
+        snprintf(text + length, size - (size_t)length, "%sDefault %s.", length > 0 ? " " : "",
+                 o->initial);
     }
 }
 
 static void print_option(const option *o)
 {
     enum { INDENT = 8 };
+    char facts[OPTION_FACTS_SIZE];
     printf("  %s%s%s%s%s\n", o->name, o->alias ? ", " : "", o->alias ? o->alias : "",
            o->value ? " " : "", o->value ? o->value : "");
     print_paragraph(o->help, INDENT);
-    print_facts(o, INDENT);
+    option_facts(o, facts, sizeof facts);
+    if (facts[0] != '\0') {
+        print_paragraph(facts, INDENT);
+    }
 }
 
 /// All that is not built yet, in as few lines as it takes; choices one option a line.
@@ -105,15 +106,26 @@ static void print_group(command_id command, option_group group)
     }
 }
 
+static void print_scenes(void)
+{
+    enum { INDENT = 2 };
+    size_t count = 0;
+    const char *const *names = builtin_scene_names(&count);
+    int column = INDENT;
+    printf("\nSCENE is a .gltf or .glb file, or one of\n%*s", INDENT, "");
+    for (size_t i = 0; i < count; i++) {
+        print_wrapped(names[i], INDENT, &column);
+    }
+    putchar('\n');
+}
+
 static void print_footer(command_id command)
 {
     if (command != COMMAND_COMPARE) {
-        printf("\nSCENE is a .gltf or .glb file, or one of\n"
-               "  builtin:cornell builtin:furnace builtin:bowl builtin:sphere-plane\n"
-               "  builtin:torus-plane builtin:teapot-room\n");
+        print_scenes();
     }
     printf("\nExit status: 0 done, 1 failed, 2 wrong usage%s.\n",
-           command == COMMAND_BAKE || command == COMMAND_RENDER ? ", 130 interrupted" : "");
+           command_interruptible(command) ? ", 130 interrupted" : "");
 }
 
 int help_print_command(command_id command)
@@ -145,6 +157,8 @@ int help_print(void)
     }
     printf("\n\n  alpenglow COMMAND --help   options of a command\n"
            "  alpenglow --version        version\n"
+           "  alpenglow --completion bash|zsh|fish\n"
+           "                             script with which that shell completes a command line\n"
            "\nExample:\n"
            "  alpenglow bake builtin:teapot-room -o room.glb --maps-dir maps\n");
     return EXIT_DONE;

@@ -59,6 +59,44 @@ static int run_command(int count, char **words)
     return code == EXIT_DONE ? c->run(&parsed) : code;
 }
 
+/// The page of a command, or of alpenglow itself. The build makes the installed pages by this.
+static int print_manual(int count, char **words)
+{
+    command_id id = count > 0 ? find_command(words[0]) : COMMAND_COUNT;
+    if (count > 0 && id == COMMAND_COUNT) {
+        return EXIT_USAGE;
+    }
+    return count > 0 ? manual_print_command(id) : manual_print();
+}
+
+/// The commands that are built, a line each, for the build.
+static int print_commands(void)
+{
+    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+        puts(command_table()[i].name);
+    }
+    return EXIT_DONE;
+}
+
+/// Options that stand in the place of a command; those that --help does not name are for the build.
+static int dispatch_option(int count, char **words)
+{
+    if (strcmp(words[0], "--version") == 0) {
+        printf("alpenglow %s\n", alp_version());
+        return EXIT_DONE;
+    }
+    if (strcmp(words[0], "--completion") == 0) {
+        return completion_print(count > 1 ? words[1] : "");
+    }
+    if (strcmp(words[0], "--man") == 0) {
+        return print_manual(count - 1, words + 1);
+    }
+    if (strcmp(words[0], "--commands") == 0) {
+        return print_commands();
+    }
+    return run_command(count, words);
+}
+
 static int dispatch(int count, char **words)
 {
     if (count < 1) {
@@ -73,11 +111,7 @@ static int dispatch(int count, char **words)
                : id == COMMAND_COUNT ? EXIT_USAGE
                                      : help_print_command(id);
     }
-    if (strcmp(words[0], "--version") == 0) {
-        printf("alpenglow %s\n", alp_version());
-        return EXIT_DONE;
-    }
-    return run_command(count, words);
+    return dispatch_option(count, words);
 }
 
 int main(int count, char **words)

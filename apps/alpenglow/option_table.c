@@ -400,6 +400,27 @@ static const option options[] = {
     LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
 };
 
+/// What alpenglow itself takes in the place of a command.
+static const option program_options[] = {
+    {.id = OPTION_HELP,
+     .kind = KIND_FLAG,
+     .name = "-h",
+     .alias = "--help",
+     .help = "Print the commands; after a command, its options."},
+    {.id = OPTION_COUNT, .kind = KIND_FLAG, .name = "--version", .help = "Print the version."},
+    {.id = OPTION_COUNT,
+     .kind = KIND_CHOICE,
+     .name = "--completion",
+     .value = "bash|zsh|fish",
+     .choices = "bash|zsh|fish",
+     .help = "Print a script with which that shell completes commands, options and file names."},
+};
+
+static const char *const builtin_scenes[] = {
+    "builtin:cornell",      "builtin:furnace",     "builtin:bowl",
+    "builtin:sphere-plane", "builtin:torus-plane", "builtin:teapot-room",
+};
+
 static const char *const group_titles[GROUP_COUNT] = {
     [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "What",
     [GROUP_PICTURE] = "Picture", [GROUP_AO] = "Ambient occlusion",
@@ -415,6 +436,23 @@ const option *option_table(size_t *count)
 {
     *count = sizeof options / sizeof *options;
     return options;
+}
+
+const option *program_option_table(size_t *count)
+{
+    *count = sizeof program_options / sizeof *program_options;
+    return program_options;
+}
+
+const char *const *builtin_scene_names(size_t *count)
+{
+    *count = sizeof builtin_scenes / sizeof *builtin_scenes;
+    return builtin_scenes;
+}
+
+bool command_interruptible(command_id command)
+{
+    return command == COMMAND_BAKE || command == COMMAND_RENDER;
 }
 
 const char *option_group_title(option_group group)

@@ -129,12 +129,19 @@ typedef struct command_entry {
 
 const command_entry *command_table(void); ///< [COMMAND_COUNT]
 const option *option_table(size_t *count);
+const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
+const char *const *builtin_scene_names(size_t *count);
 const char *option_group_title(option_group group);
+/// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
+bool command_interruptible(command_id command);
 
 /// The option of this name that the command has, or NULL.
 const option *option_find(command_id command, const char *name, size_t length);
 /// Writes the range of a numeric option, such as "1 to 64 texels, or auto".
 void option_range(const option *option, char *text, size_t size);
+/// Writes "Range 1 to 64 texels. Default 2.", as far as there is something to say, else nothing.
+void option_facts(const option *option, char *text, size_t size);
+enum { OPTION_FACTS_SIZE = 256 }; ///< what option_facts may need
 /// The known option or command nearest to a misspelt one, or NULL when nothing is near.
 const char *option_nearest(command_id command, const char *name);
 const char *command_nearest(const char *name);
@@ -152,6 +159,9 @@ int usage_error(command_id command, const char *format, ...) __attribute__((form
 
 int help_print(void);                       ///< of the whole program, to stdout
 int help_print_command(command_id command); ///< to stdout
+int manual_print(void);                     ///< alpenglow.1, as roff, to stdout
+int manual_print_command(command_id command);
+int completion_print(const char *shell); ///< "bash", "zsh" or "fish"; to stdout
 
 int command_bake(const command_line *arguments);
 int command_render(const command_line *arguments);

@@ -16,10 +16,30 @@ typedef enum alp_existing_ao {
     ALP_EXISTING_AO_KEEP = 2      ///< the material keeps its own
 } alp_existing_ao;
 
+/// Values of alp_sampling_options.accuracy that are no accuracy.
+#define ALP_ADAPTIVE_OFF 0.0f
+#define ALP_ADAPTIVE_AUTO (-1.0f)
+
+/// How many texels are traced, with how many rays, and when a bake stops.
+typedef struct alp_sampling_options {
+    /// AUTO (default): texels between traced ones are interpolated where those agree within the
+    /// noise; OFF: every texel is traced; in (0, 1): they may differ by 1 − accuracy^distance, the
+    /// distance in texels. .5 is a draft, .98 is careful.
+    float accuracy;
+    /// Wanted relative error: √(mean of squared standard errors) / mean of the map, with the 99th
+    /// percentile below four times as much. Rounds of more and more rays until it is reached or
+    /// occlusion.samples is. 0 (default): occlusion.samples rays in one round.
+    float error;
+    double time_limit;     ///< seconds after which sampling ends with what it has; 0 = none
+    uint64_t memory_limit; ///< bytes of ours, the scene's apart; 0 = nine tenths of the machine's
+    bool keep_partial;     ///< a cancelled bake ends with what it has instead of with nothing
+} alp_sampling_options;
+
 typedef struct alp_bake_options {
     size_t struct_size;
     alp_atlas_options atlas;         ///< its progress is ignored
     alp_occlusion_options occlusion; ///< its progress is ignored
+    alp_sampling_options sampling;
     alp_existing_ao existing_ao;
     const char *output;      ///< .glb or .gltf, or NULL: no asset
     const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing

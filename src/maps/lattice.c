@@ -156,10 +156,13 @@ static bool add_axis(const alpi_lattice *l, uint32_t t, int dx, int dy, float sh
     const bool cubic = c != ALPI_NONE && d != ALPI_NONE;
     add_to_stencil(s, a, share * (cubic ? 0.5625f : 0.5f));
     add_to_stencil(s, b, share * (cubic ? 0.5625f : 0.5f));
+    float bend = 0.25f * fabsf(l->values[a] - l->values[b]);
     if (cubic) {
         add_to_stencil(s, c, share * -0.0625f);
         add_to_stencil(s, d, share * -0.0625f);
+        bend = 0.0625f * fabsf(l->values[a] + l->values[b] - l->values[c] - l->values[d]);
     }
+    s->bend = fmaxf(s->bend, bend);
     return true;
 }
 
@@ -182,6 +185,7 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     const uint32_t pass = alpi_lattice_pass(p);
     const int h = (int)alpi_lattice_reach(pass);
     stencil->count = 0;
+    stencil->bend = 0.0f;
     bool whole = false;
     if (pass == 1 || pass == 3) { // halfway between two
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
@@ -203,15 +207,42 @@ float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *
     return fminf(fmaxf(value, 0.0f), 1.0f); // a cubic may overshoot
 }
 
-float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel)
+uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
+                                    uint32_t around[ALPI_NEIGHBOUR_LIMIT])
 {
-    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    float step = 0.0f;
-    for (int i = 0; i < 4; i++) {
-        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
-        if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
-            step = fmaxf(step, fabsf(lattice->values[n] - lattice->values[texel]));
+    uint32_t count = 0;
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            const uint32_t n = dx == 0 && dy == 0 ? ALPI_NONE : neighbour(lattice, texel, dx, dy);
+            if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
+                around[count++] = n;
+            }
         }
     }
-    return step;
+    return count;
+}
+
+float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
+{
+    static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const float value = lattice->values[texel];
+    float step = 0.0f, sum = 0.0f;
+    uint32_t count = 0;
+    bool traced = false;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
+        if (n == ALPI_NONE) {
+            continue;
+        }
+        count++;
+        sum += lattice->values[n];
+        if (lattice->states[n] == ALPI_TEXEL_TRACED) {
+            traced = true;
+            step = fmaxf(step, fabsf(lattice->values[n] - value));
+        }
+    }
+    if (!traced) {
+        return 0.0f;
+    }
+    return count == 4 ? fabsf(0.25f * sum - value) : 0.5f * step;
 }

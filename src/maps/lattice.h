@@ -38,6 +38,7 @@ typedef struct alpi_stencil {
     uint32_t texels[ALPI_STENCIL_LIMIT];
     float weights[ALPI_STENCIL_LIMIT];
     float spread; // largest minus smallest value of the nearest texels of it
+    float bend; // |cubic − linear| of the worse axis; without a cubic a quarter of the difference
 } alpi_stencil;
 
 /// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
@@ -53,7 +54,13 @@ uint32_t alpi_lattice_reach(uint32_t pass);
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
 
-/// Largest difference between an interpolated texel and a traced one beside it; 0 without one.
-float alpi_lattice_step(const alpi_lattice *lattice, uint32_t texel);
+enum { ALPI_NEIGHBOUR_LIMIT = 8 };
+/// The traced texels among the eight around one, of its chart and turned like it. @return how many
+uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
+                                    uint32_t around[ALPI_NEIGHBOUR_LIMIT]);
+
+/// How far an interpolated texel with a traced one beside it is from the mean of its four
+/// neighbours; half its step to a traced one where a neighbour is missing; 0 with none traced.
+float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel);
 
 #endif

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Occlusion at the texels of an atlas: which texels are traced, with how many rays, and when it is
-// good enough.
+// Occlusion at the texels of an atlas: which are traced, with how many rays, when it is good
+// enough, and how far it is from the truth.
 #ifndef ALPI_MAPS_OCCLUSION_MAP_H
 #define ALPI_MAPS_OCCLUSION_MAP_H
 
 #include "maps/lattice.h"
 #include "transport/occlusion.h"
 
+#include <alpenglow/bake.h>
+
+/// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {
-    float accuracy; // 0: every texel is traced; −1: automatic; else see alp_sampling_options
-    float error;    // wanted relative error; 0: the samples of the setup, once
-    double time_limit;          // seconds from `started`, 0 = none
-    double started;             // alpi_seconds()
-    bool keep_partial;          // a cancelled bake ends with what it has
+    float accuracy;    // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
+    float error;       // wanted relative error; 0: all samples of the setup, in one round
+    double deadline;   // in alpi_seconds(), HUGE_VAL = none
+    bool keep_partial; // cancelled by the user: ends with what there is
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_map_options;
 
-/// What came out, over the texels that were asked for.
 typedef struct alpi_occlusion_map_report {
-    uint64_t rays;
-    uint64_t traced, interpolated;
-    uint32_t samples;        // of each traced texel
-    double mean;             // area-weighted
-    double relative, p99;    // stated error, see physics
-    bool cut_off;            // ended by the time limit or by cancelling
+    uint64_t rays, traced, interpolated, unknown; // texels; unknown: cut off before its turn
+    uint32_t samples;                             // of a traced texel
+    double relative, p99; // stated error over the mean: √ mean of squares, and 99th percentile
+    bool cut_off;         // by the deadline or the user
 } alpi_occlusion_map_report;
 
-/// Gathers the texels in `order` (a part of lattice->order) into lattice->values and states.
-/// @param errors [texels] out: standard error of each, or NULL
+/// Gathers the texels in `order` (some of lattice->order, in its order) into lattice->values and
+/// ->states. With `error`, rounds of more and more samples until the stated error is reached, or
+/// the setup's samples are spent.
+/// @param errors [texels] out: standard error of each; NULL: no errors are found, and none stops it
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *order, uint32_t order_count,
                               const alpi_occlusion_map_options *options, alpi_lattice *lattice,

@@ -125,6 +125,19 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
     return ALP_OK;
 }
 
+alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,
+                                        alpi_occlusion_setup *other)
+{
+    *other = *setup;
+    other->options.seed = seed;
+    other->sequence = alpi_allocate(setup->context, setup->samples, sizeof *other->sequence);
+    if (other->sequence == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    fill_samples(seed, setup->samples, other->sequence);
+    return ALP_OK;
+}
+
 void alpi_occlusion_release(alpi_occlusion_setup *setup)
 {
     alpi_release(setup->context, setup->sequence);

@@ -36,6 +36,9 @@ alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_opti
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options,
                                   alpi_occlusion_setup *setup);
+/// The same setup with other random numbers, a sequence of its own.
+alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,
+                                        alpi_occlusion_setup *other);
 void alpi_occlusion_release(alpi_occlusion_setup *setup);
 
 /// Accessibility of eight points from all samples: the way in for callers that have points at hand
@@ -57,6 +60,11 @@ alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, 
 void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums);
 /// Free rays over rays sent; 1 where none was sent.
 float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver);
+
+/// Makes the quarters of `before` samples those of `after`, a multiple: the old ones become a part
+/// of the first.
+void alpi_occlusion_requarter(alpi_occlusion_sums *sums, uint32_t receiver, uint32_t before,
+                              uint32_t after);
 
 /// Sends samples [first, first + count) from the receivers in `list` (NULL = all, then list_count
 /// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /

@@ -217,6 +217,17 @@ void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums
     *sums = (alpi_occlusion_sums){0};
 }
 
+void alpi_occlusion_requarter(alpi_occlusion_sums *sums, uint32_t receiver, uint32_t before,
+                              uint32_t after)
+{
+    assert(before > 0 && after % before == 0);
+    uint32_t merged[ALPI_QUARTERS] = {0};
+    for (uint32_t q = 0; q < ALPI_QUARTERS; q++) {
+        merged[q / (after / before)] += sums->open[receiver][q];
+    }
+    memcpy(sums->open[receiver], merged, sizeof merged);
+}
+
 float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver)
 {
     const uint32_t *open = sums->open[receiver];

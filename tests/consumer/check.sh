@@ -7,6 +7,8 @@
 #   check.sh pkg_config WORK       so does a compiler with pkg-config's flags
 #   check.sh headers WORK          each header alone compiles as C17 and as C++17
 #   check.sh symbols WORK          the library shows what the headers declare, and nothing else
+#   check.sh examples WORK         examples/ compile as their first comments say and by CMake, and run
+#   check.sh manual WORK           manual pages and completion lie where man and the shells look
 #   check.sh readme WORK           the README shows the program that is built here
 set -euo pipefail
 project=$(cd "$(dirname "$0")/project" && pwd)
@@ -22,6 +24,28 @@ run_consumer() { # program, folder to run in
     rm -f "$2/cornell.glb"
     (cd "$2" && "$1") || fail "the program failed"
     [ -s "$2/cornell.glb" ] || fail "the program wrote no file"
+}
+
+run_examples() { # folder with the three programs, their names
+    local folder=$1 points=$2 bake=$3 maps=$4
+    cd "$folder"
+    "./$points" >points.txt || fail "$points failed"
+    awk 'NR > 1 { n++; if ($5 * $5 > 0.005 * 0.005 || $3 - $4 > 0.005 || $4 - $3 > 0.005) bad = 1 }
+         END { exit bad || n != 5 }' points.txt || fail "$points is off: $(cat points.txt)"
+    "$prefix/bin/alpenglow" bake builtin:sphere-plane -o scene.glb --size 32 --ao-samples 1 -q -f
+    "./$bake" scene.glb baked.glb >bake.txt 2>stages.txt || fail "$bake failed"
+    grep -q '^baked.glb: [0-9]* texels, [0-9]* rays, mean accessibility 0\.[0-9]*, ' bake.txt ||
+        fail "$bake says $(cat bake.txt)"
+    grep -q '^stage occlusion$' stages.txt || fail "$bake tells no progress"
+    "$prefix/bin/alpenglow" info baked.glb >/dev/null || fail "$bake wrote no scene"
+    ! "./$bake" no-such.glb baked.glb 2>error.txt || fail "$bake takes a file that is not there"
+    grep -q 'no-such.glb' error.txt || fail "$bake does not name the file that is not there"
+    "./$maps" >maps.txt || fail "$maps failed"
+    awk '$NF <= 0 || $NF > 1 { bad = 1 } $NF < 1 { shaded++ } END { exit bad || shaded < 3 || NR < 6 }' \
+        maps.txt || fail "$maps is off: $(cat maps.txt)"
+    "$prefix/bin/alpenglow" compare page.png page.png --max-rmse 0 -q >/dev/null ||
+        fail "$maps wrote no picture"
+    cd - >/dev/null
 }
 
 if [ "$step" = install ]; then
@@ -58,6 +82,43 @@ pkg_config)
     cc -std=c17 $warnings "$project/consumer.c" -o "$work/pkg/consumer" \
         $(pkg-config $static --cflags --libs alpenglow)
     LD_LIBRARY_PATH=$libraries run_consumer "$work/pkg/consumer" "$work/pkg"
+    ;;
+examples)
+    examples=$(cd "$project/../../../examples" && pwd)
+    export PKG_CONFIG_PATH=$libraries/pkgconfig
+    static=""
+    [ -e "$libraries/libalpenglow.so" ] || static=--static
+    # shellcheck disable=SC2086,SC2317 # nothing or one word; called by the line
+    pkg-config() { command pkg-config $static "$@"; }
+    rm -rf "$work/examples" && mkdir -p "$work/examples"
+    for source in "$examples"/*.c; do
+        [ "$(wc -l <"$source")" -lt 100 ] || fail "$source is not under 100 lines"
+        line=$(sed -n 's|^//  *\(cc .*\)$|\1|p' "$source")
+        [ -n "$line" ] || fail "$source does not say how to compile it"
+        (cd "$examples" && eval "${line/ -o / $warnings -o $work/examples/}") || fail "$line"
+        grep -qF "$(basename "$source")" "$examples/README.md" || fail "README.md misses $source"
+    done
+    # CMake's programs know where the library is, a compiler's do not.
+    (export LD_LIBRARY_PATH=$libraries && run_examples "$work/examples" points bake maps)
+    cmake -S "$examples" -B "$work/examples/build" -DCMAKE_PREFIX_PATH="$prefix"
+    cmake --build "$work/examples/build"
+    run_examples "$work/examples/build" 01_occlusion_at_points 02_bake_a_file 03_maps_as_arrays
+    ;;
+manual)
+    share=$(dirname "$(find "$prefix" -name man -type d)")
+    "$prefix/bin/alpenglow" --man | diff - "$share/man/man1/alpenglow.1"
+    for name in $("$prefix/bin/alpenglow" --commands); do
+        "$prefix/bin/alpenglow" --man "$name" | diff - "$share/man/man1/alpenglow-$name.1"
+    done
+    "$prefix/bin/alpenglow" --completion bash |
+        diff - "$share/bash-completion/completions/alpenglow"
+    "$prefix/bin/alpenglow" --completion zsh | diff - "$share/zsh/site-functions/_alpenglow"
+    "$prefix/bin/alpenglow" --completion fish |
+        diff - "$share/fish/vendor_completions.d/alpenglow.fish"
+    [ "$(find "$share/man" -type f | wc -l)" = \
+        $(($("$prefix/bin/alpenglow" --commands | wc -l) + 1)) ] || fail "pages of nothing"
+    ! command -v man >/dev/null || man -M "$share/man" alpenglow-bake | grep -q 'ao-falloff' ||
+        fail "man does not find alpenglow-bake"
     ;;
 headers)
     for header in "$prefix"/include/alpenglow/*.h; do
