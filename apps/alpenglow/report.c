@@ -112,9 +112,10 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
     char hash[24];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)r->input_hash);
-    return json_pack("{s:s, s:{s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{}, s:I, s:o, s:o}",
+    return json_pack("{s:s, s:{s:I, s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{}, s:I, s:o, s:o}",
                      "version", alp_version(), "scene", "triangles", (json_int_t)r->scene.triangles,
-                     "surfaces", (json_int_t)r->scene.surfaces, "atlas", make_atlas(&r->atlas),
+                     "surfaces", (json_int_t)r->scene.surfaces, "surfaces_baked",
+                     (json_int_t)r->surfaces_baked, "atlas", make_atlas(&r->atlas),
                      "seconds", make_seconds(r, s->load_seconds), "rays", (json_int_t)r->rays,
                      "threads", (json_int_t)r->threads, "seed", (json_int_t)r->seed, "input_hash",
                      hash, "error", "peak_memory_bytes", (json_int_t)r->peak_memory_bytes,

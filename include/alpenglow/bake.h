@@ -41,6 +41,18 @@ typedef struct alp_bake_options {
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
     alp_existing_ao existing_ao;
+    /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
+    /// A surface is named like its node (like the mesh of a node without a name, "node N" without
+    /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
+    /// (of UTF-8), [a-z] one of these, [!a-z] one that is not, \ takes the next character as it is.
+    /// Every pattern must match something. Other surfaces come out as they went in, and occlude.
+    const char *only;
+    /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
+    const char *occluders;
+    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
+    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
+    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
+    bool ao_self;
     const char *output;      ///< .glb or .gltf, or NULL: no asset
     const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
     bool overwrite;          ///< default false: an existing file stops the job before it starts
@@ -55,10 +67,11 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
-    float ao_distance; ///< metres, as used
+    float ao_distance; ///< metres, as used; automatic with ao_self: that of the largest object
     double ao_mean;    ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
+    uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
     uint64_t seed;
     uint64_t input_hash;
@@ -72,7 +85,8 @@ typedef struct alp_lightmap alp_lightmap;
 /// its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
-/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake, or a second UV set that cannot
+/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
+///         INVALID_DATA (nothing to bake, or a second UV set that cannot
 ///         be kept); UNSUPPORTED (an output that is neither .glb nor .gltf); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
-#include "bake/job.h"
+#include "bake/objects.h"
 
+#include "atlas/choice.h"
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "transport/occlusion.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,7 +57,8 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    const alpi_atlas_choice choice = {job->only, job->originals};
+    ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
@@ -94,27 +95,61 @@ static void warn_of_darkness(const alpi_bake_job *job)
     }
 }
 
+/// Gathers the texels of one object: with the tracer of what occludes it, to its distance limit.
+static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
+                                const alpi_object *object, alpi_part_progress *part, float *values)
+{
+    const double started = alpi_seconds();
+    const bool is_all = object->texel_count == job->lightmap->texels.count; // it tells for itself
+    alp_occlusion_options options = job->options.occlusion;
+    options.distance = object->distance;
+    options.progress = is_all ? job->options.progress : alpi_tell_part;
+    options.progress_user = is_all ? job->options.progress_user : part;
+    alpi_tracer *tracer = NULL, *owned = NULL;
+    ALP_TRY(alpi_object_tracer(job, objects, object, options.progress, options.progress_user,
+                               &tracer, &owned));
+    const double built = alpi_seconds();
+    const alpi_receivers receivers = alpi_point_array_receivers(&job->lightmap->texels.points);
+    alpi_occlusion_setup setup;
+    alp_result result = alpi_occlusion_prepare(job->scene, tracer, &options, &setup);
+    if (result == ALP_OK) {
+        result = alpi_occlusion_gather(&setup, &receivers, object->texels, object->texel_count,
+                                       values);
+        job->report.rays += (uint64_t)object->texel_count * setup.samples;
+        job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
+    }
+    alpi_occlusion_release(&setup);
+    alpi_tracer_destroy(owned);
+    job->report.seconds_build += built - started;
+    job->report.seconds_bake += alpi_seconds() - built;
+    return result;
+}
+
+static alp_result gather_objects(alpi_bake_job *job, float *values)
+{
+    alpi_objects objects;
+    ALP_TRY(alpi_objects_create(job, NULL, &objects));
+    const double all = fmax((double)job->lightmap->texels.count, 1.0);
+    alpi_part_progress part = {.callback = job->options.progress,
+                               .user = job->options.progress_user,
+                               .stage = "occlusion",
+                               .started = alpi_seconds(),
+                               .rays = (uint64_t)(all * job->options.occlusion.samples)};
+    alp_result result = ALP_OK;
+    for (uint32_t i = 0; i < objects.count && result == ALP_OK; i++) {
+        part.begin = part.end;
+        part.end += (double)objects.items[i].texel_count / all;
+        result = gather_object(job, &objects, &objects.items[i], &part, values);
+    }
+    alpi_objects_destroy(&objects);
+    return result;
+}
+
 static alp_result gather_occlusion(alpi_bake_job *job, float *values)
 {
     ALP_TRY(begin_stage(job, "build"));
-    alpi_tracer *tracer = NULL;
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
-                                  &tracer, &job->report.seconds_build));
-    double started = alpi_seconds();
-    alp_occlusion_options options = job->options.occlusion;
-    options.progress = job->options.progress;
-    options.progress_user = job->options.progress_user;
-    alpi_occlusion_setup setup;
-    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
-    job->report.ao_distance = setup.distance;
-    const alpi_texels *texels = &job->lightmap->texels;
-    const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
-    alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, texels->count, values);
-    job->report.rays = (uint64_t)texels->count * setup.samples;
-    alpi_occlusion_release(&setup);
-    ALP_TRY(result);
-    job->report.seconds_bake = alpi_seconds() - started;
-    job->report.ao_mean = area_mean(texels, values);
+    ALP_TRY(gather_objects(job, values));
+    job->report.ao_mean = area_mean(&job->lightmap->texels, values);
     warn_of_darkness(job);
     if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
         alpi_bake_multiply_existing(job, values);
@@ -126,6 +161,7 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
@@ -163,6 +199,9 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     alp_result result = run(&job);
     alpi_set_watch(job.context, former);
+    alpi_release(job.context, job.only);
+    alpi_release(job.context, job.occluders);
+    alpi_release(job.context, job.originals);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

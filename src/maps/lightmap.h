@@ -24,7 +24,10 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap);
 /// surface.
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values);
 
-/// Bilinear look-up at a point of a triangle.
+/// Whether the surface of a triangle has a map: not those that a bake left out.
+bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
+
+/// Bilinear look-up at a point of a triangle that the lightmap holds.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
 

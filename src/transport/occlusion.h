@@ -13,6 +13,9 @@
 /// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
 enum { ALPI_QUARTERS = 4 };
 
+/// The automatic distance limit over the diagonal of a bounding box.
+#define ALPI_OCCLUSION_AUTO_SHARE 0.2f
+
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
     alp_context *context;
