@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 // --- the asset -----------------------------------------------------------------------------------
 
@@ -102,7 +103,7 @@ const char *quad_folder(void)
     if (kept == NULL) {
         return test_folder();
     }
-    snprintf(folder, sizeof folder, "%s/quad%d", kept, counter++);
+    snprintf(folder, sizeof folder, "%s/quad%d-%d", kept, (int)getpid(), counter++);
     char command[700];
     snprintf(command, sizeof command, "mkdir -p '%s'", folder);
     assert_int_equal(system(command), 0);
