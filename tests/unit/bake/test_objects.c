@@ -331,9 +331,12 @@ static void instances_share_one_map(void **state)
     float low, high;
     find_range(lightmap, &low, &high);
     assert_true(low == 1.0f && high == 1.0f); // boxes that run through each other are alone too
+    double area = 0.0;
     for (uint32_t i = 0; i < lightmap->texels.count; i++) {
         assert_true(lightmap->texels.triangles[i] < 2 + 12); // the floor and the first box
+        area += (double)lightmap->texels.areas[i];
     }
+    ASSERT_NEAR(area, 18.0 * 18.0 + 6.0, 1e-3); // and no other
     quad_list(path, options.output);
 
     alp_scene *baked = load(context, options.output);
@@ -448,7 +451,7 @@ static void wrong_choices_are_refused(void **state)
     options.only = "Stuhl*";
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     test_message_has(context, "\"Stuhl*\"");
-    test_message_has(context, "\"Fußboden\", \"Würfel links\"");
+    test_message_has(context, "\"Fußboden\"");
     options.only = NULL;
     options.occluders = "Stuhl*";
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
