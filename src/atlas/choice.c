@@ -55,7 +55,8 @@ static int corner_of(const alp_scene *scene, uint32_t triangle, uint32_t source)
     return 2;
 }
 
-/// Copies the triangles of an original. Where one of the two is mirrored, corners have other places.
+/// Copies the triangles of an original. Where one of the two is mirrored, corners have other
+/// places.
 static void share_surface(alp_atlas *atlas, uint32_t instance, uint32_t original)
 {
     const alp_scene *scene = atlas->scene;

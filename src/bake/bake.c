@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
-#include "bake/objects.h"
+#include "bake/job.h"
 
 #include "atlas/choice.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "transport/occlusion.h"
 
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -14,7 +14,8 @@ alp_bake_options alp_bake_options_default(void)
 {
     return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
                               .atlas = alp_atlas_options_default(),
-                              .occlusion = alp_occlusion_options_default()};
+                              .occlusion = alp_occlusion_options_default(),
+                              .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }
 
 static alp_result check_options(const alpi_bake_job *job)
@@ -28,6 +29,16 @@ static alp_result check_options(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
     }
+    const alp_sampling_options *s = &o->sampling;
+    const bool accuracy_is_valid =
+        s->accuracy == ALP_ADAPTIVE_AUTO || (s->accuracy >= ALP_ADAPTIVE_OFF && s->accuracy < 1.0f);
+    if (!accuracy_is_valid || !(s->error >= 0.0f) || !(s->time_limit >= 0.0)) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: accuracy %g (need [0, 1), or AUTO), error %g or time limit %g s "
+                         "(need 0 or more)",
+                         (double)s->accuracy, (double)s->error, s->time_limit);
+    }
+    ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -38,8 +49,7 @@ static alp_result check_options(const alpi_bake_job *job)
     return ALP_OK;
 }
 
-/// Tells the user that a stage begins; false from the user cancels.
-static alp_result begin_stage(const alpi_bake_job *job, const char *stage)
+alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
 {
     alp_progress progress = {stage, 0, 1, 0.0, -1.0};
     if (job->options.progress != NULL &&
@@ -52,7 +62,7 @@ static alp_result begin_stage(const alpi_bake_job *job, const char *stage)
 static alp_result make_atlas(alpi_bake_job *job)
 {
     double started = alpi_seconds();
-    ALP_TRY(begin_stage(job, "atlas"));
+    ALP_TRY(alpi_bake_begin_stage(job, "atlas"));
     alp_atlas_options options = job->options.atlas;
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
@@ -71,108 +81,19 @@ static alp_result make_atlas(alpi_bake_job *job)
     return ALP_OK;
 }
 
-/// Mean over the surface: each texel counts by its area.
-static double area_mean(const alpi_texels *texels, const float *values)
-{
-    double sum = 0.0, area = 0.0;
-    for (uint32_t i = 0; i < texels->count; i++) {
-        sum += (double)texels->areas[i] * (double)values[i];
-        area += (double)texels->areas[i];
-    }
-    return area > 0.0 ? sum / area : 0.0;
-}
-
-static void warn_of_darkness(const alpi_bake_job *job)
-{
-    if (job->report.ao_mean < 0.05) {
-        bool limited = isfinite(job->report.ao_distance);
-        alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
-                  100.0 * job->report.ao_mean,
-                  limited ? "nearly everything is closed within the distance limit; a shorter one "
-                            "(--ao-distance) shows more"
-                          : "a closed room is dark without a distance limit; give one "
-                            "(--ao-distance auto, or metres)");
-    }
-}
-
-/// Gathers the texels of one object: with the tracer of what occludes it, to its distance limit.
-static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
-                                const alpi_object *object, alpi_part_progress *part, float *values)
-{
-    const double started = alpi_seconds();
-    const bool is_all = object->texel_count == job->lightmap->texels.count; // it tells for itself
-    alp_occlusion_options options = job->options.occlusion;
-    options.distance = object->distance;
-    options.progress = is_all ? job->options.progress : alpi_tell_part;
-    options.progress_user = is_all ? job->options.progress_user : part;
-    alpi_tracer *tracer = NULL, *owned = NULL;
-    ALP_TRY(alpi_object_tracer(job, objects, object, options.progress, options.progress_user,
-                               &tracer, &owned));
-    const double built = alpi_seconds();
-    const alpi_receivers receivers = alpi_point_array_receivers(&job->lightmap->texels.points);
-    alpi_occlusion_setup setup;
-    alp_result result = alpi_occlusion_prepare(job->scene, tracer, &options, &setup);
-    if (result == ALP_OK) {
-        result = alpi_occlusion_gather(&setup, &receivers, object->texels, object->texel_count,
-                                       values);
-        job->report.rays += (uint64_t)object->texel_count * setup.samples;
-        job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
-    }
-    alpi_occlusion_release(&setup);
-    alpi_tracer_destroy(owned);
-    job->report.seconds_build += built - started;
-    job->report.seconds_bake += alpi_seconds() - built;
-    return result;
-}
-
-static alp_result gather_objects(alpi_bake_job *job, float *values)
-{
-    alpi_objects objects;
-    ALP_TRY(alpi_objects_create(job, NULL, &objects));
-    const double all = fmax((double)job->lightmap->texels.count, 1.0);
-    alpi_part_progress part = {.callback = job->options.progress,
-                               .user = job->options.progress_user,
-                               .stage = "occlusion",
-                               .started = alpi_seconds(),
-                               .rays = (uint64_t)(all * job->options.occlusion.samples)};
-    alp_result result = ALP_OK;
-    for (uint32_t i = 0; i < objects.count && result == ALP_OK; i++) {
-        part.begin = part.end;
-        part.end += (double)objects.items[i].texel_count / all;
-        result = gather_object(job, &objects, &objects.items[i], &part, values);
-    }
-    alpi_objects_destroy(&objects);
-    return result;
-}
-
-static alp_result gather_occlusion(alpi_bake_job *job, float *values)
-{
-    ALP_TRY(begin_stage(job, "build"));
-    ALP_TRY(gather_objects(job, values));
-    job->report.ao_mean = area_mean(&job->lightmap->texels, values);
-    warn_of_darkness(job);
-    if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
-        alpi_bake_multiply_existing(job, values);
-    }
-    return alpi_lightmap_store(job->lightmap, values);
-}
-
 static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
     ALP_TRY(alpi_bake_choose(job));
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_bake_vertices(job);
+    }
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
-    float *values = ALPI_NEW(job->context, float, job->lightmap->texels.count);
-    if (values == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    alp_result result = gather_occlusion(job, values);
-    alpi_release(job->context, values);
-    ALP_TRY(result);
-    ALP_TRY(begin_stage(job, "write"));
+    ALP_TRY(alpi_bake_occlusion(job));
+    ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_write_outputs(job));
     job->report.seconds_write = alpi_seconds() - write_started;

@@ -44,11 +44,11 @@ static void note_sizes(const alpi_bake_job *job)
         }
     }
     if (count > 0 && !isinf(job->options.occlusion.distance)) {
-        alpi_note(job->context, "instance-size", scene->surfaces[first].name,
-                  "%.3g times as large as the instance of its mesh that is baked (%s), whose map it "
-                  "shows; %u surface%s of this kind: the distance limit is that of the baked one",
-                  factor, scene->surfaces[job->originals[first]].name, count,
-                  count == 1 ? "" : "s");
+        alpi_note(
+            job->context, "instance-size", scene->surfaces[first].name,
+            "%.3g times as large as the instance of its mesh that is baked (%s), whose map it "
+            "shows; %u surface%s of this kind: the distance limit is that of the baked one",
+            factor, scene->surfaces[job->originals[first]].name, count, count == 1 ? "" : "s");
     }
 }
 
@@ -165,10 +165,9 @@ static alp_result deal_texels(const alpi_bake_job *job, const uint32_t *order,
         objects->items[i].texel_count = 0;
     }
     for (uint32_t i = 0; i < texels->count; i++) {
-        const uint32_t texel = order != NULL ? order[i] : i;
-        const uint32_t surface = job->scene->triangle_surface[texels->triangles[texel]];
+        const uint32_t surface = job->scene->triangle_surface[texels->triangles[order[i]]];
         alpi_object *o = &objects->items[owner[surface]];
-        objects->texels[(size_t)(o->texels - objects->texels) + o->texel_count++] = texel;
+        objects->texels[(size_t)(o->texels - objects->texels) + o->texel_count++] = order[i];
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < objects->count; i++) {
@@ -214,7 +213,7 @@ alp_result alpi_objects_create(const alpi_bake_job *job, const uint32_t *order,
 {
     *objects = (alpi_objects){.context = job->context};
     objects->marks = ALPI_NEW(job->context, bool, job->scene->surface_count);
-    alp_result result = objects->marks == NULL     ? ALP_ERROR_OUT_OF_MEMORY
+    alp_result result = objects->marks == NULL ? ALP_ERROR_OUT_OF_MEMORY
                         : job->options.ao_self ? fill_alone(job, order, objects)
                                                : fill_together(job, order, objects);
     if (result != ALP_OK) {
@@ -234,21 +233,32 @@ void alpi_objects_destroy(alpi_objects *objects)
 
 // --- what occludes -------------------------------------------------------------------------------
 
+alp_result alpi_bake_tracer(const alpi_bake_job *job, alp_progress_fn *progress,
+                            void *progress_user, alpi_tracer **tracer, alpi_tracer **owned)
+{
+    *tracer = *owned = NULL;
+    if (job->occluders == NULL) {
+        return alpi_tracer_for_scene(job->scene, progress, progress_user, tracer, NULL);
+    }
+    alp_result result =
+        alpi_tracer_create(job->scene, job->occluders, progress, progress_user, owned);
+    *tracer = *owned;
+    return result;
+}
+
 alp_result alpi_object_tracer(const alpi_bake_job *job, alpi_objects *objects,
                               const alpi_object *object, alp_progress_fn *progress,
                               void *progress_user, alpi_tracer **tracer, alpi_tracer **owned)
 {
-    *tracer = *owned = NULL;
-    if (object->surface_count == 0 && job->occluders == NULL) {
-        return alpi_tracer_for_scene(job->scene, progress, progress_user, tracer, NULL);
+    if (object->surface_count == 0) {
+        return alpi_bake_tracer(job, progress, progress_user, tracer, owned);
     }
     const uint32_t *surfaces = objects->surfaces + object->first_surface;
     for (uint32_t i = 0; i < object->surface_count; i++) {
         objects->marks[surfaces[i]] = true;
     }
     alp_result result =
-        alpi_tracer_create(job->scene, object->surface_count > 0 ? objects->marks : job->occluders,
-                           progress, progress_user, owned);
+        alpi_tracer_create(job->scene, objects->marks, progress, progress_user, owned);
     for (uint32_t i = 0; i < object->surface_count; i++) {
         objects->marks[surfaces[i]] = false;
     }
@@ -270,7 +280,8 @@ bool alpi_tell_part(void *user, const alp_progress *progress)
     if (progress->total > 0 && strcmp(progress->stage, part->stage) == 0) {
         share = fmin((double)progress->done / (double)progress->total, 1.0);
     }
-    const double done = part->begin + share * (part->end - part->begin);
+    const double done = fmax(part->begin + share * (part->end - part->begin), part->done);
+    part->done = done; // what is to be done may grow
     const double seconds = now - part->started;
     const alp_progress told = {
         .stage = part->stage,

@@ -9,7 +9,7 @@
 
 /// What one group is gathered with.
 typedef struct alpi_object {
-    const uint32_t *texels; // [texel_count] in the order that was given; NULL = all, by index
+    const uint32_t *texels; // [texel_count] in the order that was given
     uint32_t texel_count;
     uint32_t first_surface, surface_count; // in alpi_objects.surfaces; 0: the scene's occluders
     float distance;                        // limit in metres, INFINITY = none
@@ -25,14 +25,18 @@ typedef struct alpi_objects {
 } alpi_objects;
 
 /// The groups that hold texels of the job's atlas, in the order of their nodes.
-/// @param order [texels] all texels, neighbours together; borrowed. NULL = by index
+/// @param order [texels] all texels, neighbours together; borrowed
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_objects_create(const alpi_bake_job *job, const uint32_t *order,
                                alpi_objects *objects);
 void alpi_objects_destroy(alpi_objects *objects);
 
-/// The tracer of what occludes a group. `owned` is what the caller destroys after it: the tracer,
-/// or NULL where it is the scene's, which stays.
+/// The tracer of what occludes the whole scene: the scene's own, or one of the chosen occluders.
+/// @param owned out: what the caller destroys after it, NULL where it is the scene's, which stays
+alp_result alpi_bake_tracer(const alpi_bake_job *job, alp_progress_fn *progress,
+                            void *progress_user, alpi_tracer **tracer, alpi_tracer **owned);
+
+/// The tracer of what occludes a group. `owned` as above.
 alp_result alpi_object_tracer(const alpi_bake_job *job, alpi_objects *objects,
                               const alpi_object *object, alp_progress_fn *progress,
                               void *progress_user, alpi_tracer **tracer, alpi_tracer **owned);
@@ -43,11 +47,12 @@ typedef struct alpi_part_progress {
     void *user;
     const char *stage;
     double begin, end;    // of this part, as shares of the whole
+    double done;          // told so far, as a share of the whole: never less
     double started, last; // alpi_seconds() when the stage began, and of the last report
     uint64_t rays;        // of the whole stage
 } alpi_part_progress;
-/// An alp_progress_fn whose user is an alpi_part_progress. Progress of other stages (building) counts
-/// as the begin of the part.
+/// An alp_progress_fn whose user is an alpi_part_progress. Progress of other stages (building)
+/// counts as the begin of the part.
 bool alpi_tell_part(void *user, const alp_progress *progress);
 
 #endif

@@ -9,11 +9,11 @@
 static uint32_t next_character(const char *text, size_t size, size_t *at)
 {
     const unsigned char first = (unsigned char)text[*at];
-    const size_t length = first < 0x80                   ? 1
+    const size_t length = first < 0x80                    ? 1
                           : first >= 0xc2 && first < 0xe0 ? 2
                           : first >= 0xe0 && first < 0xf0 ? 3
                           : first >= 0xf0 && first < 0xf5 ? 4
-                                                         : 0;
+                                                          : 0;
     uint32_t code = length <= 1 ? first : first & (0xffu >> (length + 1));
     bool whole = length > 0 && length <= size - *at;
     for (size_t k = 1; whole && k < length; k++) {

@@ -64,18 +64,15 @@ static void fill_order(alpi_lattice *l)
     }
 }
 
-static alp_result create(const alp_atlas *atlas, alpi_lattice *l)
+static alp_result create(alpi_lattice *l)
 {
     const size_t pixels = (size_t)l->page_count * l->width * l->height;
     ALPI_TRY_NEW(l->context, l->grid, pixels);
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
-    ALPI_TRY_NEW(l->context, l->normals, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    (void)atlas;
     fill_grid(l);
     fill_order(l);
-    memcpy(l->normals, l->texels->points.shading_normals, l->texels->count * sizeof *l->normals);
     return ALP_OK;
 }
 
@@ -87,7 +84,7 @@ alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels
                               .width = atlas->info.width,
                               .height = atlas->info.height,
                               .page_count = atlas->info.pages};
-    alp_result result = create(atlas, lattice);
+    alp_result result = create(lattice);
     if (result != ALP_OK) {
         alpi_lattice_destroy(lattice);
     }
@@ -98,7 +95,6 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 {
     alpi_release(lattice->context, lattice->grid);
     alpi_release(lattice->context, lattice->order);
-    alpi_release(lattice->context, lattice->normals);
     alpi_release(lattice->context, lattice->states);
     alpi_release(lattice->context, lattice->values);
     *lattice = (alpi_lattice){0};
@@ -132,8 +128,8 @@ static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
         l->texels->charts[n] != l->texels->charts[t]) {
         return ALPI_NONE;
     }
-    const bool smooth =
-        vec3_dot(vec3_load(l->normals[n]), vec3_load(l->normals[t])) >= SMOOTH_COSINE;
+    const bool smooth = vec3_dot(vec3_load(l->texels->normals[n]),
+                                 vec3_load(l->texels->normals[t])) >= SMOOTH_COSINE;
     return smooth ? n : ALPI_NONE;
 }
 

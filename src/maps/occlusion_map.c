@@ -315,22 +315,20 @@ static uint32_t next_factor(const map_job *job)
 static alp_result run_rounds(map_job *job)
 {
     const double wanted = (double)job->options->error;
+    const bool rounds = wanted > 0.0 || job->options->deadline < HUGE_VAL;
     const uint32_t most = job->setup->samples;
     uint32_t before = 0;
-    job->samples = wanted > 0.0 && most > FIRST_SAMPLES ? FIRST_SAMPLES : most;
+    job->samples = rounds && most > FIRST_SAMPLES ? FIRST_SAMPLES : most;
     for (;;) {
         ALP_TRY(run_round(job, before));
         job->report->samples = job->samples;
-        if (job->errors == NULL) {
-            return ALP_OK;
-        }
         ALP_TRY(state_errors(job, before));
         const bool good = job->report->relative <= wanted && job->report->p99 <= P99_LIMIT * wanted;
         const uint32_t room = most / job->samples;
-        if (wanted == 0.0 || good || room < 2) {
+        if (!rounds || good || room < 2) {
             return ALP_OK;
         }
-        const uint32_t factor = next_factor(job);
+        const uint32_t factor = wanted > 0.0 ? next_factor(job) : 2;
         before = job->samples;
         job->samples *= factor < room ? factor : room;
     }

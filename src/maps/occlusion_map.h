@@ -29,7 +29,7 @@ typedef struct alpi_occlusion_map_report {
 /// Gathers the texels in `order` (some of lattice->order, in its order) into lattice->values and
 /// ->states. With `error`, rounds of more and more samples until the stated error is reached, or
 /// the setup's samples are spent.
-/// @param errors [texels] out: standard error of each; NULL: no errors are found, and none stops it
+/// @param errors [texels] out: standard error of each
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *order, uint32_t order_count,

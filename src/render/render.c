@@ -55,7 +55,7 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     if (o->method != ALP_RENDER_AO && o->method != ALP_RENDER_CONSTANT) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
     }
-    if (o->lightmap != NULL && o->lightmap->atlas->scene != scene) {
+    if (o->lightmap != NULL && o->lightmap->scene != scene) {
         return alpi_fail(scene->context, code, "render: the maps belong to another scene");
     }
     return alpi_occlusion_check(scene, &o->occlusion);
@@ -239,10 +239,9 @@ static alp_result choose_occluders(render_job *job)
     const alp_render_options *o = &job->options;
     bool *surfaces = NULL;
     ALP_TRY(alpi_scene_select(job->scene, o->occluders, &surfaces));
-    alp_result result = surfaces == NULL
-                            ? ALP_OK
-                            : alpi_tracer_create(job->scene, surfaces, o->progress,
-                                                 o->progress_user, &job->occluders);
+    alp_result result = surfaces == NULL ? ALP_OK
+                                         : alpi_tracer_create(job->scene, surfaces, o->progress,
+                                                              o->progress_user, &job->occluders);
     alpi_release(job->scene->context, surfaces);
     return result;
 }

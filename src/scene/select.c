@@ -78,8 +78,8 @@ static void print_names(const near_names *list, char *text, size_t size)
     bool more = list->more;
     text[0] = '\0';
     for (int i = 0; i < list->count; i++) {
-        const int length = snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "",
-                                    list->names[i]);
+        const int length =
+            snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "", list->names[i]);
         if (length < 0 || (size_t)length >= size - used - sizeof ", …") {
             text[used] = '\0'; // no half names
             more = true;
@@ -88,7 +88,9 @@ static void print_names(const near_names *list, char *text, size_t size)
         used += (size_t)length;
     }
     snprintf(text + used, size - used, "%s%s", more && used > 0 ? ", " : "",
-             list->count == 0 ? "none" : more ? "…" : "");
+             list->count == 0 ? "none"
+             : more           ? "…"
+                              : "");
 }
 
 static alp_result fail_without_match(const alp_scene *scene, const char *pattern, size_t size)

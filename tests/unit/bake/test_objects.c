@@ -543,11 +543,72 @@ static void many_objects_are_one_stage(void **state)
     alp_bake_report report;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
     assert_true(l.calls > 0);
-    assert_int_equal(l.total, report.rays);
+    assert_int_equal(l.total, report.atlas.texels * 16);
     assert_true(report.ao_mean == 1.0);
     l = (listener){.stop_at = 1};
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
     assert_int_equal(l.calls, 1); // nobody is asked again
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static bool stop_half_way(void *user, const alp_progress *progress)
+{
+    (void)user;
+    return strcmp(progress->stage, "occlusion") != 0 || progress->done * 4 < progress->total;
+}
+
+static void what_is_cut_off_is_unknown(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = boxes_on_a_floor(context);
+    alp_bake_options options = small_options();
+    options.ao_self = true;
+    options.sampling.accuracy = ALP_ADAPTIVE_OFF;
+    options.sampling.time_limit = 1e-9;
+    alp_bake_report report;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+    assert_true(report.cut_off);
+    assert_int_equal(report.traced + report.interpolated + report.unknown, report.atlas.texels);
+    assert_true(report.unknown > 0);
+
+    options.sampling.time_limit = 0.0; // the floor first, which alone takes long enough to be asked
+    options.sampling.keep_partial = true;
+    options.atlas.size = 256;
+    options.occlusion.samples = 4096;
+    options.progress = stop_half_way;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+    assert_true(report.cut_off);
+    assert_int_equal(report.traced + report.interpolated + report.unknown, report.atlas.texels);
+    assert_true(report.unknown > 0 && report.unknown < report.atlas.texels);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void the_stated_error_is_of_all_objects(void **state)
+{
+    (void)state;
+    // The box and the plate are open without error, so the mean square is the trench's share of it.
+    alp_context *context = test_context(2);
+    alp_scene *scene = trench(context, true);
+    alp_bake_options options = small_options();
+    options.ao_self = true;
+    alp_lightmap *lightmap = NULL;
+    alp_bake_report report;
+    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
+    double squares = 0.0, largest = 0.0;
+    for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+        const double error = (double)lightmap->errors[i];
+        assert_true(error == 0.0 || lightmap->texels.triangles[i] < 6);
+        squares += error * error;
+        largest = fmax(largest, error);
+    }
+    assert_true(squares > 0.0);
+    ASSERT_NEAR(report.ao_relative_error * report.ao_mean,
+                sqrt(squares / (double)lightmap->texels.count), 1e-9);
+    assert_true(report.ao_p99_error * report.ao_mean <= largest * 1.000001);
+    alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
@@ -590,6 +651,8 @@ int main(void)
         cmocka_unit_test(a_kept_set_is_judged_by_what_is_baked),
         cmocka_unit_test(wrong_choices_are_refused),
         cmocka_unit_test(many_objects_are_one_stage),
+        cmocka_unit_test(what_is_cut_off_is_unknown),
+        cmocka_unit_test(the_stated_error_is_of_all_objects),
         cmocka_unit_test(workers_change_no_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

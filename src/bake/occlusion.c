@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// The occlusion stage of a bake: tracer → map → lightmap, and what the report says of it.
+#include "bake/objects.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "maps/occlusion_map.h"
+#include "maps/stated_error.h"
+
+#include <math.h>
+
+/// Mean over the surface: each texel of known value counts by its area.
+static double area_mean(const alpi_texels *texels, const alpi_lattice *lattice)
+{
+    double sum = 0.0, area = 0.0;
+    for (uint32_t i = 0; i < texels->count; i++) {
+        if (lattice->states[i] != ALPI_TEXEL_OPEN) {
+            sum += (double)texels->areas[i] * (double)lattice->values[i];
+            area += (double)texels->areas[i];
+        }
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
+{
+    if (job->report.ao_mean < 0.05) {
+        bool limited = isfinite(job->report.ao_distance);
+        alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
+                  100.0 * job->report.ao_mean,
+                  limited ? "nearly everything is closed within the distance limit; a shorter one "
+                            "(--ao-distance) shows more"
+                          : "a closed room is dark without a distance limit; give one "
+                            "(--ao-distance auto, or metres)");
+    }
+}
+
+static void warn_of_error(const alpi_bake_job *job)
+{
+    const alp_bake_report *r = &job->report;
+    const double wanted = (double)job->options.sampling.error;
+    if (r->cut_off) {
+        alpi_warn(job->context, "cut-off", job->scene->name,
+                  "sampling ended before its time at %u rays a texel; the stated error is %.2g %%, "
+                  "%llu texels have no value of their own, and another run gives other bits",
+                  r->ao_samples, 100.0 * r->ao_relative_error, (unsigned long long)r->unknown);
+    } else if (wanted > 0.0 && r->ao_relative_error > wanted) {
+        alpi_warn(job->context, "error-not-reached", job->scene->name,
+                  "the stated error is %.2g %% after %u rays a texel, wanted %.2g %%; allow more "
+                  "rays (--ao-samples)",
+                  100.0 * r->ao_relative_error, r->ao_samples, 100.0 * wanted);
+    }
+}
+
+static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map,
+                        const alpi_lattice *lattice)
+{
+    alp_bake_report *r = &job->report;
+    r->rays += map->rays;
+    r->ao_samples = map->samples;
+    r->traced = map->traced;
+    r->interpolated = map->interpolated;
+    r->unknown = map->unknown;
+    r->ao_relative_error = map->relative;
+    r->ao_p99_error = map->p99;
+    r->cut_off = map->cut_off;
+    r->ao_mean = area_mean(&job->lightmap->texels, lattice);
+    alpi_bake_warn_of_darkness(job);
+    warn_of_error(job);
+}
+
+/// Options of the map that are the same for all objects.
+static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
+{
+    const alp_sampling_options *s = &job->options.sampling;
+    return (alpi_occlusion_map_options){
+        .accuracy = s->accuracy,
+        .error = s->error,
+        .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
+        .keep_partial = s->keep_partial,
+        .progress = job->options.progress,
+        .progress_user = job->options.progress_user,
+    };
+}
+
+/// Gathers the texels of one object: with the tracer of what occludes it, to its distance limit.
+static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
+                                const alpi_object *object,
+                                const alpi_occlusion_map_options *options, alpi_lattice *lattice,
+                                alpi_occlusion_map_report *report)
+{
+    const double started = alpi_seconds();
+    alpi_tracer *tracer = NULL, *owned = NULL;
+    ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
+                               &tracer, &owned));
+    job->report.seconds_build += alpi_seconds() - started;
+    alp_occlusion_options occlusion = job->options.occlusion;
+    occlusion.distance = object->distance;
+    const alpi_receivers receivers = alpi_texels_receivers(&job->lightmap->texels);
+    alpi_occlusion_setup setup;
+    alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
+    if (result == ALP_OK) {
+        job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
+        result = alpi_occlusion_map(&setup, &receivers, object->texels, object->texel_count,
+                                    options, lattice, job->lightmap->errors, report);
+    }
+    alpi_occlusion_release(&setup);
+    alpi_tracer_destroy(owned);
+    return result;
+}
+
+static void add_report(alpi_occlusion_map_report *all, const alpi_occlusion_map_report *one)
+{
+    all->rays += one->rays;
+    all->traced += one->traced;
+    all->interpolated += one->interpolated;
+    all->unknown += one->unknown;
+    all->samples = one->samples > all->samples ? one->samples : all->samples;
+    all->relative = one->relative;
+    all->p99 = one->p99;
+    all->cut_off = all->cut_off || one->cut_off;
+}
+
+/// The stated error of all objects together.
+static alp_result join_errors(const alpi_bake_job *job, const alpi_lattice *lattice,
+                              alpi_occlusion_map_report *all)
+{
+    const float *errors = job->lightmap->errors;
+    const uint32_t count = job->lightmap->texels.count;
+    const double mean = fmax(area_mean(&job->lightmap->texels, lattice), 1e-30);
+    double sum = 0.0, p99 = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += (double)errors[i] * (double)errors[i];
+    }
+    ALP_TRY(alpi_percentile(job->context, errors, lattice->order, count, 0.99, &p99));
+    all->relative = sqrt(sum / fmax((double)count, 1.0)) / mean;
+    all->p99 = p99 / mean;
+    return ALP_OK;
+}
+
+/// Several objects, one after the other; told as one stage. After a cut-off the others stay
+/// unknown.
+static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
+                               alpi_occlusion_map_report *all)
+{
+    const double texels = (double)job->lightmap->texels.count;
+    alpi_part_progress part = {.callback = job->options.progress,
+                               .user = job->options.progress_user,
+                               .stage = "occlusion",
+                               .started = alpi_seconds(),
+                               .rays = (uint64_t)(texels * job->options.occlusion.samples)};
+    alpi_occlusion_map_options options = map_options(job);
+    options.progress = alpi_tell_part;
+    options.progress_user = &part;
+    for (uint32_t i = 0; i < objects->count; i++) {
+        const alpi_object *object = &objects->items[i];
+        alpi_occlusion_map_report one = {.unknown = object->texel_count};
+        part.begin = part.end;
+        part.end += (double)object->texel_count / texels;
+        if (!all->cut_off) {
+            ALP_TRY(gather_object(job, objects, object, &options, lattice, &one));
+        }
+        add_report(all, &one);
+    }
+    return join_errors(job, lattice, all);
+}
+
+static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
+{
+    alpi_objects objects;
+    alpi_occlusion_map_report all = {0};
+    ALP_TRY(alpi_objects_create(job, lattice->order, &objects));
+    alp_result result;
+    if (objects.count == 1) {
+        const alpi_occlusion_map_options options = map_options(job);
+        result = gather_object(job, &objects, &objects.items[0], &options, lattice, &all);
+    } else {
+        result = gather_apart(job, &objects, lattice, &all);
+    }
+    alpi_objects_destroy(&objects);
+    ALP_TRY(result);
+    fill_report(job, &all, lattice);
+    return ALP_OK;
+}
+
+static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
+{
+    alp_lightmap *l = job->lightmap;
+    for (uint32_t i = 0; i < l->texels.count; i++) {
+        l->states[i] = lattice->states[i];
+    }
+    if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
+        alpi_bake_multiply_existing(job, lattice->values);
+    }
+    return alpi_lightmap_store(l, lattice->values);
+}
+
+alp_result alpi_bake_occlusion(alpi_bake_job *job)
+{
+    ALP_TRY(alpi_bake_begin_stage(job, "build"));
+    const double started = alpi_seconds();
+    alpi_lattice lattice;
+    ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
+    alp_result result = gather(job, &lattice);
+    job->report.seconds_bake = alpi_seconds() - started - job->report.seconds_build;
+    if (result == ALP_OK && job->report.cut_off) {
+        job->options.progress = NULL; // asked again it would cancel what it wanted kept
+        alpi_set_watch(job->context, (alpi_watch){0});
+    }
+    if (result == ALP_OK) {
+        result = store(job, &lattice);
+    }
+    alpi_lattice_destroy(&lattice);
+    return result;
+}
