@@ -241,6 +241,34 @@ static void wrong_choices_are_refused(void **state)
     alp_context_destroy(context);
 }
 
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    int left = 0;
+    alp_context *context = test_context_failing(&left);
+    alp_scene *scene = boxes_on_a_floor(context);
+    alp_bake_options options = small_options();
+    options.atlas.size = 16;
+    options.occlusion.samples = 4;
+    for (int kind = 0; kind < 2; kind++) {
+        options.only = "W*";
+        options.ao_self = kind == 0;
+        options.occluders = kind == 0 ? NULL : "F*";
+        int failures = 0;
+        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+        for (int budget = 0; result != ALP_OK; budget++) {
+            left = budget;
+            result = alp_bake(scene, &options, NULL, NULL);
+            failures += result != ALP_OK;
+            assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+        }
+        assert_true(failures > 20);
+    }
+    left = 1 << 30;
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// What a user of progress may rely on.
 typedef struct listener {
     uint64_t done, total;
@@ -398,6 +426,7 @@ int main(void)
         cmocka_unit_test(a_convex_object_alone_is_open),
         cmocka_unit_test(an_object_alone_is_what_it_is_without_neighbours),
         cmocka_unit_test(wrong_choices_are_refused),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(many_objects_are_one_stage),
         cmocka_unit_test(what_is_cut_off_is_unknown),
         cmocka_unit_test(the_stated_error_is_of_all_objects),
