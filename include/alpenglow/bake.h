@@ -85,6 +85,8 @@ typedef struct alp_bake_report {
     float ao_distance;   ///< metres, as used; automatic with ao_self: of the largest object
     uint32_t ao_samples; ///< rays of a traced texel
     uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
+    uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
+    uint64_t dropped; ///< wholly inside, at the rim: filled like texels of no surface
     /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
     /// over its mean.
     double ao_relative_error, ao_p99_error;

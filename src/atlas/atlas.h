@@ -66,6 +66,9 @@ void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 /// A texel's representative point.
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
 
+/// Whether the triangle of a texel's representative point is smooth enough for a lift.
+bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel);
+
 /// Texels as receivers: their points are spread over the surface inside the texel, over its pieces
 /// by their areas, lifted to the smooth surface that the vertex normals describe. The texels must
 /// outlive the receivers.

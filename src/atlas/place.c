@@ -189,6 +189,20 @@ alpi_receivers alpi_texels_receivers(const alpi_texels *texels)
         .count = texels->count, .extended = true, .place = place, .user = texels};
 }
 
+bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
+{
+    const alp_scene *scene = texels->atlas->scene;
+    const uint32_t last = texels->piece_first[texel + 1];
+    alpi_facet facet;
+    alpi_facet_load(scene, texels->triangles[texel], true, &facet);
+    bool lifted = facet.lifted;
+    for (uint32_t i = texels->piece_first[texel]; i < last && !lifted; i++) {
+        alpi_facet_load(scene, texels->piece_triangles[i], true, &facet);
+        lifted = facet.lifted;
+    }
+    return lifted;
+}
+
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point)
 {
     alpi_facet facet;

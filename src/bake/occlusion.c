@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 #include "maps/occlusion_map.h"
 #include "maps/stated_error.h"
+#include "maps/validity.h"
 
 #include <math.h>
 
@@ -83,6 +84,48 @@ static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
     };
 }
 
+/// Texels in an order without those that take their value from elsewhere. @return how many
+static uint32_t drop(const alpi_object *object, const uint8_t *dropped, uint32_t *order)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < object->texel_count; i++) {
+        const uint32_t t = object->texels[i];
+        if (!dropped[t]) {
+            order[kept++] = t;
+        }
+    }
+    return kept;
+}
+
+/// Looks for texels of an object that are inside other geometry, then gathers the others.
+static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
+                               const alpi_occlusion_setup *setup,
+                               alpi_occlusion_map_options options, alpi_lattice *lattice,
+                               alpi_occlusion_map_report *report)
+{
+    alpi_texels *texels = &job->lightmap->texels;
+    const alpi_receivers receivers = alpi_texels_receivers(texels);
+    const alpi_task_progress progress = {
+        .callback = options.progress, .user = options.progress_user, .stage = "validity"};
+    alpi_validity validity;
+    ALP_TRY(alpi_validity_create(setup, &receivers, texels, lattice, object->texels,
+                                 object->texel_count, &progress, &validity));
+    job->report.rays += validity.rays;
+    job->report.moved += validity.moved_count;
+    job->report.dropped += validity.dropped_count;
+    options.near = validity.near;
+    uint32_t *order = ALPI_NEW(job->context, uint32_t, object->texel_count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (order != NULL) {
+        const uint32_t count = drop(object, validity.dropped, order);
+        result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
+                                    job->lightmap->errors, report);
+    }
+    alpi_release(job->context, order);
+    alpi_validity_destroy(&validity);
+    return result;
+}
+
 /// Gathers the texels of one object: with the tracer of what occludes it, to its distance limit.
 static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
                                 const alpi_object *object,
@@ -96,13 +139,11 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     job->report.seconds_build += alpi_seconds() - started;
     alp_occlusion_options occlusion = job->options.occlusion;
     occlusion.distance = object->distance;
-    const alpi_receivers receivers = alpi_texels_receivers(&job->lightmap->texels);
     alpi_occlusion_setup setup;
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
     if (result == ALP_OK) {
         job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
-        result = alpi_occlusion_map(&setup, &receivers, object->texels, object->texel_count,
-                                    options, lattice, job->lightmap->errors, report);
+        result = gather_valid(job, object, &setup, *options, lattice, report);
     }
     alpi_occlusion_release(&setup);
     alpi_tracer_destroy(owned);
@@ -158,7 +199,13 @@ static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_l
         part.begin = part.end;
         part.end += (double)object->texel_count / texels;
         if (!all->cut_off) {
-            ALP_TRY(gather_object(job, objects, object, &options, lattice, &one));
+            alp_result result = gather_object(job, objects, object, &options, lattice, &one);
+            const bool kept = job->options.sampling.keep_partial && all->traced > 0;
+            if (result == ALP_ERROR_CANCELLED && kept) { // before its rays: others have theirs
+                one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
+            } else {
+                ALP_TRY(result);
+            }
         }
         add_report(all, &one);
     }

@@ -14,7 +14,7 @@ static const float SMOOTH_COSINE = 0.99f;
 
 // --- neighbourhood -------------------------------------------------------------------------------
 
-static uint32_t texel_at(const alpi_lattice *l, uint32_t page, int64_t x, int64_t y)
+uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int64_t y)
 {
     if (x < 0 || y < 0 || x >= l->width || y >= l->height) {
         return ALPI_NONE;
@@ -38,7 +38,7 @@ static void append_block(const alpi_lattice *l, uint32_t page, uint32_t x0, uint
 {
     for (uint32_t y = y0; y < y0 + BLOCK_HEIGHT; y++) {
         for (uint32_t x = x0; x < x0 + BLOCK_WIDTH; x++) {
-            const uint32_t t = texel_at(l, page, x, y);
+            const uint32_t t = alpi_lattice_texel(l, page, x, y);
             if (t != ALPI_NONE) {
                 l->order[(*count)++] = t;
             }
@@ -123,7 +123,8 @@ uint32_t alpi_lattice_reach(uint32_t pass)
 static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
 {
     const uint16_t *p = l->texels->pixels[t];
-    const uint32_t n = texel_at(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
+    const uint32_t n =
+        alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
     if (n == ALPI_NONE || l->states[n] == ALPI_TEXEL_OPEN ||
         l->texels->charts[n] != l->texels->charts[t]) {
         return ALPI_NONE;

@@ -31,6 +31,9 @@ alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels
                                alpi_lattice *lattice);
 void alpi_lattice_destroy(alpi_lattice *lattice);
 
+/// The texel at a pixel, ALPI_NONE where there is none or the pixel is off the page.
+uint32_t alpi_lattice_texel(const alpi_lattice *lattice, uint32_t page, int64_t x, int64_t y);
+
 /// What an interpolated texel is made of: value = Σ weights · values of `texels`.
 typedef struct alpi_stencil {
     uint32_t count;

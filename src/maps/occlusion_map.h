@@ -11,10 +11,11 @@
 
 /// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {
-    float accuracy;    // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
-    float error;       // wanted relative error; 0: all samples of the setup, in one round
-    double deadline;   // in alpi_seconds(), HUGE_VAL = none
-    bool keep_partial; // cancelled by the user: ends with what there is
+    const uint8_t *near; // [texels] 1: traced in any case, something is too near to interpolate
+    float accuracy;      // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
+    float error;         // wanted relative error; 0: all samples of the setup, in one round
+    double deadline;     // in alpi_seconds(), HUGE_VAL = none
+    bool keep_partial;   // cancelled by the user: ends with what there is
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_map_options;
