@@ -85,6 +85,25 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     return EXIT_DONE;
 }
 
+/// Which surfaces are baked and which occlude them.
+static int read_choice(const option_value *values, alp_bake_options *o)
+{
+    o->only = values[OPTION_ONLY].text;
+    o->occluders = values[OPTION_OCCLUDERS].text;
+    o->ao_self = values[OPTION_AO_SELF].given;
+    if (o->ao_self && o->occluders != NULL) {
+        return usage_error(COMMAND_BAKE, "--ao-self and --occluders: an object that is alone has "
+                                         "no other occluders; leave one of them out");
+    }
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && (o->ao_self || o->only != NULL)) {
+        return usage_error(COMMAND_BAKE,
+                           "%s: with --atlas vertex all surfaces are baked, and "
+                           "together; use --atlas charts",
+                           o->ao_self ? "--ao-self" : "--only");
+    }
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_bake_options *o)
 {
     const option_value *values = a->values;
@@ -100,6 +119,9 @@ static int read_options(const command_line *a, alp_bake_options *o)
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
     o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
     int code = check_vertex_options(values);
+    if (code == EXIT_DONE) {
+        code = read_choice(values, o);
+    }
     if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
@@ -134,9 +156,12 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
-        printf("to %.4g m%s", (double)r->ao_distance,
-               a->values[OPTION_AO_DISTANCE].choice == 0 ? " (auto: 20 % of the scene's diagonal)"
-                                                         : "");
+        const bool is_auto = a->values[OPTION_AO_DISTANCE].choice == 0;
+        const bool is_self = a->values[OPTION_AO_SELF].given;
+        printf("to %s%.4g m%s", is_auto && is_self ? "at most " : "", (double)r->ao_distance,
+               !is_auto  ? ""
+               : is_self ? " (auto: 20 % of each object's diagonal)"
+                         : " (auto: 20 % of the scene's diagonal)");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
@@ -158,6 +183,9 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
     if (o->maps_folder != NULL) {
         printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
+    }
+    if (o->only != NULL) {
+        printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);
     }
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
         print_vertices(o, r);

@@ -187,6 +187,26 @@ static const option options[] = {
      .initial = "2",
      .help = "Free texels between neighbouring charts, filled with the nearest value. More keeps "
              "smaller mip levels clean, and leaves less of the page for charts."},
+    {.id = OPTION_ONLY,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--only",
+     .value = "GLOB",
+     .help =
+         "Bake only the surfaces whose node's name matches (its mesh's, where it has none; info "
+         "lists them): * any characters, ? one, [a-z] one of these, [!a-z] one that is not; "
+         "several patterns with commas between, and \\ before a comma or another sign that is "
+         "meant. Each must match something. All other surfaces come out as they were, and "
+         "still occlude. Not with --atlas vertex."},
+    {.id = OPTION_OCCLUDERS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--occluders",
+     .value = "GLOB",
+     .help = "Only surfaces whose name matches occlude, patterns as in bake --only; rays pass all "
+             "others."},
 
     // --- picture --------------------------------------------------------------------------------
     {.id = OPTION_QUALITY,
@@ -373,6 +393,15 @@ static const option options[] = {
      .initial = "cosine",
      .help = "cosine: as uniform light from the sky reaches a matte surface. uniform: every "
              "direction counts the same."},
+    {.id = OPTION_AO_SELF,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_FLAG,
+     .name = "--ao-self",
+     .help =
+         "Every object, a node with its whole mesh, is baked as if it were alone, and all nodes "
+         "with the same mesh share one map. --ao-distance auto is then 20 % of the diagonal of "
+         "the object's own box. Not with --occluders or --atlas vertex."},
     {.id = OPTION_ONE_SIDED,
      .commands = RAY_COMMANDS,
      .group = GROUP_AO,
@@ -448,10 +477,7 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--only", "GLOB", "everything is baked"),
-    LATER(IN_BAKE, "--occluders", "GLOB", "everything occludes"),
     LATER(IN_BAKE, "--ao-bleed", NULL, "open is 1 and closed is 0, without colour"),
-    LATER(IN_BAKE, "--ao-self", NULL, "objects occlude themselves and each other"),
     LATER(RAY_COMMANDS, "--bounces", "N|converge", no_light),
     LATER(IN_BAKE, "--direct", "on|off|only", no_light),
     LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),

@@ -52,7 +52,19 @@ typedef struct alp_bake_options {
     alp_sampling_options sampling;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
-    const char *output;                    ///< .glb or .gltf, or NULL: no asset
+    /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
+    /// A surface is named like its node (like the mesh of a node without a name, "node N" without
+    /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
+    /// (of UTF-8), [a-z] one of these, [!a-z] one that is not, \ takes the next character as it is.
+    /// Every pattern must match something. Other surfaces come out as they went in, and occlude.
+    const char *only;
+    /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
+    const char *occluders;
+    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
+    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
+    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
+    bool ao_self;
+    const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
@@ -70,7 +82,7 @@ typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
     uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
-    float ao_distance;   ///< metres, as used
+    float ao_distance;   ///< metres, as used; automatic with ao_self: of the largest object
     uint32_t ao_samples; ///< rays of a traced texel
     uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
     uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
@@ -82,6 +94,7 @@ typedef struct alp_bake_report {
     double ao_mean; ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
+    uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
     uint64_t seed;
     uint64_t input_hash;
@@ -95,7 +108,8 @@ typedef struct alp_lightmap alp_lightmap;
 /// its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
-/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake, or a second UV set that cannot
+/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
+///         INVALID_DATA (nothing to bake, or a second UV set that cannot
 ///         be kept); UNSUPPORTED (an output that is neither .glb nor .gltf); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,

@@ -16,8 +16,9 @@ struct alp_atlas {
     alp_atlas_options options;
     alp_atlas_info info;
     float (*corner_uvs)[3][2];  // [triangle_count]
-    uint32_t *triangle_pages;   // [triangle_count]
-    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
+    uint32_t *triangle_pages;   // [triangle_count]; ALPI_NONE: of a surface that was not chosen
+    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for triangles without
+                                // texels of their own: unusable, not chosen, or of an instance.
                                 // KEEP: chart = connected island in uv
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };

@@ -340,7 +340,7 @@ static alp_result find_bands(void *user, uint32_t begin, uint32_t end, uint32_t 
         const uint32_t page = atlas->triangle_pages[t];
         r->bands[t][0] = 1;
         r->bands[t][1] = 0;
-        if (atlas->scene->triangle_usable[t] && page >= r->first_page && page < r->end_page &&
+        if (atlas->triangle_charts[t] != ALPI_NONE && page >= r->first_page && page < r->end_page &&
             alpi_page_triangle_load(atlas, t, &shape) &&
             alpi_page_triangle_range(&shape, 0, atlas->info.width, &first, &last) &&
             alpi_page_triangle_range(&shape, 1, atlas->info.height, &row[0], &row[1])) {

@@ -2,6 +2,8 @@
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
 #include "bake/job.h"
 
+#include "atlas/choice.h"
+#include "base/memory.h"
 #include "base/tasks.h"
 #include "transport/occlusion.h"
 
@@ -65,7 +67,8 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    const alpi_atlas_choice choice = {job->only, job->originals};
+    ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
@@ -82,6 +85,7 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);
     }
@@ -116,6 +120,9 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     alp_result result = run(&job);
     alpi_set_watch(job.context, former);
+    alpi_release(job.context, job.only);
+    alpi_release(job.context, job.occluders);
+    alpi_release(job.context, job.originals);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

@@ -11,9 +11,15 @@ typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
     alp_bake_options options;
+    bool *only, *occluders; // [surface_count] those of the patterns, NULL = all
+    uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
     alp_bake_report report;
 } alpi_bake_job;
+
+/// Fills only, occluders, originals and report.surfaces_baked.
+/// @return ALP_OK; INVALID_ARGUMENT: a pattern that matches nothing, or occluders with ao_self
+alp_result alpi_bake_choose(alpi_bake_job *job);
 
 /// Tells the user that a stage begins; false from the user cancels.
 alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);

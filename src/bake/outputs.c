@@ -92,24 +92,67 @@ static void replace_pages(const alpi_bake_job *job, json_t *occlusion)
                         json_string(in_color ? "COLOR_0" : "_OCCLUSION"));
 }
 
+/// A name of the scene, which arrays may give in any bytes.
+static json_t *name_text(const char *name)
+{
+    json_t *text = json_string(name);
+    return text != NULL ? text : json_string("(no UTF-8)");
+}
+
+/// What was baked and what it saw, where that is not everything.
+static void add_choice(const alpi_bake_job *job, json_t *object)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->ao_self) {
+        json_object_set_new(object, "self", json_true());
+    }
+    if (o->occluders != NULL) {
+        json_object_set_new(object, "occluders", name_text(o->occluders));
+    }
+    if (job->only == NULL) {
+        return;
+    }
+    json_t *names = json_array();
+    const char *last = NULL;
+    for (uint32_t s = 0; s < job->scene->surface_count; s++) {
+        const char *name = job->scene->surfaces[s].name;
+        if (job->only[s] && (last == NULL || strcmp(last, name) != 0)) { // primitives of one node
+            json_array_append_new(names, name_text(name));
+            last = name;
+        }
+    }
+    json_object_set_new(object, "only", name_text(o->only));
+    json_object_set_new(object, "surfaces", names);
+}
+
+/// The distance limit: metres, "inf", or what it is of each object.
+static json_t *distance_value(const alpi_bake_job *job)
+{
+    if (job->options.ao_self && job->options.occlusion.distance == 0.0f) {
+        return json_string("0.2 of each object's diagonal");
+    }
+    return job->report.ao_distance < 1e30f ? json_real((double)job->report.ao_distance)
+                                           : json_string("inf");
+}
+
 /// Version, options, quantity, input hash.
 char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
     const alp_occlusion_options *ao = &job->options.occlusion;
     char hash[17];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)job->scene->input_hash);
-    json_t *distance = job->report.ao_distance < 1e30f ? json_real((double)job->report.ao_distance)
-                                                       : json_string("inf");
     json_t *object = json_pack(
         "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:f, s:b, s:s, s:i, s:i, s:i}}",
         "version", alp_version(), "input_hash", hash, "occlusion", "quantity",
         "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)job->report.ao_samples,
-        "distance_m", distance, "falloff", falloff_name(ao->falloff), "cone_rad", (double)ao->cone,
-        "distribution", ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform",
-        "one_sided", (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
+        "distance_m", distance_value(job), "falloff", falloff_name(ao->falloff), "cone_rad",
+        (double)ao->cone, "distribution",
+        ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform", "one_sided",
+        (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
         job->report.ao_relative_error, "cut_off", (int)job->report.cut_off, "atlas",
         atlas_name(job->report.atlas.mode), "size", (int)job->report.atlas.width, "pages",
         (int)job->report.atlas.pages, "padding", (int)job->options.atlas.padding);
+    add_choice(job, object); // jansson takes NULL and does nothing
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
     }
@@ -216,6 +259,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .corner_uvs = keep ? NULL : (const float(*)[3][2])atlas->corner_uvs,
             .kept_uv_set = 1,
             .triangle_pages = atlas->triangle_pages,
+            .originals = job->originals,
             .page_pngs = pngs,
             .page_png_sizes = sizes,
             .existing_ao = job->options.existing_ao == ALP_EXISTING_AO_KEEP

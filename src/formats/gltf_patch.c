@@ -102,6 +102,7 @@ void alpi_patcher_destroy(alpi_gltf_patcher *p)
     alpi_release(p->context, p->known_table);
     alpi_release(p->context, p->triangle_pages);
     alpi_release(p->context, p->plans);
+    alpi_release(p->context, p->showings);
     alpi_release(p->context, p->pieces);
     alpi_release(p->context, p->page_textures);
     alpi_release(p->context, p->image_embedded);

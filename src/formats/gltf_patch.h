@@ -47,16 +47,22 @@ typedef struct alpi_gltf_piece {
 } alpi_gltf_piece;
 
 /// One surface that gets a map. Plans with the same `user` are neighbours: the primitives of one
-/// node (with kept coordinates: of one mesh).
+/// node, which further nodes may show too (with kept coordinates: of one mesh).
 typedef struct alpi_gltf_plan {
     uint32_t surface;
     size_t user; // node, or mesh with kept coordinates
     size_t mesh, primitive;
     size_t material; // in the document, ALPI_GLTF_NONE = none
     uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
-    bool in_a_copy;  // the mesh is copied for this node, because others use it too
+    bool in_a_copy;  // the mesh is copied for its nodes, because others use it too
     size_t piece_first, piece_count;
+    size_t showing_first, showing_end; // of the first plan of a user: its nodes
 } alpi_gltf_plan;
+
+/// A node that shows the mesh of a user.
+typedef struct alpi_gltf_showing {
+    size_t user, node;
+} alpi_gltf_showing;
 
 // --- the patcher ---------------------------------------------------------------------------------
 
@@ -82,6 +88,8 @@ typedef struct alpi_gltf_patcher {
     uint32_t *triangle_pages; // [scene triangles] page of each; zero-area ones follow a neighbour
     alpi_gltf_plan *plans;
     size_t plan_count;
+    alpi_gltf_showing *showings; // sorted by user
+    size_t showing_count;
     alpi_gltf_piece *pieces;
     size_t piece_count, piece_capacity;
 

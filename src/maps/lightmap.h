@@ -40,7 +40,11 @@ alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page
 alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
                                         alp_image **image);
 
-/// Bilinear look-up at a point of a triangle, or linear between the values at its vertices.
+/// Whether the surface of a triangle has values: not those that a bake left out.
+bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
+
+/// Bilinear look-up at a point of a triangle that the lightmap holds, or linear between the values
+/// at its vertices.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
 

@@ -26,7 +26,13 @@ typedef struct alpi_mesh_patch {
     /// NULL: the meshes' own set `kept_uv_set` is used and no vertex changes.
     const float (*corner_uvs)[3][2]; // [triangle_count]
     uint32_t kept_uv_set;
-    const uint32_t *triangle_pages; // [triangle_count] page of each; NULL = all on page 0
+    /// [triangle_count] page of each; NULL = all on page 0. A surface whose triangles have
+    /// ALPI_NONE gets no map and stays as it is.
+    const uint32_t *triangle_pages;
+    /// [surface_count] the surface whose coordinates and pages each one has too, itself where it
+    /// has its own (see alpi_scene_instances); NULL = all their own. Such surfaces go on sharing a
+    /// mesh.
+    const uint32_t *originals;
     /// Occlusion map of each page, ready to embed.
     const uint8_t *const *page_pngs; // [page_count]
     const size_t *page_png_sizes;    // [page_count]

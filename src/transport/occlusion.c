@@ -14,8 +14,6 @@
 
 enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 
-static const float DISTANCE_AUTO_SHARE = 0.2f; // of the bounding box's diagonal
-
 alp_occlusion_options alp_occlusion_options_default(void)
 {
     return (alp_occlusion_options){.struct_size = sizeof(alp_occlusion_options),
@@ -29,7 +27,7 @@ float alp_occlusion_distance(const alp_scene *scene, const alp_occlusion_options
     if (scene == NULL || options == NULL || options->distance != 0.0f) {
         return options ? options->distance : 0.0f;
     }
-    return DISTANCE_AUTO_SHARE * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
+    return ALPI_OCCLUSION_AUTO_SHARE * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
 }
 
 alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_options *o)

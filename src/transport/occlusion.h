@@ -18,6 +18,9 @@ enum { ALPI_QUARTERS = 4 };
 /// 64². With fewer, placing them takes longer than it gains.
 enum { ALPI_SAMPLES_PER_POINT = 4 };
 
+/// The automatic distance limit over the diagonal of a bounding box.
+#define ALPI_OCCLUSION_AUTO_SHARE 0.2f
+
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
     alp_context *context;
