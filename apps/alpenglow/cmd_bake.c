@@ -27,6 +27,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->maps_folder = values[OPTION_MAPS_FOLDER].text;
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
+    o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
     o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;

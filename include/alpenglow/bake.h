@@ -16,6 +16,20 @@ typedef enum alp_existing_ao {
     ALP_EXISTING_AO_KEEP = 2      ///< the material keeps its own
 } alp_existing_ao;
 
+/// Where the occlusion of a written asset goes.
+typedef enum alp_ao_into {
+    /// Maps on the pages of the atlas, read with a coordinate set of their own (default).
+    ALP_AO_INTO_SEPARATE = 0,
+    /// Into the red channel of the image that a material reads its roughness and metalness from, or
+    /// else its occlusion, at that image's size, its other channels unchanged. existing_ao says
+    /// what happens to that channel where the material's occlusion map used it; where none did, it
+    /// is replaced. A material whose image can not hold the occlusion (it is tiled, several surfaces
+    /// lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above, with a
+    /// warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of the maps,
+    /// which for materials with a packed image are never multiplied by an older map themselves.
+    ALP_AO_INTO_ORM = 1
+} alp_ao_into;
+
 /// Values of alp_sampling_options.accuracy that are no accuracy.
 #define ALP_ADAPTIVE_OFF 0.0f
 #define ALP_ADAPTIVE_AUTO (-1.0f)
@@ -41,6 +55,7 @@ typedef struct alp_bake_options {
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
     alp_existing_ao existing_ao;
+    alp_ao_into ao_into;
     const char *output;      ///< .glb or .gltf, or NULL: no asset
     const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
     bool overwrite;          ///< default false: an existing file stops the job before it starts

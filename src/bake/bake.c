@@ -28,6 +28,10 @@ static alp_result check_options(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
     }
+    if ((int)o->ao_into < ALP_AO_INTO_SEPARATE || o->ao_into > ALP_AO_INTO_ORM) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
+    }
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -126,6 +130,7 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_plan_packing(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
@@ -138,6 +143,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(result);
     ALP_TRY(begin_stage(job, "write"));
     double write_started = alpi_seconds();
+    ALP_TRY(alpi_bake_pack_images(job));
     ALP_TRY(alpi_bake_write_outputs(job));
     job->report.seconds_write = alpi_seconds() - write_started;
     job->report.seconds_total = alpi_seconds() - started;
@@ -163,6 +169,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     alp_result result = run(&job);
     alpi_set_watch(job.context, former);
+    alpi_bake_release_packing(&job);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

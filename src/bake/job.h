@@ -7,11 +7,27 @@
 
 #include <alpenglow/bake.h>
 
+/// An image of the scene that occlusion is packed into.
+typedef struct alpi_pack_target {
+    uint32_t image;                // of the scene
+    uint8_t *png;                  // owned, NULL until it is made
+    size_t png_size;
+} alpi_pack_target;
+
+/// What --ao-into orm comes to: which materials read their occlusion from which image.
+typedef struct alpi_packing {
+    uint32_t count;
+    alpi_pack_target *targets;  // [count], as many as images at most
+    uint32_t *material_targets; // [materials] index into targets, ALPI_NONE = a separate map; or
+                                // NULL: all
+} alpi_packing;
+
 typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
     alp_bake_options options;
     alp_lightmap *lightmap;
+    alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
 
@@ -26,7 +42,16 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 
-/// Multiplies each value by the occlusion map that the texel's material has already.
+/// Decides which images occlusion is packed into, and says why not where it is not.
+alp_result alpi_bake_plan_packing(alpi_bake_job *job);
+/// Makes those images from the finished maps.
+alp_result alpi_bake_pack_images(alpi_bake_job *job);
+void alpi_bake_release_packing(alpi_bake_job *job);
+/// Whether the occlusion of a triangle is packed into an image.
+bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
+
+/// Multiplies each value by the occlusion map that the texel's material has already; not those that
+/// are packed, which are multiplied where they go to.
 void alpi_bake_multiply_existing(const alpi_bake_job *job, float *accessibility);
 
 #endif
