@@ -23,9 +23,11 @@ typedef enum alp_ao_into {
     /// Into the red channel of the image that a material reads its roughness and metalness from, or
     /// else its occlusion, at that image's size, its other channels unchanged. existing_ao says
     /// what happens to that channel where the material's occlusion map used it; where none did, it
-    /// is replaced. A material whose image can not hold the occlusion (it is tiled, several surfaces
+    /// is replaced. A material whose image can not hold the occlusion (it is tiled, several
+    /// surfaces
     /// lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above, with a
-    /// warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of the maps,
+    /// warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of the
+    /// maps,
     /// which for materials with a packed image are never multiplied by an older map themselves.
     ALP_AO_INTO_ORM = 1
 } alp_ao_into;

@@ -39,7 +39,8 @@ typedef struct alpi_texels {
 alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 
-// --- the layout of a texture that is there already ------------------------------------------------
+// --- the layout of a texture that is there already
+// ------------------------------------------------
 
 /// An atlas of one page, width × height, on which each surface s with textures[s] ≠ NULL lies where
 /// that texture is read: coordinate set, KHR_texture_transform, and each triangle moved from its

@@ -88,9 +88,8 @@ static alp_result place_surface(alp_atlas *layout, uint32_t index, const alpi_te
     const alpi_surface *surface = &scene->surfaces[index];
     if (texture->uv_set >= surface->uv_sets || texture->uv_set >= ALPI_UV_SET_LIMIT ||
         scene->uvs[texture->uv_set] == NULL) {
-        return refuse(reason,
-                      alpi_format(scene->context, "%s has no TEXCOORD_%u", surface->name,
-                                  texture->uv_set));
+        return refuse(reason, alpi_format(scene->context, "%s has no TEXCOORD_%u", surface->name,
+                                          texture->uv_set));
     }
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         uint32_t t = surface->first_triangle + i;
@@ -156,8 +155,8 @@ alp_result alpi_uv_layout_create(const alp_scene *scene, const alpi_texture *con
     made->scene = scene;
     made->context = scene->context;
     made->options = alp_atlas_options_default();
-    made->info = (alp_atlas_info){
-        .mode = ALP_ATLAS_KEEP, .pages = 1, .width = width, .height = height};
+    made->info =
+        (alp_atlas_info){.mode = ALP_ATLAS_KEEP, .pages = 1, .width = width, .height = height};
     alp_result result = place_surfaces(made, textures, reason);
     if (result != ALP_OK) {
         alp_atlas_destroy(made);
@@ -200,17 +199,17 @@ alp_result alpi_uv_layout_check(const alp_atlas *layout, char **reason)
     const alpi_surface *one = &scene->surfaces[a], *other = &scene->surfaces[b];
     unsigned long long texels = (unsigned long long)found.texels;
     uint32_t i = found.one - one->first_triangle, j = found.other - other->first_triangle;
-    return refuse(reason,
-                  a == b ? alpi_format(scene->context,
-                                       "triangles overlap in it at %llu texels, such as %u and %u "
-                                       "of %s",
-                                       texels, i, j, one->name)
-                         : alpi_format(scene->context,
-                                       "%s overlap in it at %llu texels, such as triangle %u of %s "
-                                       "and %u of %s",
-                                       one->mesh == other->mesh ? "nodes that share one mesh"
-                                                                : "surfaces",
-                                       texels, i, one->name, j, other->name));
+    return refuse(
+        reason,
+        a == b ? alpi_format(scene->context,
+                             "triangles overlap in it at %llu texels, such as %u and %u "
+                             "of %s",
+                             texels, i, j, one->name)
+               : alpi_format(scene->context,
+                             "%s overlap in it at %llu texels, such as triangle %u of %s "
+                             "and %u of %s",
+                             one->mesh == other->mesh ? "nodes that share one mesh" : "surfaces",
+                             texels, i, one->name, j, other->name));
 }
 
 // --- cells ---------------------------------------------------------------------------------------

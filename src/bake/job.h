@@ -9,8 +9,8 @@
 
 /// An image of the scene that occlusion is packed into.
 typedef struct alpi_pack_target {
-    uint32_t image;                // of the scene
-    uint8_t *png;                  // owned, NULL until it is made
+    uint32_t image; // of the scene
+    uint8_t *png;   // owned, NULL until it is made
     size_t png_size;
 } alpi_pack_target;
 

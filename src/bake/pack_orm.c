@@ -51,8 +51,8 @@ static alp_result give_reason(const alpi_bake_job *job, const char *text, char *
     return *reason == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
-static alp_result check_storage(const alpi_bake_job *job, uint32_t image,
-                                alpi_image_source *source, char **reason)
+static alp_result check_storage(const alpi_bake_job *job, uint32_t image, alpi_image_source *source,
+                                char **reason)
 {
     const alp_image *pixels = job->scene->images[image];
     ALP_TRY(alpi_gltf_image_source(job->scene, image, source));
@@ -108,10 +108,11 @@ static void settle_materials(alpi_bake_job *job, uint32_t image, const alpi_imag
             used = job->scene->surfaces[s].material == m;
         }
         if (used) {
-            alpi_warn(job->context, "ao-not-packed", job->scene->name,
-                      "material %u (%s): its occlusion gets a map of its own and is not packed into "
-                      "%s: %s",
-                      m, job->scene->materials[m].name, source->name, reason);
+            alpi_warn(
+                job->context, "ao-not-packed", job->scene->name,
+                "material %u (%s): its occlusion gets a map of its own and is not packed into "
+                "%s: %s",
+                m, job->scene->materials[m].name, source->name, reason);
         }
     }
     if (reason == NULL) {
@@ -147,7 +148,12 @@ alp_result alpi_bake_plan_packing(alpi_bake_job *job)
 {
     const alp_scene *scene = job->scene;
     alpi_packing *packing = &job->packing;
-    if (job->options.ao_into != ALP_AO_INTO_ORM || job->options.output == NULL) {
+    if (job->options.ao_into != ALP_AO_INTO_ORM) {
+        return ALP_OK;
+    }
+    if (job->options.output == NULL) {
+        alpi_note(job->context, "ao-not-packed", scene->name,
+                  "occlusion is packed into images of a written asset, and none is written");
         return ALP_OK;
     }
     ALPI_TRY_NEW(job->context, packing->targets, scene->image_count);
@@ -263,9 +269,8 @@ static alp_result pack_image(const alpi_bake_job *job, const alpi_texture **text
     alp_atlas *layout = NULL;
     char *reason = NULL;
     find_readers(job, target->image, textures);
-    alp_result result =
-        alpi_uv_layout_create(job->scene, (const alpi_texture *const *)textures, info->width,
-                              info->height, &layout, &reason);
+    alp_result result = alpi_uv_layout_create(job->scene, (const alpi_texture *const *)textures,
+                                              info->width, info->height, &layout, &reason);
     alpi_release(job->context, reason); // it could be made before
     float *page = result == ALP_OK
                       ? ALPI_NEW(job->context, float, 4 * (size_t)info->width * info->height)

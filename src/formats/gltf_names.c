@@ -72,9 +72,8 @@ static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *
         bool packed = i >= names->page_count;
         const char *kind = packed ? "orm" : "ao";
         uint32_t number = packed ? i - names->page_count : i;
-        names->pages[i] = number == 0
-                              ? alpi_format(context, "%s.%s.png", stem, kind)
-                              : alpi_format(context, "%s.%s.%u.png", stem, kind, number);
+        names->pages[i] = number == 0 ? alpi_format(context, "%s.%s.png", stem, kind)
+                                      : alpi_format(context, "%s.%s.%u.png", stem, kind, number);
         good = names->pages[i] != NULL &&
                (names->page_uris[i] = escape_uri(context, alpi_path_name(names->pages[i]))) != NULL;
     }

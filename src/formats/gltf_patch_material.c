@@ -10,7 +10,7 @@
 
 /// A material that the written file needs.
 typedef struct need {
-    size_t old; // ALPI_GLTF_NONE = the primitive had none
+    size_t old;            // ALPI_GLTF_NONE = the primitive had none
     uint32_t page, uv_set; // page ALPI_NONE: packed into an image
     size_t written;
 } need;

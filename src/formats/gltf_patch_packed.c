@@ -10,9 +10,8 @@
 uint32_t alpi_patcher_packed(const alpi_gltf_patcher *p, size_t material)
 {
     const uint32_t *packed = p->patch->material_packed;
-    return packed == NULL || p->exported || material >= p->scene->material_count
-               ? ALPI_NONE
-               : packed[material];
+    return packed == NULL || p->exported || material >= p->scene->material_count ? ALPI_NONE
+                                                                                 : packed[material];
 }
 
 /// The new image, made at its first use.
@@ -21,9 +20,9 @@ static size_t packed_image(alpi_gltf_patcher *p, uint32_t packed)
     if (p->packed_images[packed] == ALPI_GLTF_NONE) {
         char name[64];
         snprintf(name, sizeof name, "occlusion, roughness, metalness %u", packed);
-        p->packed_images[packed] = alpi_patcher_add_image(
-            p, name, p->patch->page_count + packed, p->patch->packed_images[packed].png,
-            p->patch->packed_images[packed].png_size);
+        p->packed_images[packed] = alpi_patcher_add_image(p, name, p->patch->page_count + packed,
+                                                          p->patch->packed_images[packed].png,
+                                                          p->patch->packed_images[packed].png_size);
     }
     return p->packed_images[packed];
 }
@@ -38,10 +37,10 @@ static alp_result copy_texture(alpi_gltf_patcher *p, size_t texture, uint32_t pa
         ALP_TRY(alpi_gltf_index(p->document, alpi_gltf_item(p->document, "textures", texture),
                                 "sampler", "samplers", owner, &sampler));
         size_t image = packed_image(p, packed);
-        int length = sampler == ALPI_GLTF_NONE
-                         ? snprintf(text, sizeof text, "{\"source\":%zu}", image)
-                         : snprintf(text, sizeof text, "{\"sampler\":%zu,\"source\":%zu}", sampler,
-                                    image);
+        int length =
+            sampler == ALPI_GLTF_NONE
+                ? snprintf(text, sizeof text, "{\"source\":%zu}", image)
+                : snprintf(text, sizeof text, "{\"sampler\":%zu,\"source\":%zu}", sampler, image);
         p->texture_copies[texture] =
             alpi_patcher_append(p, ALPI_GLTF_TEXTURES, text, (size_t)length);
     }

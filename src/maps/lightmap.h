@@ -34,10 +34,10 @@ typedef struct alpi_lightmap_weight {
     void *user;
 } alpi_lightmap_weight;
 /// The map in another layout of the same triangles: page [height][width][4] of the layout's size
-/// gets the weighted mean over the surface inside each texel in R = G = B and 1 in A; texels without
-/// surface get the nearest value and 0 in A. The mean is taken over up to 8 × 8 points of a texel,
-/// each read from the map bilinearly: a map that is more than 8 times as fine is read with gaps, and
-/// one that is coarser is only interpolated.
+/// gets the weighted mean over the surface inside each texel in R = G = B and 1 in A; texels
+/// without surface get the nearest value and 0 in A. The mean is taken over up to 8 × 8 points of a
+/// texel, each read from the map bilinearly: a map that is more than 8 times as fine is read with
+/// gaps, and one that is coarser is only interpolated.
 alp_result alpi_lightmap_resample(const alp_lightmap *lightmap, const alp_atlas *layout,
                                   const alpi_lightmap_weight *weight, float *page);
 

@@ -36,8 +36,8 @@ static alp_result choose_parts(const alp_lightmap *map, const alp_atlas *layout,
     }
     ALP_TRY(alpi_uv_layout_visit(layout, 1, add_coverage, &coarse));
     double wanted = coarse > 0.0 ? ceil(sqrt(fine / coarse) - 0.1) : 1.0;
-    uint32_t side = layout->info.width > layout->info.height ? layout->info.width
-                                                             : layout->info.height;
+    uint32_t side =
+        layout->info.width > layout->info.height ? layout->info.width : layout->info.height;
     wanted = fmin(wanted, floor((double)ALPI_IMAGE_SIDE_LIMIT / side));
     *parts = (uint32_t)fmin(fmax(wanted, 1.0), PARTS_LIMIT);
     return ALP_OK;

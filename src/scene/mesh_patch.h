@@ -35,8 +35,8 @@ typedef struct alpi_mesh_patch {
     /// has that image, else of occlusion_texture). Its primitives gain no coordinates and no map.
     uint32_t packed_count;
     const alpi_packed_image *packed_images; // [packed_count]
-    const uint32_t *material_packed; // [scene.material_count] ALPI_NONE = not; NULL = none
-    float occlusion_strength; // 1
+    const uint32_t *material_packed;        // [scene.material_count] ALPI_NONE = not; NULL = none
+    float occlusion_strength;               // 1
     /// A JSON object (text) that becomes asset.extras.alpenglow.
     const char *extras_json;
 } alpi_mesh_patch;

@@ -2,9 +2,13 @@
 #include "orm_asset.h"
 
 #include "base/memory.h"
+#include "formats/json_spans.h"
 #include "test_gltf.h"
 
+#include <math.h>
 #include <stdio.h>
+
+#include <jpeglib.h> // after stdio.h, which it needs
 
 typedef struct orm_data {
     float positions[2][4][3], normals[2][4][3], uvs[2][4][2];
@@ -70,13 +74,14 @@ static size_t print_json(const orm_asset *asset, size_t image_size, bool jpeg, c
     static const struct {
         int size, component, count;
         const char *type;
-    } arrays[] = {{48, 5126, 4, "VEC3"}, {48, 5126, 4, "VEC3"}, {48, 5126, 4, "VEC3"},
-                  {48, 5126, 4, "VEC3"}, {32, 5126, 4, "VEC2"}, {32, 5126, 4, "VEC2"},
+    } arrays[] = {{48, 5126, 4, "VEC3"},  {48, 5126, 4, "VEC3"}, {48, 5126, 4, "VEC3"},
+                  {48, 5126, 4, "VEC3"},  {32, 5126, 4, "VEC2"}, {32, 5126, 4, "VEC2"},
                   {12, 5123, 6, "SCALAR"}};
-    size_t at = (size_t)snprintf(
-        json, size, "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_texture_transform'],"
-                    "'buffers':[{'byteLength':%zu}],'bufferViews':[",
-        sizeof(orm_data) + image_size);
+    size_t at =
+        (size_t)snprintf(json, size,
+                         "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_texture_transform'],"
+                         "'buffers':[{'byteLength':%zu}],'bufferViews':[",
+                         sizeof(orm_data) + image_size);
     int offset = 0;
     for (int i = 0; i < 7; i++) {
         at += (size_t)snprintf(json + at, size - at,
@@ -89,9 +94,8 @@ static size_t print_json(const orm_asset *asset, size_t image_size, bool jpeg, c
                            image_size);
     for (int i = 0; i < 7; i++) {
         at += (size_t)snprintf(
-            json + at, size - at,
-            "%s{'bufferView':%d,'componentType':%d,'count':%d,'type':'%s'%s}", i ? "," : "", i,
-            arrays[i].component, arrays[i].count, arrays[i].type,
+            json + at, size - at, "%s{'bufferView':%d,'componentType':%d,'count':%d,'type':'%s'%s}",
+            i ? "," : "", i, arrays[i].component, arrays[i].count, arrays[i].type,
             i == 0   ? ",'min':[0,0,0],'max':[2,0,2]"
             : i == 1 ? ",'min':[0,0.5,0],'max':[1,0.5,1]"
                      : "");
@@ -146,4 +150,98 @@ const char *orm_asset_write(const orm_asset *asset)
     alpi_release(context, png);
     alp_context_destroy(context);
     return path;
+}
+
+// --- a JPEG --------------------------------------------------------------------------------------
+
+unsigned char *orm_asset_jpeg(size_t *jpeg_size)
+{
+    struct jpeg_compress_struct encoder;
+    struct jpeg_error_mgr errors;
+    unsigned char *bytes = NULL;
+    unsigned long size = 0;
+    encoder.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&encoder);
+    jpeg_mem_dest(&encoder, &bytes, &size);
+    encoder.image_width = ORM_WIDTH;
+    encoder.image_height = ORM_HEIGHT;
+    encoder.input_components = 3;
+    encoder.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&encoder);
+    jpeg_start_compress(&encoder, TRUE);
+    for (uint32_t y = 0; y < ORM_HEIGHT; y++) {
+        uint8_t row[3 * ORM_WIDTH];
+        for (uint32_t i = 0; i < 3 * ORM_WIDTH; i++) {
+            row[i] = orm_asset_noise(i / 3, y, i % 3);
+        }
+        JSAMPROW rows[1] = {row};
+        jpeg_write_scanlines(&encoder, rows, 1);
+    }
+    jpeg_finish_compress(&encoder);
+    jpeg_destroy_compress(&encoder);
+    *jpeg_size = (size_t)size;
+    return bytes;
+}
+
+// --- a bake --------------------------------------------------------------------------------------
+
+orm_bake orm_start(const orm_asset *asset)
+{
+    orm_bake p = {.context = test_context(2), .options = alp_bake_options_default()};
+    test_log_clear();
+    const char *path = orm_asset_write(asset);
+    ASSERT_OK(p.context, alp_scene_load(p.context, path, &p.scene));
+    snprintf(p.path, sizeof p.path, "%.*s baked.glb", (int)strlen(path) - 4, path);
+    p.options.atlas.size = 64;
+    p.options.atlas.mode = ALP_ATLAS_CHARTS;
+    p.options.occlusion.samples = 64;
+    p.options.occlusion.distance = INFINITY;
+    p.options.occlusion.falloff = ALP_FALLOFF_NONE;
+    p.options.ao_into = ALP_AO_INTO_ORM;
+    p.options.overwrite = true;
+    return p;
+}
+
+void orm_run(orm_bake *p)
+{
+    p->options.output = p->path;
+    ASSERT_OK(p->context, alp_bake(p->scene, &p->options, &p->lightmap, NULL));
+    quad_list(p->scene->name, p->path);
+    ASSERT_OK(p->context, alp_scene_load(p->context, p->path, &p->result));
+}
+
+void orm_stop(orm_bake *p)
+{
+    alp_lightmap_destroy(p->lightmap);
+    alp_scene_destroy(p->result);
+    alp_scene_destroy(p->scene);
+    alp_context_destroy(p->context);
+}
+
+const alpi_gltf_document *orm_document(const alp_scene *scene)
+{
+    return scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+}
+
+const char *orm_text(const orm_bake *p, const char *path)
+{
+    static char text[4][4096];
+    static int next;
+    const alpi_gltf_document *document = orm_document(p->result);
+    alpi_json_span root, span;
+    assert_true(alpi_json_value(document->text, 0, document->text_size, &root));
+    char *out = text[next++ % 4];
+    out[0] = '\0';
+    if (alpi_json_at(document->text, root, path, &span)) {
+        snprintf(out, sizeof text[0], "%.*s", (int)(span.end - span.begin),
+                 document->text + span.begin);
+    }
+    return out;
+}
+
+const alp_image *orm_image(const orm_bake *p, int material)
+{
+    const alpi_texture *texture = &p->result->materials[material].occlusion_texture;
+    assert_int_not_equal(texture->image, ALPI_NONE);
+    return p->result->images[texture->image];
 }

@@ -9,80 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <jpeglib.h> // after stdio.h, which it needs
-
-typedef struct packed {
-    alp_context *context;
-    alp_scene *scene, *result;
-    alp_lightmap *lightmap;
-    alp_bake_options options;
-    char path[1024];
-} packed;
-
-static packed start(const orm_asset *asset)
-{
-    packed p = {.context = test_context(2), .options = alp_bake_options_default()};
-    test_log_clear();
-    const char *path = orm_asset_write(asset);
-    ASSERT_OK(p.context, alp_scene_load(p.context, path, &p.scene));
-    snprintf(p.path, sizeof p.path, "%.*s baked.glb", (int)strlen(path) - 4, path);
-    p.options.atlas.size = 64;
-    p.options.atlas.mode = ALP_ATLAS_CHARTS;
-    p.options.occlusion.samples = 64;
-    p.options.occlusion.distance = INFINITY;
-    p.options.occlusion.falloff = ALP_FALLOFF_NONE;
-    p.options.ao_into = ALP_AO_INTO_ORM;
-    p.options.overwrite = true;
-    return p;
-}
-
-static void run(packed *p)
-{
-    p->options.output = p->path;
-    ASSERT_OK(p->context, alp_bake(p->scene, &p->options, &p->lightmap, NULL));
-    quad_list(p->scene->name, p->path);
-    ASSERT_OK(p->context, alp_scene_load(p->context, p->path, &p->result));
-}
-
-static void stop(packed *p)
-{
-    alp_lightmap_destroy(p->lightmap);
-    alp_scene_destroy(p->result);
-    alp_scene_destroy(p->scene);
-    alp_context_destroy(p->context);
-}
-
-static const alpi_gltf_document *document_of(const alp_scene *scene)
-{
-    return scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
-}
-
-/// A value of the written file, "" when absent (static).
-static const char *text_at(const packed *p, const char *path)
-{
-    static char text[4][4096];
-    static int next;
-    const alpi_gltf_document *document = document_of(p->result);
-    alpi_json_span root, span;
-    assert_true(alpi_json_value(document->text, 0, document->text_size, &root));
-    char *out = text[next++ % 4];
-    out[0] = '\0';
-    if (alpi_json_at(document->text, root, path, &span)) {
-        snprintf(out, sizeof text[0], "%.*s", (int)(span.end - span.begin),
-                 document->text + span.begin);
-    }
-    return out;
-}
-
-static const alp_image *written_image(const packed *p, int material)
-{
-    const alpi_texture *texture = &p->result->materials[material].occlusion_texture;
-    assert_int_not_equal(texture->image, ALPI_NONE);
-    return p->result->images[texture->image];
-}
-
 /// Triangle and barycentrics of a point (s, t) of quad 0 (floor) or 1 (lid).
-static uint32_t find_point(const packed *p, int quad, double s, double t, float b[2])
+static uint32_t find_point(const orm_bake *p, int quad, double s, double t, float b[2])
 {
     uint32_t first = p->scene->surfaces[quad].first_triangle;
     b[0] = (float)(s >= t ? s - t : s);
@@ -91,7 +19,7 @@ static uint32_t find_point(const packed *p, int quad, double s, double t, float 
 }
 
 /// The baked map at a texel's centre; false where it is not on the quad (range u0, v0, u1, v1).
-static bool map_at(const packed *p, int quad, const float *range, uint32_t x, uint32_t y,
+static bool map_at(const orm_bake *p, int quad, const float *range, uint32_t x, uint32_t y,
                    float *value)
 {
     double s = ((x + 0.5) / ORM_WIDTH - (double)range[0]) / (double)(range[2] - range[0]);
@@ -107,9 +35,9 @@ static bool map_at(const packed *p, int quad, const float *range, uint32_t x, ui
 }
 
 /// Red is the map at the centres of texels that a quad covers, times 1 + strength (noise − 1).
-static void check_red(const packed *p, int quad, const float *range, float strength)
+static void check_red(const orm_bake *p, int quad, const float *range, float strength)
 {
-    const alp_image *image = written_image(p, quad);
+    const alp_image *image = orm_image(p, quad);
     int texels = 0, dark = 0;
     for (uint32_t y = 0; y < ORM_HEIGHT; y++) {
         for (uint32_t x = 0; x < ORM_WIDTH; x++) {
@@ -130,9 +58,9 @@ static void check_red(const packed *p, int quad, const float *range, float stren
 }
 
 /// Every channel but red is what it was, everywhere.
-static void check_others(const packed *p, int material, uint32_t channels)
+static void check_others(const orm_bake *p, int material, uint32_t channels)
 {
-    const alp_image *image = written_image(p, material);
+    const alp_image *image = orm_image(p, material);
     uint32_t written = channels < 3 ? channels + 2 : channels;
     assert_int_equal(image->info.width, ORM_WIDTH);
     assert_int_equal(image->info.height, ORM_HEIGHT);
@@ -150,9 +78,9 @@ static void check_others(const packed *p, int material, uint32_t channels)
 }
 
 /// Nothing of geometry was touched: not a byte of the meshes' text or of the old data.
-static void check_meshes_kept(const packed *p)
+static void check_meshes_kept(const orm_bake *p)
 {
-    const alpi_gltf_document *old = document_of(p->scene), *new = document_of(p->result);
+    const alpi_gltf_document *old = orm_document(p->scene), *new = orm_document(p->result);
     alpi_json_span root, a, b;
     assert_true(alpi_json_value(old->text, 0, old->text_size, &root));
     assert_true(alpi_json_at(old->text, root, "meshes", &a));
@@ -171,8 +99,8 @@ static void red_is_the_map_and_nothing_else_changes(void **state)
     for (uint32_t channels = 1; channels <= 4; channels++) {
         orm_asset asset = orm_asset_default();
         asset.channels = channels;
-        packed p = start(&asset);
-        run(&p);
+        orm_bake p = orm_start(&asset);
+        orm_run(&p);
         assert_true(test_log_has("ao-packed"));
         assert_false(test_log_has("ao-not-packed"));
         check_red(&p, 0, asset.floor, 0.0f);
@@ -181,12 +109,12 @@ static void red_is_the_map_and_nothing_else_changes(void **state)
         check_meshes_kept(&p);
         // both materials read one new image, and the old one is still there
         assert_int_equal(p.result->image_count, 2);
-        assert_string_equal(text_at(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
-        assert_string_equal(text_at(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
+        assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
+        assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
         assert_string_equal(
-            text_at(&p, "materials/1/pbrMetallicRoughness/metallicRoughnessTexture/index"), "1");
-        assert_string_equal(text_at(&p, "textures/1"), "{\"sampler\":0,\"source\":1}");
-        stop(&p);
+            orm_text(&p, "materials/1/pbrMetallicRoughness/metallicRoughnessTexture/index"), "1");
+        assert_string_equal(orm_text(&p, "textures/1"), "{\"sampler\":0,\"source\":1}");
+        orm_stop(&p);
     }
 }
 
@@ -194,14 +122,14 @@ static void texels_without_surface_take_the_nearest(void **state)
 {
     (void)state;
     orm_asset asset = orm_asset_default();
-    packed p = start(&asset);
-    run(&p);
-    const alp_image *image = written_image(&p, 0);
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
+    const alp_image *image = orm_image(&p, 0);
     float far[4], near[4];
     alpi_image_pixel(image, 0, 0, far); // floor: from texel (7, 6) on
     alpi_image_pixel(image, 7, 6, near);
     assert_true(far[0] == near[0]);
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void check_reader(int wrap)
@@ -215,10 +143,10 @@ static void check_reader(int wrap)
         "{'pbrMetallicRoughness':{'metallicRoughnessTexture':{'index':0}}}]";
     asset.lid[1] += 3.0f;
     asset.lid[3] += 3.0f;
-    packed p = start(&asset);
-    run(&p);
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
     assert_string_equal(
-        text_at(&p, "materials/0/occlusionTexture"),
+        orm_text(&p, "materials/0/occlusionTexture"),
         "{\"index\":1,\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,-1]}}}");
     double sum = 0.0;
     for (int i = 0; i < 2000; i++) {
@@ -231,7 +159,7 @@ static void check_reader(int wrap)
         ASSERT_NEAR(seen, rgb[0], 0.15); // one texel of the edge of the lid's shadow
     }
     assert_true(sum / 2000.0 < 0.01); // noise of 64 rays, interpolated on two grids
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void a_reader_sees_the_map(void **state)
@@ -245,10 +173,10 @@ static void a_texel_is_the_mean_of_finer_ones(void **state)
 {
     (void)state;
     orm_asset asset = orm_asset_default();
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     p.options.atlas.size = 192; // about 3 × 3 texels come to one of the image
-    run(&p);
-    const alp_image *image = written_image(&p, 0);
+    orm_run(&p);
+    const alp_image *image = orm_image(&p, 0);
     double squares = 0.0;
     int count = 0;
     for (uint32_t y = 8; y < 44; y++) {
@@ -269,47 +197,26 @@ static void a_texel_is_the_mean_of_finer_ones(void **state)
     }
     // rounding gives .29/255; one point a texel would give the noise of single texels, about 4/255
     assert_true(sqrt(squares / count) < 1.5 / 255.0);
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void a_jpeg_becomes_a_png_with_the_same_green_and_blue(void **state)
 {
     (void)state;
-    struct jpeg_compress_struct encoder;
-    struct jpeg_error_mgr errors;
-    unsigned char *bytes = NULL;
-    unsigned long size = 0;
-    encoder.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&encoder);
-    jpeg_mem_dest(&encoder, &bytes, &size);
-    encoder.image_width = ORM_WIDTH;
-    encoder.image_height = ORM_HEIGHT;
-    encoder.input_components = 3;
-    encoder.in_color_space = JCS_RGB;
-    jpeg_set_defaults(&encoder);
-    jpeg_start_compress(&encoder, TRUE);
-    for (uint32_t y = 0; y < ORM_HEIGHT; y++) {
-        uint8_t row[3 * ORM_WIDTH];
-        for (uint32_t i = 0; i < 3 * ORM_WIDTH; i++) {
-            row[i] = orm_asset_noise(i / 3, y, i % 3);
-        }
-        JSAMPROW rows[1] = {row};
-        jpeg_write_scanlines(&encoder, rows, 1);
-    }
-    jpeg_finish_compress(&encoder);
-    jpeg_destroy_compress(&encoder);
+    size_t size;
+    unsigned char *bytes = orm_asset_jpeg(&size);
     orm_asset asset = orm_asset_default();
     asset.image = bytes;
-    asset.image_size = (size_t)size;
-    packed p = start(&asset);
-    run(&p);
+    asset.image_size = size;
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
     assert_non_null(strstr(test_log_text(), "is a JPEG and becomes a PNG"));
     check_red(&p, 0, asset.floor, 0.0f);
-    const uint8_t *old = p.scene->images[0]->pixels, *new = written_image(&p, 0)->pixels;
+    const uint8_t *old = p.scene->images[0]->pixels, *new = orm_image(&p, 0)->pixels;
     for (size_t i = 0; i < 3 * (size_t)ORM_WIDTH * ORM_HEIGHT; i++) {
         assert_true(i % 3 == 0 || old[i] == new[i]);
     }
-    stop(&p);
+    orm_stop(&p);
     free(bytes);
 }
 
@@ -325,14 +232,51 @@ static void multiply_takes_the_old_red_where_it_was_occlusion(void **state)
     (void)state;
     orm_asset asset = orm_asset_default();
     asset.materials = with_old_map;
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     p.options.existing_ao = ALP_EXISTING_AO_MULTIPLY;
-    run(&p);
+    orm_run(&p);
     check_red(&p, 0, asset.floor, 0.5f);
     check_red(&p, 1, asset.lid, 0.0f); // red was junk there
     check_others(&p, 0, 4);
-    assert_string_equal(text_at(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
-    stop(&p);
+    // the map itself is not multiplied, or the old values would count twice
+    alp_bake_options options = p.options;
+    options.existing_ao = ALP_EXISTING_AO_REPLACE;
+    options.output = NULL;
+    alp_lightmap *alone = NULL;
+    ASSERT_OK(p.context, alp_bake(p.scene, &options, &alone, NULL));
+    assert_memory_equal(alp_lightmap_page(p.lightmap, 0, NULL, NULL),
+                        alp_lightmap_page(alone, 0, NULL, NULL), sizeof(float[64][64][4]));
+    alp_lightmap_destroy(alone);
+    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
+    orm_stop(&p);
+}
+
+/// The old map is read at other coordinates: one texel of the image for all points.
+static void multiply_looks_up_an_old_map_elsewhere(void **state)
+{
+    (void)state;
+    orm_asset asset = orm_asset_default();
+    char materials[512];
+    snprintf(materials, sizeof materials,
+             "[{'occlusionTexture':{'index':0,'extensions':{'KHR_texture_transform':{'scale':[0,0],"
+             "'offset':[%.9f,%.9f]}}},'pbrMetallicRoughness':{'metallicRoughnessTexture':{'index':"
+             "0}}},{'name':'lid'}]",
+             0.5 / ORM_WIDTH, 7.5 / ORM_HEIGHT);
+    asset.materials = materials;
+    orm_bake p = orm_start(&asset);
+    p.options.existing_ao = ALP_EXISTING_AO_MULTIPLY;
+    orm_run(&p);
+    double old = orm_asset_noise(0, 7, 0) / 255.0;
+    assert_true(old < 0.9);
+    for (uint32_t y = 8; y < 44; y++) {
+        for (uint32_t x = 9; x < 49; x++) {
+            float rgba[4], value;
+            assert_true(map_at(&p, 0, asset.floor, x, y, &value));
+            alpi_image_pixel(orm_image(&p, 0), x, y, rgba);
+            ASSERT_NEAR(rgba[0], (double)value * old, 0.501 / 255.0);
+        }
+    }
+    orm_stop(&p);
 }
 
 static void replace_forgets_the_old_red(void **state)
@@ -340,10 +284,10 @@ static void replace_forgets_the_old_red(void **state)
     (void)state;
     orm_asset asset = orm_asset_default();
     asset.materials = with_old_map;
-    packed p = start(&asset);
-    run(&p);
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
     check_red(&p, 0, asset.floor, 0.0f);
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void keep_leaves_the_material_alone(void **state)
@@ -351,17 +295,17 @@ static void keep_leaves_the_material_alone(void **state)
     (void)state;
     orm_asset asset = orm_asset_default();
     asset.materials = with_old_map;
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     p.options.existing_ao = ALP_EXISTING_AO_KEEP;
-    run(&p);
-    assert_string_equal(text_at(&p, "materials/0/occlusionTexture"),
+    orm_run(&p);
+    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"),
                         "{\"index\":0,\"strength\":0.5}");
     assert_string_equal(
-        text_at(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
-    assert_string_equal(text_at(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
+        orm_text(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
+    assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
     check_red(&p, 1, asset.lid, 0.0f);
     check_meshes_kept(&p);
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void an_occlusion_image_alone_will_do(void **state)
@@ -370,13 +314,13 @@ static void an_occlusion_image_alone_will_do(void **state)
     orm_asset asset = orm_asset_default();
     asset.materials = "[{'occlusionTexture':{'index':0,'texCoord':0}},{'occlusionTexture':{"
                       "'index':0}}]";
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     p.options.existing_ao = ALP_EXISTING_AO_MULTIPLY;
-    run(&p);
+    orm_run(&p);
     check_red(&p, 0, asset.floor, 1.0f);
     check_others(&p, 0, 4);
-    assert_string_equal(text_at(&p, "materials/0/pbrMetallicRoughness"), "");
-    stop(&p);
+    assert_string_equal(orm_text(&p, "materials/0/pbrMetallicRoughness"), "");
+    orm_stop(&p);
 }
 
 // --- where it cannot be --------------------------------------------------------------------------
@@ -384,22 +328,22 @@ static void an_occlusion_image_alone_will_do(void **state)
 /// The floor is not packed, for a reason with these words.
 static void check_refused(const orm_asset *asset, const char *words)
 {
-    packed p = start(asset);
-    run(&p);
+    orm_bake p = orm_start(asset);
+    orm_run(&p);
     assert_true(test_log_has("ao-not-packed"));
     assert_non_null(strstr(test_log_text(), "material 0 (floor)"));
     assert_non_null(strstr(test_log_text(), "image 0 (orm)"));
     assert_non_null(strstr(test_log_text(), words));
-    assert_string_not_equal(text_at(&p, "meshes/0/primitives/0/attributes/TEXCOORD_1"), "");
-    assert_string_equal(text_at(&p, "materials/0/occlusionTexture/texCoord"), "1");
+    assert_string_not_equal(orm_text(&p, "meshes/0/primitives/0/attributes/TEXCOORD_1"), "");
+    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture/texCoord"), "1");
     assert_string_equal(
-        text_at(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
+        orm_text(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
     float b[2], rgb[3], seen;
     uint32_t triangle = find_point(&p, 0, 0.5, 0.4, b);
     alpi_lightmap_sample(p.lightmap, triangle, b[0], b[1], rgb);
     assert_true(alpi_surface_occlusion(p.result, triangle, b[0], b[1], &seen));
     ASSERT_NEAR(seen, rgb[0], 1.0 / 255.0);
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void what_cannot_be_packed_gets_a_map(void **state)
@@ -435,7 +379,8 @@ static void what_cannot_be_packed_gets_a_map(void **state)
 static void sixteen_bits_would_be_lost(void **state)
 {
     (void)state;
-    static const uint8_t png[] = { // one pixel of three 16-bit channels
+    static const uint8_t png[] = {
+        // one pixel of three 16-bit channels
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
         0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x10, 0x02, 0x00, 0x00, 0x00, 0xc0,
         0xe7, 0x8f, 0x9d, 0x00, 0x00, 0x00, 0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x10,
@@ -466,13 +411,13 @@ static void each_material_goes_its_own_way(void **state)
     orm_asset asset = orm_asset_default();
     asset.materials = "[{'name':'floor','pbrMetallicRoughness':{'metallicRoughnessTexture':{"
                       "'index':0}}},{'name':'lid'}]";
-    packed p = start(&asset);
-    run(&p);
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
     check_red(&p, 0, asset.floor, 0.0f);
-    assert_string_equal(text_at(&p, "meshes/0/primitives/0/attributes/TEXCOORD_1"), "");
-    assert_string_not_equal(text_at(&p, "meshes/1/primitives/0/attributes/TEXCOORD_1"), "");
-    assert_string_equal(text_at(&p, "materials/1/occlusionTexture/texCoord"), "1");
-    stop(&p);
+    assert_string_equal(orm_text(&p, "meshes/0/primitives/0/attributes/TEXCOORD_1"), "");
+    assert_string_not_equal(orm_text(&p, "meshes/1/primitives/0/attributes/TEXCOORD_1"), "");
+    assert_string_equal(orm_text(&p, "materials/1/occlusionTexture/texCoord"), "1");
+    orm_stop(&p);
 }
 
 /// A mesh that a node outside of the scene uses too is copied, and so is its material.
@@ -482,16 +427,16 @@ static void others_keep_the_old_image(void **state)
     orm_asset asset = orm_asset_default();
     asset.nodes = "'nodes':[{'mesh':0},{'mesh':1},{'mesh':0}],"
                   "'scenes':[{'nodes':[0,1]},{'nodes':[2]}],'scene':0";
-    packed p = start(&asset);
-    run(&p);
-    assert_string_equal(text_at(&p, "meshes/0/primitives/0/material"), "0");
-    assert_string_equal(text_at(&p, "materials/0/occlusionTexture"), "");
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
+    assert_string_equal(orm_text(&p, "meshes/0/primitives/0/material"), "0");
+    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "");
     assert_string_equal(
-        text_at(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
-    assert_string_equal(text_at(&p, "nodes/0/mesh"), "2");
-    assert_string_equal(text_at(&p, "meshes/2/primitives/0/material"), "2");
-    assert_string_equal(text_at(&p, "materials/2/occlusionTexture"), "{\"index\":1}");
-    stop(&p);
+        orm_text(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
+    assert_string_equal(orm_text(&p, "nodes/0/mesh"), "2");
+    assert_string_equal(orm_text(&p, "meshes/2/primitives/0/material"), "2");
+    assert_string_equal(orm_text(&p, "materials/2/occlusionTexture"), "{\"index\":1}");
+    orm_stop(&p);
 }
 
 static void nothing_to_pack_is_the_same_as_separate(void **state)
@@ -499,8 +444,8 @@ static void nothing_to_pack_is_the_same_as_separate(void **state)
     (void)state;
     orm_asset asset = orm_asset_default();
     asset.materials = "[{'name':'floor'},{'name':'lid'}]";
-    packed p = start(&asset);
-    run(&p);
+    orm_bake p = orm_start(&asset);
+    orm_run(&p);
     assert_non_null(strstr(test_log_text(), "no material that is baked has an image"));
     size_t size, separate_size;
     unsigned char *bytes = test_read_file(p.path, &size);
@@ -512,17 +457,23 @@ static void nothing_to_pack_is_the_same_as_separate(void **state)
     assert_memory_equal(bytes, separate, size);
     free(bytes);
     free(separate);
-    stop(&p);
+    orm_stop(&p);
+}
+
+static bool note_rays(void *user, const alp_progress *progress)
+{
+    *(bool *)user |= strcmp(progress->stage, "build") == 0;
+    return true;
 }
 
 static void a_gltf_gets_the_image_beside_it(void **state)
 {
     (void)state;
     orm_asset asset = orm_asset_default();
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     snprintf(strrchr(p.path, '.'), 8, ".gltf");
-    run(&p);
-    assert_string_equal(text_at(&p, "images/1/uri"), "\"asset%20baked.orm.png\"");
+    orm_run(&p);
+    assert_string_equal(orm_text(&p, "images/1/uri"), "\"asset%20baked.orm.png\"");
     check_red(&p, 0, asset.floor, 0.0f);
     check_others(&p, 1, 4);
     // without leave to overwrite, the image stops the next bake before it begins
@@ -537,21 +488,25 @@ static void a_gltf_gets_the_image_beside_it(void **state)
     snprintf(ending, 8, ".bin");
     assert_int_equal(remove(p.path), 0);
     snprintf(ending, 8, ".gltf");
+    bool began = false;
+    options.progress = note_rays;
+    options.progress_user = &began;
     assert_int_equal(alp_bake(p.scene, &options, NULL, NULL), ALP_ERROR_IO);
+    assert_false(began);
     assert_non_null(strstr(alp_context_message(p.context), ".orm.png"));
     assert_int_equal(remove(image), 0);
     ASSERT_OK(p.context, alp_bake(p.scene, &options, NULL, NULL));
-    stop(&p);
+    orm_stop(&p);
 }
 
 static void an_unknown_choice_is_refused(void **state)
 {
     (void)state;
     orm_asset asset = orm_asset_default();
-    packed p = start(&asset);
+    orm_bake p = orm_start(&asset);
     p.options.ao_into = (alp_ao_into)7;
     assert_int_equal(alp_bake(p.scene, &p.options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
-    stop(&p);
+    orm_stop(&p);
 }
 
 int main(void)
@@ -563,6 +518,7 @@ int main(void)
         cmocka_unit_test(a_texel_is_the_mean_of_finer_ones),
         cmocka_unit_test(a_jpeg_becomes_a_png_with_the_same_green_and_blue),
         cmocka_unit_test(multiply_takes_the_old_red_where_it_was_occlusion),
+        cmocka_unit_test(multiply_looks_up_an_old_map_elsewhere),
         cmocka_unit_test(replace_forgets_the_old_red),
         cmocka_unit_test(keep_leaves_the_material_alone),
         cmocka_unit_test(an_occlusion_image_alone_will_do),
