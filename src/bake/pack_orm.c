@@ -184,6 +184,18 @@ bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle)
            job->packing.material_targets[material] != ALPI_NONE;
 }
 
+uint64_t alpi_bake_packing_memory(const alpi_bake_job *job)
+{
+    enum { BYTES_PER_TEXEL = 25 }; // float RGBA 16, dilation 5, new pixels 4
+    uint64_t largest = 0;
+    for (uint32_t i = 0; i < job->packing.count; i++) {
+        const alp_image_info *info = &job->scene->images[job->packing.targets[i].image]->info;
+        uint64_t size = BYTES_PER_TEXEL * (uint64_t)info->width * info->height;
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}
+
 void alpi_bake_release_packing(alpi_bake_job *job)
 {
     for (uint32_t i = 0; i < job->packing.count; i++) {
@@ -198,9 +210,12 @@ void alpi_bake_release_packing(alpi_bake_job *job)
 
 static bool same_coordinates(const alpi_texture *a, const alpi_texture *b)
 {
-    return a->uv_set == b->uv_set && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v &&
-           memcmp(a->offset, b->offset, sizeof a->offset) == 0 &&
-           memcmp(a->scale, b->scale, sizeof a->scale) == 0 && a->rotation == b->rotation;
+    bool same = a->uv_set == b->uv_set && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v &&
+                a->rotation == b->rotation;
+    for (int k = 0; k < 2; k++) {
+        same = same && a->offset[k] == b->offset[k] && a->scale[k] == b->scale[k];
+    }
+    return same;
 }
 
 /// The accessibility that a material's own map has at a cell: the very texel where it is the red

@@ -41,7 +41,7 @@ static void check_red(const orm_bake *p, int quad, const float *range, float str
     int texels = 0, dark = 0;
     for (uint32_t y = 0; y < ORM_HEIGHT; y++) {
         for (uint32_t x = 0; x < ORM_WIDTH; x++) {
-            float rgba[4], value;
+            float rgba[4], value = 0.0f;
             if (!map_at(p, quad, range, x, y, &value)) {
                 continue;
             }
@@ -270,7 +270,7 @@ static void multiply_looks_up_an_old_map_elsewhere(void **state)
     assert_true(old < 0.9);
     for (uint32_t y = 8; y < 44; y++) {
         for (uint32_t x = 9; x < 49; x++) {
-            float rgba[4], value;
+            float rgba[4], value = 0.0f;
             assert_true(map_at(&p, 0, asset.floor, x, y, &value));
             alpi_image_pixel(orm_image(&p, 0), x, y, rgba);
             ASSERT_NEAR(rgba[0], (double)value * old, 0.501 / 255.0);
@@ -499,6 +499,40 @@ static void a_gltf_gets_the_image_beside_it(void **state)
     orm_stop(&p);
 }
 
+/// Whatever allocation fails, the bake says so, writes nothing, and loses no memory.
+static void memory_may_run_out_anywhere(void **state)
+{
+    (void)state;
+    for (int refused = 0; refused < 2; refused++) {
+        orm_asset asset = orm_asset_default();
+        asset.floor[2] += refused ? 1.0f : 0.0f;
+        orm_bake p = orm_start(&asset);
+        p.options.output = p.path;
+        p.options.atlas.size = 16;
+        p.options.occlusion.samples = 1;
+        int left = 1 << 20;
+        alp_context *context = test_context_failing(&left);
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alp_scene_load(context, p.scene->name, &scene));
+        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+        for (int i = 0; result != ALP_OK; i++) {
+            assert_true(i < 10000);
+            left = i;
+            result = alp_bake(scene, &p.options, NULL, NULL);
+            left = 1 << 20; // cppcheck-suppress redundantAssignment ; the allocator reads it
+            FILE *file = fopen(p.path, "rb");
+            assert_int_equal(file != NULL, result == ALP_OK);
+            assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+            if (file != NULL) {
+                fclose(file);
+            }
+        }
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+        orm_stop(&p);
+    }
+}
+
 static void an_unknown_choice_is_refused(void **state)
 {
     (void)state;
@@ -529,6 +563,7 @@ int main(void)
         cmocka_unit_test(others_keep_the_old_image),
         cmocka_unit_test(nothing_to_pack_is_the_same_as_separate),
         cmocka_unit_test(a_gltf_gets_the_image_beside_it),
+        cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(an_unknown_choice_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
