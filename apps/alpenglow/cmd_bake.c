@@ -19,6 +19,73 @@ static int check_output_name(const char *path)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
 }
 
+/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+static int check_vertex_options(const option_value *values)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } of_maps[] = {{OPTION_SIZE, "--size"},
+                   {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
+                   {OPTION_PADDING, "--padding"},
+                   {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_AO_INTO, "--ao-into"},
+                   {OPTION_QUALITY, "--quality"},
+                   {OPTION_ERROR, "--error"},
+                   {OPTION_ADAPTIVE, "--adaptive"},
+                   {OPTION_TIME_LIMIT, "--time-limit"},
+                   {OPTION_KEEP_PARTIAL, "--keep-partial"},
+                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+    bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
+    for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
+        if (values[of_maps[i].id].given) {
+            return usage_error(COMMAND_BAKE,
+                               "%s: has no meaning with --atlas vertex, which makes no map and "
+                               "sends every vertex all rays",
+                               of_maps[i].name);
+        }
+    }
+    if (at_vertices && !values[OPTION_OUTPUT].given) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb or -o OUT.gltf");
+    }
+    if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
+        return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
+    }
+    return EXIT_DONE;
+}
+
+/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
+/// unless it is given.
+static int read_sampling(const command_line *a, alp_bake_options *o)
+{
+    enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
+    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
+    enum { MOST_SAMPLES = 65536 };
+    const option_value *values = a->values;
+    const option_value *adaptive = &values[OPTION_ADAPTIVE];
+    alp_sampling_options *s = &o->sampling;
+    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
+        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
+                           values[OPTION_QUALITY].text,
+                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
+    }
+    if (values[OPTION_QUALITY].given) {
+        s->error = quality_errors[values[OPTION_QUALITY].choice];
+    } else if (values[OPTION_ERROR].given) {
+        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    }
+    s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
+    if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
+        o->occlusion.samples = MOST_SAMPLES;
+    }
+    s->accuracy = adaptive->choice == ADAPTIVE_AUTO  ? ALP_ADAPTIVE_AUTO
+                  : adaptive->choice == ADAPTIVE_OFF ? ALP_ADAPTIVE_OFF
+                                                     : (float)adaptive->real;
+    s->memory_limit = values[OPTION_MEMORY_LIMIT].given ? values[OPTION_MEMORY_LIMIT].whole : 0;
+    s->keep_partial = values[OPTION_KEEP_PARTIAL].given;
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_bake_options *o)
 {
     const option_value *values = a->values;
@@ -29,16 +96,21 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
     o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
     o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
-    if (o->output == NULL && o->maps_folder == NULL) {
+    int code = check_vertex_options(values);
+    if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    int code = check_output_name(o->output);
-    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    if (code == EXIT_DONE) {
+        code = check_output_name(o->output);
+    }
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
 
 static void print_atlas(const alp_atlas_info *atlas)
@@ -50,10 +122,17 @@ static void print_atlas(const alp_atlas_info *atlas)
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
 }
 
+static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("vertices   %u of different position or normal, %u triangles, values in %s\n",
+           r->vertices, r->scene.usable_triangles,
+           o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
+}
+
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %llu rays per texel, ",
-           (unsigned long long)a->values[OPTION_AO_SAMPLES].whole);
+    printf("occlusion  %u rays per %s, ", r->ao_samples,
+           r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
@@ -62,6 +141,14 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
                                                          : "");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return; // no texels, no stated error
+    }
+    printf(
+        "sampling   %llu texels traced, %llu interpolated; stated error %.2g %% of the mean, 99 %% "
+        "of the texels within %.2g %%\n",
+        (unsigned long long)r->traced, (unsigned long long)r->interpolated,
+        100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
 }
 
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
@@ -71,10 +158,14 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
-        printf("maps       %s/ao.exr, ao.png%s\n", o->maps_folder,
+        printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
                r->atlas.pages > 1 ? " and further pages" : "");
     }
-    print_atlas(&r->atlas);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        print_vertices(o, r);
+    } else {
+        print_atlas(&r->atlas);
+    }
     print_occlusion(a, r);
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
@@ -111,6 +202,10 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         print_summary(s, a, o, &report);
     }
     alp_lightmap_destroy(lightmap);
+    if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {
+        failure("interrupted; what there was is written (--keep-partial)");
+        return EXIT_INTERRUPTED;
+    }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 

@@ -39,7 +39,7 @@ void option_facts(const option *o, char *text, size_t size)
     char range[RANGE_SIZE];
     int length = 0;
     text[0] = '\0';
-    if (o->kind == KIND_WHOLE || o->kind == KIND_REAL) {
+    if (o->kind == KIND_WHOLE || o->kind == KIND_REAL || o->kind == KIND_SIZE) {
         option_range(o, range, sizeof range);
         length = snprintf(text, size, "Range %s.", range);
     }

@@ -154,12 +154,27 @@ static const option options[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
-     .value = "auto|keep|charts",
-     .choices = "auto|keep|charts",
-     .later_choices = "blend|vertex",
+     .value = "auto|keep|charts|vertex",
+     .choices = "auto|keep|charts|vertex",
+     .later_choices = "blend",
      .initial = "auto",
      .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
-             "charts: unwrap anew. auto: keep where it is valid, else charts."},
+             "charts: unwrap anew. auto: keep where it is valid, else charts. vertex: no map, but "
+             "a value at each vertex, the best for linear interpolation over its triangles; "
+             "options of maps, of their error and of stopping have no meaning then and are "
+             "refused. Warns where triangles are too large for it."},
+    {.id = OPTION_VERTEX_ATTRIBUTE,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--vertex-attribute",
+     .value = "color|occlusion",
+     .choices = "color|occlusion",
+     .initial = "color",
+     .help = "Where --atlas vertex writes its values, 16 bits. color: COLOR_0, which viewers "
+             "multiply into the base colour; colours that are there already are multiplied, "
+             "alpha stays. occlusion: the attribute _OCCLUSION, for shaders that read it; "
+             "COLOR_0 stays as it is."},
     {.id = OPTION_PADDING,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -174,6 +189,72 @@ static const option options[] = {
              "smaller mip levels clean, and leaves less of the page for charts."},
 
     // --- picture --------------------------------------------------------------------------------
+    {.id = OPTION_QUALITY,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_CHOICE,
+     .name = "--quality",
+     .value = "preview|medium|high",
+     .choices = "preview|medium|high",
+     .help = "The same as --error 4, 1 or 0.4."},
+    {.id = OPTION_ERROR,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_REAL,
+     .name = "--error",
+     .value = "PCT",
+     .minimum = 0.01,
+     .maximum = 100.0,
+     .unit = "percent",
+     .help = "Bake in rounds of more and more rays until the stated error (root mean square of the "
+             "standard errors, over the mean of the map) is at most this, and its 99th percentile "
+             "at most four times this. --ao-samples is then the most rays a texel may get, 65536 "
+             "when it is not given. Half the error takes about 2.7 times the rays."},
+    {.id = OPTION_TIME_LIMIT,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_REAL,
+     .name = "--time-limit",
+     .value = "S",
+     .minimum = 0.001,
+     .maximum = 1e9,
+     .unit = "seconds",
+     .help = "End sampling after this time with what there is. Such a bake is not reproducible, "
+             "says so, and states the error it has."},
+    {.id = OPTION_MEMORY_LIMIT,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_SIZE,
+     .name = "--memory-limit",
+     .value = "SIZE",
+     .minimum = 1048576.0,
+     .maximum = 1e15,
+     .unit = "bytes; K, M and G stand for 1024, 1024^2 and 1024^3",
+     .help =
+         "Refuse a bake whose maps need more than this, before its rays are sent. The scene and "
+         "the ray tracer's structure are not counted. Without it: nine tenths of the machine's."},
+    {.id = OPTION_ADAPTIVE,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_REAL,
+     .name = "--adaptive",
+     .value = "A|auto|off",
+     .minimum = 0.01,
+     .maximum = 0.9999,
+     .choices = "auto|off",
+     .initial = "auto",
+     .help =
+         "Which texels are interpolated instead of traced. auto: those between traced ones that "
+         "agree within their noise; no error is added that the noise does not hide. A number: "
+         "those whose neighbours d texels apart differ by no more than 1 - A^d; 0.5 is a draft, "
+         "0.98 careful. off: none."},
+    {.id = OPTION_KEEP_PARTIAL,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_FLAG,
+     .name = "--keep-partial",
+     .help = "Ctrl-C ends sampling and writes what there is, instead of nothing; exit code 130."},
+
     {.id = OPTION_WITH,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -397,11 +478,6 @@ static const option options[] = {
     LATER(IN_BAKE, "--sun-size", "DEG", no_sky),
     LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",
           "occlusion is attached as the material's occlusion map"),
-    LATER(IN_BAKE, "--quality", "preview|medium|high", set_rays),
-    LATER(IN_BAKE, "--error", "PCT", set_rays),
-    LATER(IN_BAKE, "--time-limit", "S", "Ctrl-C stops a bake; --ao-samples sets its length"),
-    LATER(IN_BAKE, "--memory-limit", "SIZE", "--size sets the memory that a bake needs"),
-    LATER(IN_BAKE, "--adaptive", "A|off", "every texel gets --ao-samples rays"),
     LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
@@ -435,9 +511,13 @@ static const char *const builtin_scenes[] = {
 };
 
 static const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "What",
-    [GROUP_PICTURE] = "Picture", [GROUP_AO] = "Ambient occlusion",
-    [GROUP_RUN] = "Run",         [GROUP_LATER] = "Not built yet (refused by name)",
+    [GROUP_OUTPUT] = "Output",
+    [GROUP_WHAT] = "What",
+    [GROUP_PICTURE] = "Picture",
+    [GROUP_AO] = "Ambient occlusion",
+    [GROUP_STOP] = "When to stop",
+    [GROUP_RUN] = "Run",
+    [GROUP_LATER] = "Not built yet (refused by name)",
 };
 
 const command_entry *command_table(void)

@@ -41,6 +41,26 @@ number_result number_parse_whole(const char *text, uint64_t *number)
     return errno == ERANGE ? NUMBER_TOO_LARGE : NUMBER_OK;
 }
 
+number_result number_parse_size(const char *text, uint64_t *number)
+{
+    static const char units[] = "KMG";
+    char digits[32];
+    const size_t length = strspn(text, "0123456789");
+    const char *unit = text[length] != '\0' ? strchr(units, text[length]) : NULL;
+    if (length == 0 || length >= sizeof digits ||
+        (text[length] != '\0' && (unit == NULL || text[length + 1] != '\0'))) {
+        return NUMBER_NONE;
+    }
+    memcpy(digits, text, length);
+    digits[length] = '\0';
+    number_result result = number_parse_whole(digits, number);
+    for (int i = 0; unit != NULL && i <= unit - units; i++) {
+        result = *number > UINT64_MAX / 1024 ? NUMBER_TOO_LARGE : result;
+        *number *= 1024;
+    }
+    return result;
+}
+
 number_result number_parse_real(const char *text, double *number)
 {
     // strtod alone would take blanks in front, hexadecimal, nan and inf.
@@ -221,13 +241,19 @@ static int parse_number(command_id command, const option *o, const char *text, o
         result = negative ? NUMBER_TOO_LARGE : number_parse_whole(text, &value->whole);
         // as whole numbers: a double does not know all of them
         outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
+    } else if (o->kind == KIND_SIZE) {
+        result = number_parse_size(text, &value->whole);
+        outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
     } else {
         result = number_parse_real(text, &value->real);
         outside = value->real < o->minimum || value->real > o->maximum;
     }
     if (result == NUMBER_NONE) {
-        return usage_error(command, "%s: '%s' is not a %snumber; give %s", o->name, text,
-                           o->kind == KIND_WHOLE ? "whole " : "", range);
+        return usage_error(command, "%s: '%s' is not a %s; give %s", o->name, text,
+                           o->kind == KIND_WHOLE  ? "whole number"
+                           : o->kind == KIND_SIZE ? "size"
+                                                  : "number",
+                           range);
     }
     if (result == NUMBER_TOO_LARGE || outside) {
         return usage_error(command, "%s: %s is out of range; give %s", o->name, text, range);
@@ -247,6 +273,7 @@ static int parse_value(command_id command, const option *o, const char *text, op
     case KIND_LIST:
         return parse_list(command, o, text, value);
     case KIND_WHOLE:
+    case KIND_SIZE:
     case KIND_REAL:
         return parse_number(command, o, text, value);
     case KIND_TEXT:

@@ -41,6 +41,7 @@ typedef enum option_id {
     OPTION_TEXELS_PER_METRE,
     OPTION_ATLAS,
     OPTION_PADDING,
+    OPTION_VERTEX_ATTRIBUTE,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
@@ -49,6 +50,12 @@ typedef enum option_id {
     OPTION_ONE_SIDED,
     OPTION_EXISTING_AO,
     OPTION_AO_INTO,
+    OPTION_QUALITY,
+    OPTION_ERROR,
+    OPTION_TIME_LIMIT,
+    OPTION_MEMORY_LIMIT,
+    OPTION_ADAPTIVE,
+    OPTION_KEEP_PARTIAL,
     OPTION_WITH,
     OPTION_CAMERA,
     OPTION_RESOLUTION,
@@ -73,6 +80,7 @@ typedef enum option_group {
     GROUP_WHAT,
     GROUP_PICTURE,
     GROUP_AO,
+    GROUP_STOP,
     GROUP_RUN,
     GROUP_LATER,
     GROUP_COUNT
@@ -85,6 +93,7 @@ typedef enum option_kind {
     KIND_LIST,   // some of `choices`, with commas between
     KIND_WHOLE,  // a whole number in [minimum, maximum], or one of `choices`
     KIND_REAL,   // a number in [minimum, maximum], or one of `choices`
+    KIND_SIZE,   // bytes: a whole number with an optional K, M, G (of 1024), in [minimum, maximum]
 } option_kind;
 
 typedef struct option {
@@ -153,6 +162,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
 /// Strict numbers: the whole text, no blanks, no hexadecimal, no NaN, no infinity.
 typedef enum number_result { NUMBER_OK, NUMBER_NONE, NUMBER_TOO_LARGE } number_result;
 number_result number_parse_whole(const char *text, uint64_t *number);
+number_result number_parse_size(const char *text, uint64_t *number);
 number_result number_parse_real(const char *text, double *number);
 
 /// Prints "alpenglow COMMAND: message" and where help is, to stderr. @return EXIT_USAGE

@@ -61,9 +61,27 @@ static void add_surface(json_t *objects, const alp_atlas *atlas, const alp_surfa
     }
 }
 
+/// Without an atlas: how many values each surface has.
+static json_t *make_vertex_objects(const alp_scene *scene, const alp_lightmap *lightmap)
+{
+    json_t *objects = json_array();
+    uint32_t surface_count = alp_scene_get_info(scene).surfaces;
+    for (uint32_t i = 0; i < surface_count; i++) {
+        uint32_t count = 0;
+        alp_lightmap_vertex_values(lightmap, i, &count);
+        json_array_append_new(objects, json_pack("{s:o, s:I}", "name",
+                                                 json_text(alp_scene_get_surface(scene, i).name),
+                                                 "vertices", (json_int_t)count));
+    }
+    return objects;
+}
+
 static json_t *make_objects(const alp_scene *scene, const alp_lightmap *lightmap)
 {
     const alp_atlas *atlas = alp_lightmap_atlas(lightmap);
+    if (atlas == NULL) {
+        return make_vertex_objects(scene, lightmap);
+    }
     uint32_t page_count = alp_atlas_get_info(atlas).pages;
     rectangle *pages = allocate_or_exit(NULL, (size_t)page_count * sizeof *pages);
     for (uint32_t i = 0; i < page_count; i++) {
@@ -112,12 +130,17 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
     char hash[24];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)r->input_hash);
-    return json_pack("{s:s, s:{s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{}, s:I, s:o, s:o}",
-                     "version", alp_version(), "scene", "triangles", (json_int_t)r->scene.triangles,
-                     "surfaces", (json_int_t)r->scene.surfaces, "atlas", make_atlas(&r->atlas),
-                     "seconds", make_seconds(r, s->load_seconds), "rays", (json_int_t)r->rays,
-                     "threads", (json_int_t)r->threads, "seed", (json_int_t)r->seed, "input_hash",
-                     hash, "error", "peak_memory_bytes", (json_int_t)r->peak_memory_bytes,
-                     "objects", make_objects(s->scene, lightmap), "warnings",
-                     report_warnings(&s->messages));
+    json_t *document = json_pack(
+        "{s:s, s:{s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{s:{s:o, s:o}}, s:I, s:o, s:o}",
+        "version", alp_version(), "scene", "triangles", (json_int_t)r->scene.triangles, "surfaces",
+        (json_int_t)r->scene.surfaces, "atlas", make_atlas(&r->atlas), "seconds",
+        make_seconds(r, s->load_seconds), "rays", (json_int_t)r->rays, "threads",
+        (json_int_t)r->threads, "seed", (json_int_t)r->seed, "input_hash", hash, "error", "ao",
+        "relative", json_number(r->ao_relative_error), "p99", json_number(r->ao_p99_error),
+        "peak_memory_bytes", (json_int_t)r->peak_memory_bytes, "objects",
+        make_objects(s->scene, lightmap), "warnings", report_warnings(&s->messages));
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) { // no error is stated
+        json_object_clear(json_object_get(document, "error"));
+    }
+    return document;
 }

@@ -14,7 +14,9 @@ typedef enum alp_atlas_mode {
     ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else charts
     ALP_ATLAS_KEEP =
         1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
-    ALP_ATLAS_CHARTS = 2 ///< new charts, packed into pages
+    ALP_ATLAS_CHARTS = 2, ///< new charts, packed into pages
+    /// No pages: values at the vertices. alp_bake only; the other atlas options have no meaning.
+    ALP_ATLAS_VERTEX = 3
 } alp_atlas_mode;
 
 typedef struct alp_atlas_options {
@@ -45,7 +47,7 @@ ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
 ALP_API void alp_atlas_destroy(alp_atlas *atlas); ///< NULL does nothing
 
 typedef struct alp_atlas_info {
-    alp_atlas_mode mode; ///< what was done: KEEP or CHARTS
+    alp_atlas_mode mode; ///< what was done: KEEP or CHARTS; VERTEX: all else is 0
     uint32_t pages, width, height;
     uint32_t charts;
     uint64_t texels; ///< covered: with area of a chart inside

@@ -24,19 +24,28 @@ typedef enum alp_ao_into {
     /// else its occlusion, at that image's size, its other channels unchanged. existing_ao says
     /// what happens to that channel where the material's occlusion map used it; where none did, it
     /// is replaced. A material whose image can not hold the occlusion (it is tiled, several
-    /// surfaces
-    /// lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above, with a
-    /// warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of the
-    /// maps,
-    /// which for materials with a packed image are never multiplied by an older map themselves.
+    /// surfaces lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above,
+    /// with a warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of
+    /// the maps, which for materials with a packed image are never multiplied by an older map
+    /// themselves.
     ALP_AO_INTO_ORM = 1
 } alp_ao_into;
+
+/// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
+typedef enum alp_vertex_attribute {
+    /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
+    /// Where a primitive has COLOR_0 already, its R, G and B are multiplied, A stays (default).
+    ALP_VERTEX_COLOR = 0,
+    ALP_VERTEX_OCCLUSION = 1 ///< _OCCLUSION, a scalar for shaders that know it; COLOR_0 stays
+} alp_vertex_attribute;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
 #define ALP_ADAPTIVE_OFF 0.0f
 #define ALP_ADAPTIVE_AUTO (-1.0f)
 
-/// How many texels are traced, with how many rays, and when a bake stops.
+/// How many texels are traced, with how many rays, and when a bake stops. ALP_ATLAS_VERTEX: every
+/// vertex gets all rays, so that accuracy, error, time_limit and keep_partial must stay as they
+/// are.
 typedef struct alp_sampling_options {
     /// AUTO (default): texels between traced ones are interpolated where those agree within the
     /// noise; OFF: every texel is traced; in (0, 1): they may differ by 1 − accuracy^distance, the
@@ -56,13 +65,17 @@ typedef struct alp_bake_options {
     alp_atlas_options atlas;         ///< its progress is ignored
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
-    alp_existing_ao existing_ao;
-    alp_ao_into ao_into;
-    const char *output;      ///< .glb or .gltf, or NULL: no asset
-    const char *maps_folder; ///< ao.exr, ao.1.exr … and ao.png, or NULL; made if missing
-    bool overwrite;          ///< default false: an existing file stops the job before it starts
+    alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
+    alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
+    alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
+    const char *output;                    ///< .glb or .gltf, or NULL: no asset
+    /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
+    /// (red traced, green interpolated), or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
+    const char *maps_folder;
+    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "dilation"; "write". Parts of short work may stay unheard.
+    /// "texels"; "build"; "occlusion"; "dilation"; "write". With ALP_ATLAS_VERTEX "vertices",
+    /// "build", "occlusion", "detail", "write". Parts of short work may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
@@ -72,8 +85,17 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
-    float ao_distance; ///< metres, as used
-    double ao_mean;    ///< area-weighted mean accessibility
+    uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
+    float ao_distance;   ///< metres, as used
+    uint32_t ao_samples; ///< rays of a traced texel
+    uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
+    uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
+    uint64_t dropped; ///< wholly inside, at the rim: filled like texels of no surface
+    /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
+    /// over its mean.
+    double ao_relative_error, ao_p99_error;
+    bool cut_off;   ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean; ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
     uint32_t threads;
@@ -82,7 +104,7 @@ typedef struct alp_bake_report {
     uint64_t peak_memory_bytes; ///< of our own allocations
 } alp_bake_report;
 
-/// Maps over the pages of an atlas.
+/// Maps over the pages of an atlas, or values at vertices.
 typedef struct alp_lightmap alp_lightmap;
 
 /// Bakes occlusion of a scene and writes what the options ask for. Every output is written beside
@@ -102,8 +124,18 @@ ALP_API uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap);
 /// lightmap.
 ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
                                        uint32_t *height);
-/// The atlas the maps are laid out on. Owned by the lightmap.
+/// The atlas the maps are laid out on, NULL with ALP_ATLAS_VERTEX. Owned by the lightmap.
 ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
+
+/// Accessibility at the vertices of one surface, [*count], linear, 0 to 1: what ALP_ATLAS_VERTEX
+/// baked, to be interpolated linearly over the triangles. A surface with normals has a value for
+/// each vertex of its primitive or mesh, in that order; vertices of one position and one normal
+/// have the same value, and those of no usable triangle have 1. A surface whose normals were
+/// generated has three values for each triangle, in the order of its corners.
+/// @param count NULL, or out: 0 where there are none
+/// @return NULL without such values or for a surface that is not there. Owned by the lightmap.
+ALP_API const float *alp_lightmap_vertex_values(const alp_lightmap *lightmap, uint32_t surface,
+                                                uint32_t *count);
 
 ALP_END_DECLS
 

@@ -128,7 +128,17 @@ static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     return result;
 }
 
-/// Keeps the second UV set where the mode asks for it and it can hold a bake, else makes charts.
+static void drop_texels(alp_atlas *atlas)
+{
+    if (atlas->texels != NULL) {
+        alpi_texels_destroy(atlas->context, atlas->texels);
+        alpi_release(atlas->context, atlas->texels);
+        atlas->texels = NULL;
+    }
+}
+
+/// Keeps the second UV set where the mode asks for it and it can hold a bake, else makes charts;
+/// and measures what came out.
 static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_atlas_clock *clock)
 {
     alp_atlas_mode mode = atlas->options.mode;
@@ -144,8 +154,10 @@ static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi
         if (result != ALP_ERROR_INVALID_DATA || mode == ALP_ATLAS_KEEP) {
             return result;
         }
+        drop_texels(atlas);
     }
-    return make_charts(atlas, neighbours, clock);
+    ALP_TRY(make_charts(atlas, neighbours, clock));
+    return alpi_measure(atlas, NULL);
 }
 
 static alp_result build(alp_atlas *atlas)
@@ -164,7 +176,6 @@ static alp_result build(alp_atlas *atlas)
     alpi_release(atlas->context, neighbours);
     ALP_TRY(result);
     place_unusable(atlas);
-    ALP_TRY(alpi_measure(atlas));
     if (atlas->info.shared_triangles > 0) {
         alpi_note(atlas->context, "tiny-triangles", scene->name,
                   "%u of %u triangles are smaller than a texel: they share the texels of their "
@@ -210,6 +221,7 @@ void alp_atlas_destroy(alp_atlas *atlas)
 {
     if (atlas != NULL) {
         alp_context *context = atlas->context;
+        drop_texels(atlas);
         alpi_release(context, atlas->corner_uvs);
         alpi_release(context, atlas->triangle_pages);
         alpi_release(context, atlas->triangle_charts);

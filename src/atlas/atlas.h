@@ -8,39 +8,61 @@
 
 #include <alpenglow/atlas.h>
 
+struct alpi_texels;
+
 struct alp_atlas {
     const alp_scene *scene;
     alp_context *context;
     alp_atlas_options options;
     alp_atlas_info info;
-    float (*corner_uvs)[3][2]; // [triangle_count]
-    uint32_t *triangle_pages;  // [triangle_count]
-    uint32_t *triangle_charts; // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
-                               // KEEP: chart = connected island in uv
+    float (*corner_uvs)[3][2];  // [triangle_count]
+    uint32_t *triangle_pages;   // [triangle_count]
+    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
+                                // KEEP: chart = connected island in uv
+    struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
 
-/// The covered texels of an atlas, page by page, row by row: index i is receiver i.
+/// What is special about a texel.
+enum {
+    ALPI_TEXEL_NO_LIFT = 1 // its points stay on their triangles: the lift to the smooth surface
+                           // would pass through something
+};
+
+/// The covered texels of an atlas, page by page, row by row: index i is receiver i. About 50 bytes
+/// a texel and 8 a piece.
 typedef struct alpi_texels {
     uint32_t count;
     uint32_t *pages;          // [count]
     uint16_t (*pixels)[2];    // [count] x, y
-    uint32_t *triangles;      // [count] the triangle the receiver lies on
-    float (*barycentrics)[2]; // [count] weights of its corners 1 and 2
+    uint32_t *triangles;      // [count] the triangle its representative point lies on
+    float (*barycentrics)[2]; // [count] of that point: weights of corners 1 and 2
+    float (*normals)[3];      // [count] shading normal there, unit
     float *areas;             // [count] world area of the chart inside the texel, m²
     float *coverages;         // [count] share of the texel inside its chart(s), (0, 1]
     uint32_t *charts;         // [count]
     uint32_t *page_first;     // [pages + 1] first texel of each page
-    alpi_point_array points;  // positions, geometric and shading normals
+    uint8_t *flags;           // [count] ALPI_TEXEL_…; 0 as made
+    uint16_t *valid; // [count] or NULL (as made): which strata of its unit square hold points. Bit
+                     // 4·floor(4·sy) + floor(4·sx); all bits or none: all of it
+
+    // Pieces: the triangles with area in the texel, neighbours after each other. A texel without
+    // any lies wholly inside triangles[i].
+    uint32_t *piece_first;     // [count + 1]
+    uint32_t *piece_triangles; // [piece_first[count]]
+    float *piece_ends; // [piece_first[count]] share of the texel's area up to the end of the piece:
+                       // ascending, the last is 1
+
+    const alp_atlas *atlas; // must outlive the texels
 } alpi_texels;
 
-/// A texel is covered when a usable triangle has area inside it. Its receiver lies at its centre
-/// where the centre is inside a triangle, else at the centroid of the largest piece of a triangle
-/// inside it; off the triangle's edges by a twentieth of a texel, as far as the triangle has room.
+/// A texel is covered when a usable triangle has area inside it. Its representative point lies at
+/// its centre where the centre is inside a triangle, else at the centroid of the largest piece of a
+/// triangle inside it; off the triangle's edges by a twentieth of a texel, as far as the triangle
+/// has room. The first call takes what the atlas has at hand, others make the texels anew.
 alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 
-// --- the layout of a texture that is there already
-// ------------------------------------------------
+// --- the layout of a texture that is there already -----------------------------------------------
 
 /// An atlas of one page, width × height, on which each surface s with textures[s] ≠ NULL lies where
 /// that texture is read: coordinate set, KHR_texture_transform, and each triangle moved from its
@@ -63,10 +85,21 @@ typedef struct alpi_uv_cell {
     float barycentrics[2]; // weights of corners 1 and 2
     float coverage;        // (0, 1]
 } alpi_uv_cell;
-typedef alp_result alpi_uv_cell_fn(void *user, const alpi_uv_cell *cell);
-/// Hands out all cells, row by row, with each texel divided into parts × parts of them.
+typedef void alpi_uv_cell_fn(void *user, const alpi_uv_cell *cell);
+/// Hands out all cells, each texel divided into parts × parts of them, on all workers at once and
+/// in any order.
 alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv_cell_fn *each,
                                 void *user);
+/// A texel's representative point.
+void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
+
+/// Whether the triangle of a texel's representative point is smooth enough for a lift.
+bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel);
+
+/// Texels as receivers: their points are spread over the surface inside the texel, over its pieces
+/// by their areas, lifted to the smooth surface that the vertex normals describe. The texels must
+/// outlive the receivers.
+alpi_receivers alpi_texels_receivers(const alpi_texels *texels);
 
 // --- the stages, each alone in its file ----------------------------------------------------------
 

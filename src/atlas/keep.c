@@ -116,18 +116,6 @@ static alp_result copy_coordinates(alp_atlas *atlas, char **reason)
     return flat.total > 0 ? tell(&flat, "no area in the set", reason) : ALP_OK;
 }
 
-static alp_result collect_overlaps(void *user, const alpi_row *row)
-{
-    fault_list *list = user;
-    for (uint32_t x = row->first; x <= row->last; x++) {
-        const alpi_cell *cell = &row->cells[x];
-        if (cell->triangle != ALPI_NONE && cell->other != ALPI_NONE) {
-            add_fault(list, cell->triangle, cell->other);
-        }
-    }
-    return ALP_OK;
-}
-
 // --- islands -------------------------------------------------------------------------------------
 
 static bool same_uv(const float a[2], const float b[2])
@@ -190,18 +178,29 @@ static alp_result find_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3]
     return ALP_OK;
 }
 
+/// Measures the atlas and looks for triangles that share a place.
+static alp_result check_overlaps(alp_atlas *atlas, char **reason)
+{
+    fault_list list = {.scene = atlas->scene};
+    alpi_overlaps overlaps = {0};
+    ALPI_TRY_NEW(atlas->context, list.seen, atlas->scene->triangle_count);
+    alp_result result = alpi_measure(atlas, &overlaps);
+    for (uint32_t i = 0; result == ALP_OK && i < overlaps.count; i++) {
+        add_fault(&list, overlaps.pairs[i].triangle, overlaps.pairs[i].other);
+    }
+    alpi_release(atlas->context, overlaps.pairs);
+    alpi_release(atlas->context, list.seen);
+    ALP_TRY(result);
+    return list.total == 0 ? ALP_OK : tell(&list, "triangles overlap in it", reason);
+}
+
 alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **reason)
 {
     *reason = NULL;
     ALP_TRY(check_presence(atlas->scene, reason));
     ALP_TRY(copy_coordinates(atlas, reason));
     ALP_TRY(find_islands(atlas, neighbours));
-    fault_list overlaps = {.scene = atlas->scene};
-    ALPI_TRY_NEW(atlas->context, overlaps.seen, atlas->scene->triangle_count);
     atlas->info.mode = ALP_ATLAS_KEEP;
     atlas->info.pages = 1;
-    alp_result result = alpi_raster(atlas, 0, 1, collect_overlaps, &overlaps);
-    alpi_release(atlas->context, overlaps.seen);
-    ALP_TRY(result);
-    return overlaps.total == 0 ? ALP_OK : tell(&overlaps, "triangles overlap in it", reason);
+    return check_overlaps(atlas, reason);
 }

@@ -3,7 +3,7 @@
 #ifndef ALPI_ATLAS_STAGES_H
 #define ALPI_ATLAS_STAGES_H
 
-#include "atlas/atlas.h"
+#include "atlas/raster.h"
 
 enum { ALPI_ATLAS_PAGE_LIMIT = 4096, ALPI_ATLAS_SIZE_LIMIT = 16384, ALPI_ATLAS_PADDING_LIMIT = 64 };
 
@@ -70,31 +70,46 @@ alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **r
 
 // --- texels --------------------------------------------------------------------------------------
 
-/// What the triangles leave in one texel. coverage == 0: nothing.
-typedef struct alpi_cell {
-    double coverage;   // Σ area inside, in texels; above 1 where triangles overlap
-    double area;       // the same in the world, m²
-    double piece;      // area of the largest piece so far
-    double depth;      // of the centre inside the triangle it is deepest in, texels
-    double x, y;       // the receiver, in texels
-    uint32_t triangle; // the one it lies on; ALPI_NONE = none yet
-    uint32_t other;    // a triangle that covers what another covers already, else ALPI_NONE
-    bool center;       // the receiver is the texel's centre
-} alpi_cell;
+/// A texel as its band leaves it.
+typedef struct alpi_texel_record {
+    uint16_t x, y;
+    uint32_t triangle, piece_count; // 0 pieces: it lies wholly inside the triangle
+    float barycentrics[2], area, coverage, normal[3];
+} alpi_texel_record;
 
-/// A finished row: cells[first] … cells[last] may hold something, the rest is not set.
-typedef struct alpi_row {
-    uint32_t page, y, first, last;
-    const alpi_cell *cells; // by column
-} alpi_row;
-typedef alp_result alpi_row_fn(void *user, const alpi_row *row);
+/// The texels of a band, row by row.
+typedef struct alpi_texel_chunk {
+    uint32_t page, texel_count, piece_count;
+    alpi_texel_record *records; // [texel_count]
+    uint32_t *piece_triangles;  // [piece_count]
+    float *piece_ends;          // [piece_count]
+} alpi_texel_chunk;
 
-/// Clips every usable triangle of the pages [first_page, end_page) against the texels and hands out
-/// the rows that hold something, page by page from the top. Memory: the triangles and one row.
-alp_result alpi_raster(const alp_atlas *atlas, uint32_t first_page, uint32_t end_page,
-                       alpi_row_fn *finish, void *user);
+typedef struct alpi_texel_chunks {
+    uint32_t count;
+    alpi_texel_chunk *chunks; // [count] by the bands' indices
+} alpi_texel_chunks;
 
-/// Fills info.texels, utilisation, texels_per_metre and shared_triangles.
-alp_result alpi_measure(alp_atlas *atlas);
+alp_result alpi_texel_chunks_create(const alp_atlas *atlas, alpi_texel_chunks *chunks);
+void alpi_texel_chunks_destroy(alp_context *context, alpi_texel_chunks *chunks);
+/// Called by many threads, with a chunk each.
+alp_result alpi_texel_chunk_fill(const alp_atlas *atlas, const alpi_band *band,
+                                 alpi_texel_chunk *chunk);
+/// Joins chunks into texels and empties them.
+alp_result alpi_texels_join(const alp_atlas *atlas, alpi_texel_chunks *chunks, alpi_texels *texels);
+
+/// Two triangles that cover the same place.
+typedef struct alpi_overlap {
+    uint32_t triangle, other;
+} alpi_overlap;
+typedef struct alpi_overlaps {
+    uint32_t count;
+    alpi_overlap *pairs; // [count] texel by texel
+} alpi_overlaps;
+
+/// Rasters the atlas: fills info.texels, utilisation, texels_per_metre and shared_triangles, and
+/// keeps the texels in atlas->texels for alpi_texels_create unless they are very many.
+/// @param overlaps NULL, or out: released by the caller
+alp_result alpi_measure(alp_atlas *atlas, alpi_overlaps *overlaps);
 
 #endif

@@ -168,37 +168,35 @@ alp_result alpi_uv_layout_create(const alp_scene *scene, const alpi_texture *con
 
 // --- overlaps ------------------------------------------------------------------------------------
 
-typedef struct overlaps {
+/// What a band of the layout's rows holds.
+typedef struct band_overlaps {
     uint64_t texels;
     uint32_t one, other; // triangles of the first
-} overlaps;
+} band_overlaps;
 
-static alp_result collect_overlaps(void *user, const alpi_row *row)
+static alp_result collect_overlaps(void *user, const alpi_band *band)
 {
-    overlaps *found = user;
-    for (uint32_t x = row->first; x <= row->last; x++) {
-        const alpi_cell *cell = &row->cells[x];
-        if (cell->triangle != ALPI_NONE && cell->other != ALPI_NONE && found->texels++ == 0) {
-            found->one = cell->triangle;
-            found->other = cell->other;
+    band_overlaps *found = (band_overlaps *)user + band->index;
+    for (uint32_t row = 0; row < band->end_row - band->first_row; row++) {
+        const alpi_cell *cells = band->cells + (size_t)row * band->width;
+        for (uint32_t x = band->columns[row][0]; x < band->columns[row][1]; x++) {
+            const alpi_cell *cell = &cells[x];
+            if (cell->first_piece != ALPI_NONE && cell->other != ALPI_NONE &&
+                found->texels++ == 0) {
+                found->one = cell->triangle;
+                found->other = cell->other;
+            }
         }
     }
     return ALP_OK;
 }
 
-alp_result alpi_uv_layout_check(const alp_atlas *layout, char **reason)
+static alp_result tell_overlaps(const alp_scene *scene, const band_overlaps *found, char **reason)
 {
-    const alp_scene *scene = layout->scene;
-    overlaps found = {0};
-    *reason = NULL;
-    ALP_TRY(alpi_raster(layout, 0, 1, collect_overlaps, &found));
-    if (found.texels == 0) {
-        return ALP_OK;
-    }
-    uint32_t a = scene->triangle_surface[found.one], b = scene->triangle_surface[found.other];
+    uint32_t a = scene->triangle_surface[found->one], b = scene->triangle_surface[found->other];
     const alpi_surface *one = &scene->surfaces[a], *other = &scene->surfaces[b];
-    unsigned long long texels = (unsigned long long)found.texels;
-    uint32_t i = found.one - one->first_triangle, j = found.other - other->first_triangle;
+    unsigned long long texels = (unsigned long long)found->texels;
+    uint32_t i = found->one - one->first_triangle, j = found->other - other->first_triangle;
     return refuse(
         reason,
         a == b ? alpi_format(scene->context,
@@ -210,6 +208,27 @@ alp_result alpi_uv_layout_check(const alp_atlas *layout, char **reason)
                              "and %u of %s",
                              one->mesh == other->mesh ? "nodes that share one mesh" : "surfaces",
                              texels, i, one->name, j, other->name));
+}
+
+alp_result alpi_uv_layout_check(const alp_atlas *layout, char **reason)
+{
+    *reason = NULL;
+    uint32_t bands = alpi_raster_bands(layout);
+    band_overlaps *found = ALPI_NEW(layout->context, band_overlaps, bands);
+    if (found == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = alpi_raster(layout, 0, 1, collect_overlaps, found);
+    for (uint32_t b = 1; b < bands; b++) { // the first of all, whichever worker found it
+        found[0].one = found[0].texels == 0 ? found[b].one : found[0].one;
+        found[0].other = found[0].texels == 0 ? found[b].other : found[0].other;
+        found[0].texels += found[b].texels;
+    }
+    if (result == ALP_OK && found[0].texels > 0) {
+        result = tell_overlaps(layout->scene, &found[0], reason);
+    }
+    alpi_release(layout->context, found);
+    return result;
 }
 
 // --- cells ---------------------------------------------------------------------------------------
@@ -237,20 +256,24 @@ static void find_barycentrics(const alp_atlas *layout, const alpi_cell *at, floa
     b[1] = (float)(b2 / sum);
 }
 
-static alp_result visit_row(void *user, const alpi_row *row)
+static alp_result visit_band(void *user, const alpi_band *band)
 {
     const visit *v = user;
-    for (uint32_t x = row->first; x <= row->last; x++) {
-        const alpi_cell *cell = &row->cells[x];
-        if (cell->triangle == ALPI_NONE) {
-            continue;
+    for (uint32_t y = band->first_row; y < band->end_row; y++) {
+        const uint32_t row = y - band->first_row;
+        const alpi_cell *cells = band->cells + (size_t)row * band->width;
+        for (uint32_t x = band->columns[row][0]; x < band->columns[row][1]; x++) {
+            const alpi_cell *cell = &cells[x];
+            if (cell->first_piece == ALPI_NONE) {
+                continue;
+            }
+            alpi_uv_cell out = {.x = x,
+                                .y = y,
+                                .triangle = cell->triangle,
+                                .coverage = (float)fmin(cell->coverage, 1.0)};
+            find_barycentrics(v->layout, cell, out.barycentrics);
+            v->each(v->user, &out);
         }
-        alpi_uv_cell out = {.x = x,
-                            .y = row->y,
-                            .triangle = cell->triangle,
-                            .coverage = (float)fmin(cell->coverage, 1.0)};
-        find_barycentrics(v->layout, cell, out.barycentrics);
-        ALP_TRY(v->each(v->user, &out));
     }
     return ALP_OK;
 }
@@ -262,5 +285,5 @@ alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv
     finer.info.width *= parts;
     finer.info.height *= parts;
     visit v = {.layout = &finer, .each = each, .user = user};
-    return alpi_raster(&finer, 0, 1, visit_row, &v);
+    return alpi_raster(&finer, 0, 1, visit_band, &v);
 }

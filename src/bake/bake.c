@@ -2,11 +2,9 @@
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
 #include "bake/job.h"
 
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "transport/occlusion.h"
 
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -14,7 +12,8 @@ alp_bake_options alp_bake_options_default(void)
 {
     return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
                               .atlas = alp_atlas_options_default(),
-                              .occlusion = alp_occlusion_options_default()};
+                              .occlusion = alp_occlusion_options_default(),
+                              .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }
 
 static alp_result check_options(const alpi_bake_job *job)
@@ -32,6 +31,20 @@ static alp_result check_options(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
     }
+    if (o->ao_into == ALP_AO_INTO_ORM && o->atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: occlusion at vertices has no map to pack into an image");
+    }
+    const alp_sampling_options *s = &o->sampling;
+    const bool accuracy_is_valid =
+        s->accuracy == ALP_ADAPTIVE_AUTO || (s->accuracy >= ALP_ADAPTIVE_OFF && s->accuracy < 1.0f);
+    if (!accuracy_is_valid || !(s->error >= 0.0f) || !(s->time_limit >= 0.0)) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: accuracy %g (need [0, 1), or AUTO), error %g or time limit %g s "
+                         "(need 0 or more)",
+                         (double)s->accuracy, (double)s->error, s->time_limit);
+    }
+    ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -42,8 +55,7 @@ static alp_result check_options(const alpi_bake_job *job)
     return ALP_OK;
 }
 
-/// Tells the user that a stage begins; false from the user cancels.
-static alp_result begin_stage(const alpi_bake_job *job, const char *stage)
+alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
 {
     alp_progress progress = {stage, 0, 1, 0.0, -1.0};
     if (job->options.progress != NULL &&
@@ -56,7 +68,7 @@ static alp_result begin_stage(const alpi_bake_job *job, const char *stage)
 static alp_result make_atlas(alpi_bake_job *job)
 {
     double started = alpi_seconds();
-    ALP_TRY(begin_stage(job, "atlas"));
+    ALP_TRY(alpi_bake_begin_stage(job, "atlas"));
     alp_atlas_options options = job->options.atlas;
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
@@ -74,74 +86,19 @@ static alp_result make_atlas(alpi_bake_job *job)
     return ALP_OK;
 }
 
-/// Mean over the surface: each texel counts by its area.
-static double area_mean(const alpi_texels *texels, const float *values)
-{
-    double sum = 0.0, area = 0.0;
-    for (uint32_t i = 0; i < texels->count; i++) {
-        sum += (double)texels->areas[i] * (double)values[i];
-        area += (double)texels->areas[i];
-    }
-    return area > 0.0 ? sum / area : 0.0;
-}
-
-static void warn_of_darkness(const alpi_bake_job *job)
-{
-    if (job->report.ao_mean < 0.05) {
-        bool limited = isfinite(job->report.ao_distance);
-        alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
-                  100.0 * job->report.ao_mean,
-                  limited ? "nearly everything is closed within the distance limit; a shorter one "
-                            "(--ao-distance) shows more"
-                          : "a closed room is dark without a distance limit; give one "
-                            "(--ao-distance auto, or metres)");
-    }
-}
-
-static alp_result gather_occlusion(alpi_bake_job *job, float *values)
-{
-    ALP_TRY(begin_stage(job, "build"));
-    alpi_tracer *tracer = NULL;
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
-                                  &tracer, &job->report.seconds_build));
-    double started = alpi_seconds();
-    alp_occlusion_options options = job->options.occlusion;
-    options.progress = job->options.progress;
-    options.progress_user = job->options.progress_user;
-    alpi_occlusion_setup setup;
-    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
-    job->report.ao_distance = setup.distance;
-    const alpi_texels *texels = &job->lightmap->texels;
-    const alpi_receivers receivers = alpi_point_array_receivers(&texels->points);
-    alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, texels->count, values);
-    job->report.rays = (uint64_t)texels->count * setup.samples;
-    alpi_occlusion_release(&setup);
-    ALP_TRY(result);
-    job->report.seconds_bake = alpi_seconds() - started;
-    job->report.ao_mean = area_mean(texels, values);
-    warn_of_darkness(job);
-    if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
-        alpi_bake_multiply_existing(job, values);
-    }
-    return alpi_lightmap_store(job->lightmap, values);
-}
-
 static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_bake_vertices(job);
+    }
     ALP_TRY(alpi_bake_plan_packing(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
-    float *values = ALPI_NEW(job->context, float, job->lightmap->texels.count);
-    if (values == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    alp_result result = gather_occlusion(job, values);
-    alpi_release(job->context, values);
-    ALP_TRY(result);
-    ALP_TRY(begin_stage(job, "write"));
+    ALP_TRY(alpi_bake_occlusion(job));
+    ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_pack_images(job));
     ALP_TRY(alpi_bake_write_outputs(job));

@@ -31,6 +31,12 @@ typedef struct alpi_bake_job {
     alp_bake_report report;
 } alpi_bake_job;
 
+/// Tells the user that a stage begins; false from the user cancels.
+alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
+
+/// Occlusion at the texels of the lightmap, stored in it; fills the report.
+alp_result alpi_bake_occlusion(alpi_bake_job *job);
+
 /// Bytes of ours that a bake on this atlas holds at its peak, the scene and the tracer apart.
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas);
 /// LIMIT when that is more than nine tenths of the machine's memory.
@@ -51,6 +57,17 @@ void alpi_bake_release_packing(alpi_bake_job *job);
 uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
 /// Whether the occlusion of a triangle is packed into an image.
 bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
+
+/// Refuses what has no meaning together with the choice of values at vertices or of maps.
+alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);
+/// The whole job of ALP_ATLAS_VERTEX, after the options were checked.
+alp_result alpi_bake_vertices(alpi_bake_job *job);
+
+/// The object that goes to asset.extras.alpenglow, as text that the caller releases; NULL without
+/// memory.
+char *alpi_bake_make_extras(const alpi_bake_job *job);
+/// A warning when nearly nothing is open.
+void alpi_bake_warn_of_darkness(const alpi_bake_job *job);
 
 /// Multiplies each value by the occlusion map that the texel's material has already; not those that
 /// are packed, which are multiplied where they go to.

@@ -6,8 +6,9 @@
 #include <unistd.h>
 
 enum {
-    BYTES_PER_TEXEL = 84,      // alpi_texels 32, its receivers 40, value 4, sum 8
-    BYTES_PER_PAGE_TEXEL = 16, // of every page: float RGBA
+    // alpi_texels 49, a piece 8, lattice 9, error 4, state 1, sums 20, lists 5
+    BYTES_PER_TEXEL = 96,
+    BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
     BYTES_TO_DILATE = 5        // of one page at a time: filled 1, queue 4
 };
 
@@ -23,6 +24,14 @@ alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
     double needed = (double)alpi_bake_memory(atlas) + (double)alpi_bake_packing_memory(job);
     double present = (double)pages * (double)page_size;
+    const uint64_t limit = job->options.sampling.memory_limit;
+    if (limit > 0 && needed > (double)limit) {
+        return alpi_fail(job->context, ALP_ERROR_LIMIT,
+                         "%s: %llu texels need %.3g MiB, the limit is %.3g MiB; use a smaller size "
+                         "or fewer texels per metre, or allow more",
+                         job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p20,
+                         (double)limit / 0x1p20);
+    }
     if (pages > 0 && page_size > 0 && needed > 0.9 * present) {
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
                          "%s: %llu texels need %.1f GiB of the machine's %.1f GiB; use a smaller "

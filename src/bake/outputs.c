@@ -10,15 +10,22 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FILES_PER_PAGE = 2 }; // .exr and .png
+/// What a page leaves in the maps folder.
+typedef enum map_kind { MAP_AO_PNG, MAP_AO, MAP_ERROR, MAP_SAMPLING, MAP_COUNT } map_kind;
+
+static const char *const map_names[MAP_COUNT][2] = {[MAP_AO_PNG] = {"ao", ".png"},
+                                                    [MAP_AO] = {"ao", ".exr"},
+                                                    [MAP_ERROR] = {"ao.error", ".exr"},
+                                                    [MAP_SAMPLING] = {"ao.sampling", ".png"}};
 
 /// "ao.exr", "ao.1.exr" …
-static char *map_path(alp_context *context, const char *folder, uint32_t page, const char *ending)
+static char *map_path(alp_context *context, const char *folder, uint32_t page, map_kind kind)
 {
+    const char *const *name = map_names[kind];
     if (page == 0) {
-        return alpi_format(context, "%s/ao%s", folder, ending);
+        return alpi_format(context, "%s/%s%s", folder, name[0], name[1]);
     }
-    return alpi_format(context, "%s/ao.%u%s", folder, page, ending);
+    return alpi_format(context, "%s/%s.%u%s", folder, name[0], page, name[1]);
 }
 
 static bool is_gltf_path(const char *path)
@@ -26,10 +33,10 @@ static bool is_gltf_path(const char *path)
     return alpi_path_has_ending(path, ".glb") || alpi_path_has_ending(path, ".gltf");
 }
 
-static alp_result check_map(alp_context *context, const char *folder, uint32_t page,
-                            const char *ending, bool overwrite)
+static alp_result check_map(alp_context *context, const char *folder, uint32_t page, map_kind kind,
+                            bool overwrite)
 {
-    char *path = map_path(context, folder, page, ending);
+    char *path = map_path(context, folder, page, kind);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -52,8 +59,9 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
         for (uint32_t p = 0; p < pages; p++) {
-            ALP_TRY(check_map(job->context, o->maps_folder, p, ".exr", o->overwrite));
-            ALP_TRY(check_map(job->context, o->maps_folder, p, ".png", o->overwrite));
+            for (int kind = 0; kind < MAP_COUNT; kind++) {
+                ALP_TRY(check_map(job->context, o->maps_folder, p, (map_kind)kind, o->overwrite));
+            }
         }
     }
     return ALP_OK;
@@ -69,11 +77,24 @@ static const char *falloff_name(alp_falloff falloff)
 
 static const char *atlas_name(alp_atlas_mode mode)
 {
-    return mode == ALP_ATLAS_KEEP ? "keep" : "charts";
+    return mode == ALP_ATLAS_KEEP ? "keep" : mode == ALP_ATLAS_VERTEX ? "vertex" : "charts";
 }
 
-/// The object that goes to asset.extras.alpenglow: version, options, quantity, input hash.
-static char *make_extras(const alpi_bake_job *job)
+/// Values at vertices have an attribute instead of pages.
+static void replace_pages(const alpi_bake_job *job, json_t *occlusion)
+{
+    bool in_color = job->options.vertex_attribute == ALP_VERTEX_COLOR;
+    json_object_del(occlusion, "size");
+    json_object_del(occlusion, "pages");
+    json_object_del(occlusion, "padding");
+    json_object_del(occlusion, "stated_relative_error"); // none is stated
+    json_object_del(occlusion, "cut_off");
+    json_object_set_new(occlusion, "vertex_attribute",
+                        json_string(in_color ? "COLOR_0" : "_OCCLUSION"));
+}
+
+/// Version, options, quantity, input hash.
+char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
     const alp_occlusion_options *ao = &job->options.occlusion;
     char hash[17];
@@ -81,14 +102,18 @@ static char *make_extras(const alpi_bake_job *job)
     json_t *distance = job->report.ao_distance < 1e30f ? json_real((double)job->report.ao_distance)
                                                        : json_string("inf");
     json_t *object = json_pack(
-        "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:s, s:i, s:i, s:i}}",
+        "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:f, s:b, s:s, s:i, s:i, s:i}}",
         "version", alp_version(), "input_hash", hash, "occlusion", "quantity",
-        "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)ao->samples, "distance_m",
-        distance, "falloff", falloff_name(ao->falloff), "cone_rad", (double)ao->cone,
+        "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)job->report.ao_samples,
+        "distance_m", distance, "falloff", falloff_name(ao->falloff), "cone_rad", (double)ao->cone,
         "distribution", ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform",
-        "one_sided", (int)ao->one_sided, "seed", (json_int_t)ao->seed, "atlas",
+        "one_sided", (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
+        job->report.ao_relative_error, "cut_off", (int)job->report.cut_off, "atlas",
         atlas_name(job->report.atlas.mode), "size", (int)job->report.atlas.width, "pages",
         (int)job->report.atlas.pages, "padding", (int)job->options.atlas.padding);
+    if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
+        replace_pages(job, json_object_get(object, "occlusion"));
+    }
     char *text = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
     char *copy = text ? alpi_copy_string(job->context, text) : NULL;
@@ -98,37 +123,63 @@ static char *make_extras(const alpi_bake_job *job)
 
 // --- encoding ------------------------------------------------------------------------------------
 
+/// The files of one page, as bytes. Without a maps folder only the PNG.
 typedef struct encoded_page {
-    uint8_t *png, *exr;
-    size_t png_size, exr_size;
+    uint8_t *bytes[MAP_COUNT];
+    size_t sizes[MAP_COUNT];
 } encoded_page;
+
+static alp_result make_image(const alpi_bake_job *job, uint32_t page, map_kind kind,
+                             alp_image **image)
+{
+    switch (kind) {
+    case MAP_ERROR:
+        return alpi_lightmap_error_image(job->lightmap, page, image);
+    case MAP_SAMPLING:
+        return alpi_lightmap_sampling_image(job->lightmap, page, image);
+    default:
+        return alpi_lightmap_page_image(job->lightmap, page, ALP_COMPONENT_U8, image);
+    }
+}
+
+static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
+                             encoded_page *out)
+{
+    const alp_lightmap *l = job->lightmap;
+    if (kind == MAP_AO) { // encoded where it lies: a copy of it may be gigabytes
+        const alp_image view = {.context = job->context,
+                                .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
+                                .pixels = l->pages[page]};
+        return alpi_exr_encode(&view, &out->bytes[kind], &out->sizes[kind]);
+    }
+    alp_image *image = NULL;
+    ALP_TRY(make_image(job, page, kind, &image));
+    const bool floats = image->info.component == ALP_COMPONENT_FLOAT;
+    alp_result result =
+        (floats ? alpi_exr_encode : alpi_png_encode)(image, &out->bytes[kind], &out->sizes[kind]);
+    alp_image_destroy(image);
+    return result;
+}
 
 static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_page *out)
 {
-    alp_image *image = NULL;
-    ALP_TRY(alpi_lightmap_page_image(job->lightmap, page, ALP_COMPONENT_U8, &image));
-    alp_result result = alpi_png_encode(image, &out->png, &out->png_size);
-    alp_image_destroy(image);
-    if (result != ALP_OK || job->options.maps_folder == NULL) {
-        return result;
+    const int count = job->options.maps_folder != NULL ? MAP_COUNT : MAP_AO_PNG + 1;
+    for (int kind = 0; kind < count; kind++) {
+        ALP_TRY(encode_map(job, page, (map_kind)kind, out));
     }
-    const alp_lightmap *l = job->lightmap; // encoded where it lies: a copy of it may be gigabytes
-    const alp_image view = {.context = job->context,
-                            .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
-                            .pixels = l->pages[page]};
-    return alpi_exr_encode(&view, &out->exr, &out->exr_size);
+    return ALP_OK;
 }
 
-static alp_result append_map(const alpi_bake_job *job, uint32_t page, const char *ending,
-                             const uint8_t *bytes, size_t size, alpi_file_writer *writer)
+static alp_result append_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
+                             const encoded_page *encoded, alpi_file_writer *writer)
 {
-    char *path = map_path(job->context, job->options.maps_folder, page, ending);
+    char *path = map_path(job->context, job->options.maps_folder, page, kind);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = alpi_file_open(job->context, path, job->options.overwrite, writer);
     if (result == ALP_OK) {
-        result = alpi_file_append(writer, bytes, size);
+        result = alpi_file_append(writer, encoded->bytes[kind], encoded->sizes[kind]);
     }
     alpi_release(job->context, path);
     return result;
@@ -139,9 +190,10 @@ static alp_result append_maps(const alpi_bake_job *job, const encoded_page *page
                               alpi_file_writer *writers)
 {
     for (uint32_t p = 0; p < job->lightmap->page_count; p++) {
-        alpi_file_writer *w = writers + FILES_PER_PAGE * p;
-        ALP_TRY(append_map(job, p, ".exr", pages[p].exr, pages[p].exr_size, w));
-        ALP_TRY(append_map(job, p, ".png", pages[p].png, pages[p].png_size, w + 1));
+        for (int kind = 0; kind < MAP_COUNT; kind++) {
+            ALP_TRY(append_map(job, p, (map_kind)kind, &pages[p],
+                               &writers[MAP_COUNT * p + (uint32_t)kind]));
+        }
     }
     return ALP_OK;
 }
@@ -153,7 +205,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     size_t *sizes = ALPI_NEW(job->context, size_t, count);
     const alpi_packing *packing = &job->packing;
     alpi_packed_image *packed = ALPI_NEW(job->context, alpi_packed_image, packing->count);
-    char *extras = make_extras(job);
+    char *extras = alpi_bake_make_extras(job);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (pngs != NULL && sizes != NULL && packed != NULL && extras != NULL) {
         for (uint32_t i = 0; i < packing->count; i++) {
@@ -161,8 +213,8 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             packed[i] = (alpi_packed_image){target->image, target->png, target->png_size};
         }
         for (uint32_t p = 0; p < count; p++) {
-            pngs[p] = pages[p].png;
-            sizes[p] = pages[p].png_size;
+            pngs[p] = pages[p].bytes[MAP_AO_PNG];
+            sizes[p] = pages[p].sizes[MAP_AO_PNG];
         }
         const alp_atlas *atlas = job->lightmap->atlas;
         bool keep = atlas->info.mode == ALP_ATLAS_KEEP;
@@ -195,7 +247,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
 /// All maps to temporary files, then the asset, then the maps to their places.
 static alp_result write_files(const alpi_bake_job *job, const encoded_page *pages)
 {
-    uint32_t count = job->options.maps_folder ? FILES_PER_PAGE * job->lightmap->page_count : 0;
+    uint32_t count = job->options.maps_folder ? MAP_COUNT * job->lightmap->page_count : 0;
     alpi_file_writer *writers = ALPI_NEW(job->context, alpi_file_writer, count);
     if (writers == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -232,8 +284,9 @@ alp_result alpi_bake_write_outputs(alpi_bake_job *job)
         result = write_files(job, pages);
     }
     for (uint32_t p = 0; p < count; p++) {
-        alpi_release(job->context, pages[p].png);
-        alpi_release(job->context, pages[p].exr);
+        for (int kind = 0; kind < MAP_COUNT; kind++) {
+            alpi_release(job->context, pages[p].bytes[kind]);
+        }
     }
     alpi_release(job->context, pages);
     return result;

@@ -186,7 +186,7 @@ bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle)
 
 uint64_t alpi_bake_packing_memory(const alpi_bake_job *job)
 {
-    enum { BYTES_PER_TEXEL = 25 }; // float RGBA 16, dilation 5, new pixels 4
+    enum { BYTES_PER_TEXEL = 41 }; // sums 16, float RGBA 16, dilation 5, new pixels 4
     uint64_t largest = 0;
     for (uint32_t i = 0; i < job->packing.count; i++) {
         const alp_image_info *info = &job->scene->images[job->packing.targets[i].image]->info;

@@ -343,7 +343,11 @@ static void state_origin(alpi_gltf_patcher *p)
 alp_result alpi_patcher_run(alpi_gltf_patcher *patcher)
 {
     ALP_TRY(alpi_patcher_plan(patcher));
-    ALP_TRY(alpi_patcher_materials(patcher));
+    if (patcher->patch->vertex_values == NULL) {
+        ALP_TRY(alpi_patcher_materials(patcher));
+    } else {
+        alpi_patcher_warn_of_former(patcher);
+    }
     ALP_TRY(alpi_patcher_meshes(patcher));
     state_origin(patcher);
     return patcher->data.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;

@@ -7,6 +7,7 @@
 //   gltf_patch_packed.c    materials whose occlusion goes into an image that they have already
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
+//   gltf_patch_vertex.c    values at vertices as an attribute
 //   gltf_container.c       where binary data lives: BIN chunk, files, data URIs
 //   gltf_write.c           file names, files
 #ifndef ALPI_FORMATS_GLTF_PATCH_H
@@ -140,6 +141,30 @@ alp_result alpi_patcher_pack_material(alpi_gltf_patcher *patcher, size_t materia
                                       alpi_edits *edits);
 /// Edits the meshes of the plan and the nodes that use copies.
 alp_result alpi_patcher_meshes(alpi_gltf_patcher *patcher);
+
+// --- values at vertices --------------------------------------------------------------------------
+
+/// "COLOR_0" or "_OCCLUSION".
+const char *alpi_patcher_vertex_name(const alpi_gltf_patcher *patcher);
+
+/// A warning when values go to the colours of a file that holds those of an earlier bake there.
+void alpi_patcher_warn_of_former(const alpi_gltf_patcher *patcher);
+
+/// The value of a scene's vertex as it is stored, [0, 65535]; NaN is 0.
+uint16_t alpi_patcher_vertex_value(const alpi_gltf_patcher *patcher, uint32_t vertex);
+
+/// Values of the vertices that a primitive is written with.
+typedef struct alpi_gltf_vertex_input {
+    json_t *primitive;       // of the document
+    const char *owner;       // for messages
+    uint32_t source_count;   // its vertices
+    uint32_t count;          // written vertices
+    const uint32_t *sources; // [count] vertex of the document that each was, NULL = itself
+    const uint16_t *values;  // [count] 65535 is 1
+} alpi_gltf_vertex_input;
+/// Adds the accessor: normalised 16-bit values, times the colours that the primitive has.
+alp_result alpi_patcher_add_vertex_values(alpi_gltf_patcher *patcher,
+                                          const alpi_gltf_vertex_input *input, size_t *accessor);
 
 /// The JSON object of a primitive, NULL when there is none such.
 json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, size_t primitive);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edits of meshes: a coordinate set for each primitive, vertices split where charts meet, one
-// primitive a page, and copies of meshes that several nodes use.
+// Edits of meshes: a coordinate set or values for each primitive, vertices split where charts meet
+// or values differ, one primitive a page, and copies of meshes that several nodes use.
 #include "formats/gltf_patch.h"
 
 #include "base/memory.h"
@@ -32,7 +32,8 @@ typedef struct rewrite {
     uint32_t triangle_count;
     float (*corner_uvs)[3][2]; // in the file's order
     alpi_gltf_split split;
-    size_t uv_accessor; // ALPI_GLTF_NONE: kept coordinates
+    char added_name[32];   // of the attribute that is added
+    size_t added_accessor; // ALPI_GLTF_NONE: kept coordinates
     attribute_edit *attribute_edits;
     size_t attribute_count, attribute_capacity;
 } rewrite;
@@ -81,7 +82,12 @@ static alp_result turn_corners(alpi_gltf_patcher *p, rewrite *r)
             return alpi_gltf_fail(p->document, r->owner, "triangle %u is not the one that was read",
                                   i);
         }
+        const uint32_t *vertices = p->scene->triangles[r->surface->first_triangle + i];
         for (int k = 0; k < 3; k++) {
+            if (p->patch->vertex_values != NULL) { // split as if it were a coordinate
+                r->corner_uvs[i][k][0] = alpi_patcher_vertex_value(p, vertices[order[k]]);
+                continue;
+            }
             for (int axis = 0; axis < 2; axis++) {
                 float value = p->patch->corner_uvs[r->surface->first_triangle + i][order[k]][axis];
                 r->corner_uvs[i][k][axis] = isfinite(value) ? value + 0.0f : 0.0f; // −0 → 0
@@ -218,8 +224,12 @@ static alp_result split_attributes(alpi_gltf_patcher *p, rewrite *r, alpi_json_s
     const char *text = p->document->text;
     alpi_json_cursor cursor = alpi_json_open(text, object);
     while (alpi_json_next(&cursor)) {
-        ALP_TRY(
-            split_attribute(p, r, cursor.value, alpi_json_key_is(text, cursor.key, "POSITION")));
+        bool replaced = object.begin == r->attributes.begin &&
+                        alpi_json_key_is(text, cursor.key, r->added_name);
+        if (!replaced) {
+            ALP_TRY(split_attribute(p, r, cursor.value,
+                                    alpi_json_key_is(text, cursor.key, "POSITION")));
+        }
     }
     return ALP_OK;
 }
@@ -239,8 +249,50 @@ static alp_result split_targets(alpi_gltf_patcher *p, rewrite *r)
 
 // --- vertices and indices ------------------------------------------------------------------------
 
+static alp_result add_coordinates(alpi_gltf_patcher *p, rewrite *r)
+{
+    alpi_gltf_array uvs = {.bytes = r->split.uvs,
+                           .count = r->split.vertex_count,
+                           .components = 2,
+                           .component_type = 5126,
+                           .element_size = sizeof *r->split.uvs};
+    return alpi_patcher_add_accessor(p, &uvs, &r->added_accessor);
+}
+
+/// The values of the corners as an attribute; vertices of no triangle are open.
+static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
+{
+    uint32_t count = r->split.vertex_count;
+    uint16_t *values = ALPI_NEW(p->context, uint16_t, count);
+    if (values == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    memset(values, 0xff, count * sizeof *values);
+    for (uint32_t i = 0; i < r->triangle_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t vertex = r->split.indices[i][k];
+            values[vertex] = (uint16_t)r->split.uvs[vertex][0];
+        }
+    }
+    alpi_gltf_vertex_input input = {.primitive = r->primitive,
+                                    .owner = r->owner,
+                                    .source_count = r->vertex_count,
+                                    .count = count,
+                                    .sources = r->split.changed ? r->split.sources : NULL,
+                                    .values = values};
+    alp_result result = alpi_patcher_add_vertex_values(p, &input, &r->added_accessor);
+    alpi_release(p->context, values);
+    return result;
+}
+
 static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
 {
+    bool at_vertices = p->patch->vertex_values != NULL;
+    if (at_vertices) {
+        snprintf(r->added_name, sizeof r->added_name, "%s", alpi_patcher_vertex_name(p));
+    } else {
+        snprintf(r->added_name, sizeof r->added_name, "TEXCOORD_%u", r->plan->uv_set);
+    }
     ALP_TRY(turn_corners(p, r));
     alpi_gltf_split_input input = {.vertex_count = r->vertex_count,
                                    .triangle_count = r->triangle_count,
@@ -253,12 +305,7 @@ static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
         ALP_TRY(split_attributes(p, r, r->attributes));
         ALP_TRY(split_targets(p, r));
     }
-    alpi_gltf_array uvs = {.bytes = r->split.uvs,
-                           .count = r->split.vertex_count,
-                           .components = 2,
-                           .component_type = 5126,
-                           .element_size = sizeof *r->split.uvs};
-    return alpi_patcher_add_accessor(p, &uvs, &r->uv_accessor);
+    return at_vertices ? add_values(p, r) : add_coordinates(p, r);
 }
 
 /// The triangles of one page, as a new index accessor. The largest index of a type is no vertex:
@@ -309,7 +356,7 @@ static void drop_compression(alpi_gltf_patcher *p, alpi_edits *edits, const rewr
         alpi_edits_remove(edits, span, name);
     }
     alpi_note(p->context, "compression", r->owner,
-              "its compressed copy is left out, because the plain one gained coordinates");
+              "its compressed copy is left out, because the plain one gained an attribute");
 }
 
 static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
@@ -319,10 +366,8 @@ static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const 
         alpi_edits_replace(edits, r->attribute_edits[i].span, "%zu",
                            r->attribute_edits[i].accessor);
     }
-    if (r->uv_accessor != ALPI_GLTF_NONE) {
-        char name[32];
-        snprintf(name, sizeof name, "TEXCOORD_%u", r->plan->uv_set);
-        alpi_edits_set_index(edits, r->attributes, name, r->uv_accessor);
+    if (r->added_accessor != ALPI_GLTF_NONE) {
+        alpi_edits_set_index(edits, r->attributes, r->added_name, r->added_accessor);
         drop_compression(p, edits, r);
     }
     if (r->split.changed || r->plan->piece_count > 1) {
@@ -392,10 +437,11 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                  .surface = &p->scene->surfaces[plan->surface],
                  .primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive),
                  .span = span,
-                 .uv_accessor = ALPI_GLTF_NONE};
+                 .added_accessor = ALPI_GLTF_NONE};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
     alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
-    if (result == ALP_OK && !plan->packed && p->patch->corner_uvs != NULL) {
+    if (result == ALP_OK && !plan->packed &&
+        (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
         result = split_vertices(p, &r);
     }
     if (result == ALP_OK) {

@@ -19,7 +19,7 @@ json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, siz
 
 static bool keeps_uvs(const alpi_gltf_patcher *p)
 {
-    return p->patch->corner_uvs == NULL;
+    return p->patch->corner_uvs == NULL && p->patch->vertex_values == NULL;
 }
 
 // --- pages of triangles --------------------------------------------------------------------------
@@ -223,6 +223,16 @@ static alp_result add_piece(alpi_gltf_patcher *p, uint32_t page)
     return ALP_OK;
 }
 
+/// Values at vertices: the primitive stays whole and keeps its material.
+static alp_result plan_whole(alpi_gltf_patcher *p, alpi_gltf_plan *plan)
+{
+    plan->piece_first = p->piece_count;
+    plan->piece_count = 1;
+    ALP_TRY(add_piece(p, 0));
+    p->pieces[plan->piece_first].material = plan->material;
+    return ALP_OK;
+}
+
 /// One piece for each page that the plan's triangles lie on, in ascending order; where the map is
 /// packed into an image, just one.
 static alp_result plan_pieces(alpi_gltf_patcher *p, alpi_gltf_plan *plan, bool *used)
@@ -248,7 +258,8 @@ static alp_result plan_pieces(alpi_gltf_patcher *p, alpi_gltf_plan *plan, bool *
 
 alp_result alpi_patcher_plan(alpi_gltf_patcher *p)
 {
-    if (p->patch->page_count == 0) {
+    bool at_vertices = p->patch->vertex_values != NULL;
+    if (p->patch->page_count == 0 && !at_vertices) {
         return alpi_fail(p->context, ALP_ERROR_INVALID_ARGUMENT, "%s: a patch without pages",
                          p->scene->name);
     }
@@ -267,7 +278,7 @@ alp_result alpi_patcher_plan(alpi_gltf_patcher *p)
     bool *used = ALPI_NEW(p->context, bool, p->patch->page_count);
     alp_result result = used == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
     for (size_t i = 0; result == ALP_OK && i < p->plan_count; i++) {
-        result = plan_pieces(p, &p->plans[i], used);
+        result = at_vertices ? plan_whole(p, &p->plans[i]) : plan_pieces(p, &p->plans[i], used);
     }
     alpi_release(p->context, used);
     return result;

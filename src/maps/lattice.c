@@ -14,7 +14,7 @@ static const float SMOOTH_COSINE = 0.99f;
 
 // --- neighbourhood -------------------------------------------------------------------------------
 
-static uint32_t texel_at(const alpi_lattice *l, uint32_t page, int64_t x, int64_t y)
+uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int64_t y)
 {
     if (x < 0 || y < 0 || x >= l->width || y >= l->height) {
         return ALPI_NONE;
@@ -38,7 +38,7 @@ static void append_block(const alpi_lattice *l, uint32_t page, uint32_t x0, uint
 {
     for (uint32_t y = y0; y < y0 + BLOCK_HEIGHT; y++) {
         for (uint32_t x = x0; x < x0 + BLOCK_WIDTH; x++) {
-            const uint32_t t = texel_at(l, page, x, y);
+            const uint32_t t = alpi_lattice_texel(l, page, x, y);
             if (t != ALPI_NONE) {
                 l->order[(*count)++] = t;
             }
@@ -64,18 +64,15 @@ static void fill_order(alpi_lattice *l)
     }
 }
 
-static alp_result create(const alp_atlas *atlas, alpi_lattice *l)
+static alp_result create(alpi_lattice *l)
 {
     const size_t pixels = (size_t)l->page_count * l->width * l->height;
     ALPI_TRY_NEW(l->context, l->grid, pixels);
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
-    ALPI_TRY_NEW(l->context, l->normals, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    (void)atlas;
     fill_grid(l);
     fill_order(l);
-    memcpy(l->normals, l->texels->points.shading_normals, l->texels->count * sizeof *l->normals);
     return ALP_OK;
 }
 
@@ -87,7 +84,7 @@ alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels
                               .width = atlas->info.width,
                               .height = atlas->info.height,
                               .page_count = atlas->info.pages};
-    alp_result result = create(atlas, lattice);
+    alp_result result = create(lattice);
     if (result != ALP_OK) {
         alpi_lattice_destroy(lattice);
     }
@@ -98,7 +95,6 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 {
     alpi_release(lattice->context, lattice->grid);
     alpi_release(lattice->context, lattice->order);
-    alpi_release(lattice->context, lattice->normals);
     alpi_release(lattice->context, lattice->states);
     alpi_release(lattice->context, lattice->values);
     *lattice = (alpi_lattice){0};
@@ -127,13 +123,14 @@ uint32_t alpi_lattice_reach(uint32_t pass)
 static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
 {
     const uint16_t *p = l->texels->pixels[t];
-    const uint32_t n = texel_at(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
+    const uint32_t n =
+        alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
     if (n == ALPI_NONE || l->states[n] == ALPI_TEXEL_OPEN ||
         l->texels->charts[n] != l->texels->charts[t]) {
         return ALPI_NONE;
     }
-    const bool smooth =
-        vec3_dot(vec3_load(l->normals[n]), vec3_load(l->normals[t])) >= SMOOTH_COSINE;
+    const bool smooth = vec3_dot(vec3_load(l->texels->normals[n]),
+                                 vec3_load(l->texels->normals[t])) >= SMOOTH_COSINE;
     return smooth ? n : ALPI_NONE;
 }
 

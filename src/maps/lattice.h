@@ -23,14 +23,16 @@ typedef struct alpi_lattice {
     uint32_t width, height, page_count;
     uint32_t *grid;  // [pages][height][width] texel, ALPI_NONE where there is none
     uint32_t *order; // [count] all texels, tile by tile: neighbours in it are neighbours in space
-    float (*normals)[3]; // [count] shading normal of each
-    uint8_t *states;     // [count] alpi_texel_state
-    float *values;       // [count] where the state is not OPEN
+    uint8_t *states; // [count] alpi_texel_state
+    float *values;   // [count] where the state is not OPEN
 } alpi_lattice;
 
 alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,
                                alpi_lattice *lattice);
 void alpi_lattice_destroy(alpi_lattice *lattice);
+
+/// The texel at a pixel, ALPI_NONE where there is none or the pixel is off the page.
+uint32_t alpi_lattice_texel(const alpi_lattice *lattice, uint32_t page, int64_t x, int64_t y);
 
 /// What an interpolated texel is made of: value = Σ weights · values of `texels`.
 typedef struct alpi_stencil {

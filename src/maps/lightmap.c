@@ -16,6 +16,9 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
         alpi_release(context, lightmap->pages[p]);
     }
     alpi_release(context, lightmap->pages);
+    alpi_release(context, lightmap->vertex_values);
+    alpi_release(context, lightmap->errors);
+    alpi_release(context, lightmap->states);
     alpi_texels_destroy(context, &lightmap->texels);
     alp_atlas_destroy(lightmap->atlas);
     alpi_release(context, lightmap);
@@ -27,6 +30,9 @@ static alp_result allocate_pages(alp_lightmap *l)
     if (l->pages == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
+    ALPI_TRY_NEW(l->context, l->errors, l->texels.count);
+    ALPI_TRY_NEW(l->context, l->states, l->texels.count);
+    memset(l->states, ALPI_TEXEL_TRACED, l->texels.count); // until somebody knows better
     for (uint32_t p = 0; p < l->page_count; p++) {
         ALPI_TRY_NEW(l->context, l->pages[p], 4 * (size_t)l->width * l->height);
     }
@@ -42,6 +48,7 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     l->context = atlas->context;
+    l->scene = atlas->scene;
     l->atlas = atlas;
     l->page_count = atlas->info.pages;
     l->width = atlas->info.width;
@@ -58,6 +65,21 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
     return ALP_OK;
 }
 
+alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
+                                         alp_lightmap **lightmap)
+{
+    alp_lightmap *l = ALPI_NEW(scene->context, alp_lightmap, 1);
+    *lightmap = l;
+    if (l == NULL) {
+        alpi_release(scene->context, values);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    l->context = scene->context;
+    l->scene = scene;
+    l->vertex_values = values;
+    return ALP_OK;
+}
+
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
 {
     const alpi_texels *texels = &lightmap->texels;
@@ -65,7 +87,7 @@ alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
         size_t at = (size_t)texels->pixels[i][1] * lightmap->width + texels->pixels[i][0];
         float *pixel = lightmap->pages[texels->pages[i]] + 4 * at;
         pixel[0] = pixel[1] = pixel[2] = values[i];
-        pixel[3] = 1.0f;
+        pixel[3] = lightmap->states[i] != ALPI_TEXEL_OPEN ? 1.0f : 0.0f;
     }
     for (uint32_t p = 0; p < lightmap->page_count; p++) {
         ALP_TRY(
@@ -77,6 +99,13 @@ alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3])
 {
+    if (lightmap->vertex_values != NULL) {
+        const uint32_t *corner = lightmap->scene->triangles[triangle];
+        const float *values = lightmap->vertex_values;
+        rgb[0] = rgb[1] = rgb[2] =
+            (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] + b2 * values[corner[2]];
+        return;
+    }
     const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
     float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
     float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
@@ -109,6 +138,38 @@ alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
     return ALP_OK;
 }
 
+alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page, alp_image **image)
+{
+    const alpi_texels *texels = &lightmap->texels;
+    alp_image_info info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    float *pixels = (*image)->pixels;
+    for (uint32_t i = texels->page_first[page]; i < texels->page_first[page + 1]; i++) {
+        float *pixel =
+            pixels + 4 * ((size_t)texels->pixels[i][1] * info.width + texels->pixels[i][0]);
+        pixel[0] = pixel[1] = pixel[2] = lightmap->errors[i];
+        pixel[3] = lightmap->states[i] != ALPI_TEXEL_OPEN ? 1.0f : 0.0f;
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
+                                        alp_image **image)
+{
+    static const uint8_t colors[][3] = {[ALPI_TEXEL_OPEN] = {40, 60, 220},
+                                        [ALPI_TEXEL_TRACED] = {220, 40, 40},
+                                        [ALPI_TEXEL_INTERPOLATED] = {40, 180, 60}};
+    const alpi_texels *texels = &lightmap->texels;
+    alp_image_info info = {lightmap->width, lightmap->height, 3, ALP_COMPONENT_U8};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    uint8_t *pixels = (*image)->pixels;
+    for (uint32_t i = texels->page_first[page]; i < texels->page_first[page + 1]; i++) {
+        const size_t at = (size_t)texels->pixels[i][1] * info.width + texels->pixels[i][0];
+        memcpy(pixels + 3 * at, colors[lightmap->states[i]], 3);
+    }
+    return ALP_OK;
+}
+
 uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap)
 {
     return lightmap ? lightmap->page_count : 0;
@@ -132,4 +193,16 @@ const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)
 {
     return lightmap ? lightmap->atlas : NULL;
+}
+
+const float *alp_lightmap_vertex_values(const alp_lightmap *lightmap, uint32_t surface,
+                                        uint32_t *count)
+{
+    bool there = lightmap != NULL && lightmap->vertex_values != NULL &&
+                 surface < lightmap->scene->surface_count;
+    const alpi_surface *s = there ? &lightmap->scene->surfaces[surface] : NULL;
+    if (count != NULL) {
+        *count = there ? s->vertex_count : 0;
+    }
+    return there ? lightmap->vertex_values + s->first_vertex : NULL;
 }

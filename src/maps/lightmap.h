@@ -5,30 +5,46 @@
 
 #include "atlas/atlas.h"
 #include "base/image.h"
+#include "maps/lattice.h"
 
 #include <alpenglow/bake.h>
 
 struct alp_lightmap {
     alp_context *context;
-    alp_atlas *atlas; // owned
+    const alp_scene *scene;
+    float *vertex_values; // [scene vertices], owned; then there is no atlas and no page. Or NULL.
+    alp_atlas *atlas;     // owned
     alpi_texels texels;
     uint32_t page_count, width, height;
-    float **pages; // [page_count] → [height][width][4]: value in RGB, coverage in A
+    float *errors;   // [texels] standard error of each
+    uint8_t *states; // [texels] alpi_texel_state: how its value was found
+    float **pages;   // [page_count] → [height][width][4]: value in RGB, coverage in A
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.
 alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap);
 
+/// Values at the scene's vertices, [scene vertices]; takes them over, also on failure.
+alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
+                                         alp_lightmap **lightmap);
+
 /// Writes one value per texel into R = G = B, coverage 1 into A, and fills the rest of each page
 /// from the nearest covered texel, so that no filter or mip level ever reads something that is no
-/// surface.
+/// surface. Texels of unknown value (OPEN in lightmap->states) are filled like those of no surface.
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values);
 
-/// Bilinear look-up at a point of a triangle.
+/// Standard errors of a page: float RGBA, A = 1 where the texel has a value.
+alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page,
+                                     alp_image **image);
+/// How the values of a page were found, 8-bit RGB: red traced, green interpolated, blue unknown.
+alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
+                                        alp_image **image);
+
+/// Bilinear look-up at a point of a triangle, or linear between the values at its vertices.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
 
-/// What a value is multiplied by at a cell of texel (x, y) of the layout it goes to.
+/// What a value, in [0, 1], is multiplied by at a cell of texel (x, y) of the layout it goes to.
 typedef struct alpi_lightmap_weight {
     float (*at)(void *user, const alpi_uv_cell *cell, uint32_t x, uint32_t y); // NULL: 1
     void *user;

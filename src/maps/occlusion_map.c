@@ -11,7 +11,6 @@ enum {
     TEXELS_PER_RANGE = 1 << 12,
     FLOOD_ROUNDS = 4,
     FIRST_SAMPLES = 64, // of the first round of a bake that goes for an error
-    NEAR_SAMPLES = 8,
     LEAST_PROBES = 512,
     MOST_PROBES = 8192,
     TRACED_PER_PROBE = 16
@@ -23,8 +22,6 @@ enum {
 // it a tenth more texels are traced and nothing is gained, with twice of it small shadows get lost
 // (docs/accuracy.md).
 static const float BEND_LIMIT = 2.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
-// Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
-static const double NEAR_DISTANCE = 3.0;
 // A 99th percentile of the error above this multiple of the wanted error asks for more too.
 static const double P99_LIMIT = 4.0;
 
@@ -142,38 +139,14 @@ static alp_result judge(map_job *job, uint32_t pass, bool flood)
 }
 
 /// Wants every texel traced that has another surface near: a contact shadow may be smaller than the
-/// lattice. A few short rays tell; it is Ward's criterion (light changes over the distance to what
-/// is seen) at the cost of some percent.
+/// lattice. Ward's criterion: light changes over the distance to what is seen.
 /// G. J. Ward, F. M. Rubinstein, R. D. Clear. A Ray Tracing Solution for Diffuse Interreflection.
 /// SIGGRAPH 1988.
-static alp_result want_near(map_job *job)
+static void want_near(map_job *job)
 {
-    alpi_occlusion_setup near = *job->setup;
-    const alpi_texels *texels = job->lattice->texels;
-    double area = 0.0, coverage = 0.0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        area += (double)texels->areas[job->order[i]];
-        coverage += (double)texels->coverages[job->order[i]];
+    for (uint32_t i = 0; i < job->order_count && job->options->near != NULL; i++) {
+        job->wanted[job->order[i]] = job->options->near[job->order[i]];
     }
-    near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
-    near.falloff = ALP_FALLOFF_NONE;
-    near.bent = false;
-    if (near.samples < NEAR_SAMPLES || near.distance >= job->setup->distance) {
-        near.samples = job->setup->samples < NEAR_SAMPLES ? job->setup->samples : NEAR_SAMPLES;
-    }
-    const uint32_t count = near.samples < NEAR_SAMPLES ? near.samples : NEAR_SAMPLES;
-    alpi_occlusion_sums sums;
-    ALP_TRY(alpi_occlusion_sums_create(near.context, job->receivers->count, false, &sums));
-    const alpi_task_progress progress = {.callback = go_on, .user = job, .stage = "occlusion"};
-    alp_result result = alpi_occlusion_add(&near, job->receivers, job->order, job->order_count, 0,
-                                           count, count, &progress, &sums);
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        job->wanted[t] |= alpi_occlusion_value(&sums, t) < 1.0f;
-    }
-    job->report->rays += (uint64_t)job->order_count * count;
-    alpi_occlusion_sums_destroy(near.context, &sums);
-    return result;
 }
 
 /// Root mean square over the traced texels.
@@ -219,13 +192,12 @@ static alp_result run_lattice(map_job *job)
     return ALP_OK;
 }
 
-static alp_result want_all(map_job *job)
+static void want_all(map_job *job)
 {
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         job->wanted[t] = job->lattice->states[t] != ALPI_TEXEL_TRACED;
     }
-    return ALP_OK;
 }
 
 // --- rounds --------------------------------------------------------------------------------------
@@ -251,8 +223,10 @@ static alp_result run_round(map_job *job, uint32_t before)
     const bool adaptive = job->options->accuracy != ALP_ADAPTIVE_OFF;
     if (before > 0) {
         ALP_TRY(extend_traced(job, before));
+    } else if (adaptive) {
+        want_near(job);
     } else {
-        ALP_TRY(adaptive ? want_near(job) : want_all(job));
+        want_all(job);
     }
     return adaptive ? run_lattice(job) : trace_wanted(job);
 }
@@ -315,22 +289,20 @@ static uint32_t next_factor(const map_job *job)
 static alp_result run_rounds(map_job *job)
 {
     const double wanted = (double)job->options->error;
+    const bool rounds = wanted > 0.0 || job->options->deadline < HUGE_VAL;
     const uint32_t most = job->setup->samples;
     uint32_t before = 0;
-    job->samples = wanted > 0.0 && most > FIRST_SAMPLES ? FIRST_SAMPLES : most;
+    job->samples = rounds && most > FIRST_SAMPLES ? FIRST_SAMPLES : most;
     for (;;) {
         ALP_TRY(run_round(job, before));
         job->report->samples = job->samples;
-        if (job->errors == NULL) {
-            return ALP_OK;
-        }
         ALP_TRY(state_errors(job, before));
         const bool good = job->report->relative <= wanted && job->report->p99 <= P99_LIMIT * wanted;
         const uint32_t room = most / job->samples;
-        if (wanted == 0.0 || good || room < 2) {
+        if (!rounds || good || room < 2) {
             return ALP_OK;
         }
-        const uint32_t factor = next_factor(job);
+        const uint32_t factor = wanted > 0.0 ? next_factor(job) : 2;
         before = job->samples;
         job->samples *= factor < room ? factor : room;
     }

@@ -11,10 +11,11 @@
 
 /// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {
-    float accuracy;    // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
-    float error;       // wanted relative error; 0: all samples of the setup, in one round
-    double deadline;   // in alpi_seconds(), HUGE_VAL = none
-    bool keep_partial; // cancelled by the user: ends with what there is
+    const uint8_t *near; // [texels] 1: traced in any case, something is too near to interpolate
+    float accuracy;      // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
+    float error;         // wanted relative error; 0: all samples of the setup, in one round
+    double deadline;     // in alpi_seconds(), HUGE_VAL = none
+    bool keep_partial;   // cancelled by the user: ends with what there is
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_map_options;
@@ -29,7 +30,7 @@ typedef struct alpi_occlusion_map_report {
 /// Gathers the texels in `order` (some of lattice->order, in its order) into lattice->values and
 /// ->states. With `error`, rounds of more and more samples until the stated error is reached, or
 /// the setup's samples are spent.
-/// @param errors [texels] out: standard error of each; NULL: no errors are found, and none stops it
+/// @param errors [texels] out: standard error of each
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *order, uint32_t order_count,

@@ -53,7 +53,7 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     if (o->method != ALP_RENDER_AO && o->method != ALP_RENDER_CONSTANT) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
     }
-    if (o->lightmap != NULL && o->lightmap->atlas->scene != scene) {
+    if (o->lightmap != NULL && o->lightmap->scene != scene) {
         return alpi_fail(scene->context, code, "render: the maps belong to another scene");
     }
     return alpi_occlusion_check(scene, &o->occlusion);

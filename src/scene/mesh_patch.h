@@ -17,8 +17,16 @@ typedef struct alpi_packed_image {
     const uint8_t *png; // ready to embed
     size_t png_size;
 } alpi_packed_image;
+typedef enum alpi_vertex_attribute {
+    ALPI_VERTEX_COLOR = 0, // the first colour set: times what is there
+    ALPI_VERTEX_OCCLUSION, // an attribute of its own
+} alpi_vertex_attribute;
 
 typedef struct alpi_mesh_patch {
+    /// Accessibility at the scene's vertices, in [0, 1]: then there are no pages, no coordinates
+    /// and no change of materials. NULL: maps.
+    const float *vertex_values; // [vertex_count]
+    alpi_vertex_attribute vertex_attribute;
     uint32_t page_count;
     /// Bake coordinates of each triangle's corners, in the winding of scene.triangles.
     /// NULL: the meshes' own set `kept_uv_set` is used and no vertex changes.

@@ -159,6 +159,8 @@ float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, fl
 
 /// Whether a ray passes through the triangle there: MASK below its cutoff, BLEND below one half.
 bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+/// Whether the triangle's material is double-sided; false without a material.
+bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle);
 /// Whether any point of the surface can be cut (so that the tracer must ask).
 bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 

@@ -144,3 +144,9 @@ bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1,
     *accessibility = 1.0f + material->occlusion_strength * (texel[0] - 1.0f);
     return true;
 }
+
+bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle)
+{
+    uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
+    return material != ALPI_NONE && scene->materials[material].double_sided;
+}

@@ -76,12 +76,6 @@ static void cut_filter(const struct RTCFilterFunctionNArguments *a)
     }
 }
 
-static bool is_double_sided(const alp_scene *scene, uint32_t triangle)
-{
-    uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
-    return material != ALPI_NONE && scene->materials[material].double_sided;
-}
-
 /// Lets rays through single-sided surfaces from behind. Embree's normal is (v1−v0)×(v2−v0), which
 /// points outside for a counter-clockwise triangle.
 static void one_sided_filter(const struct RTCFilterFunctionNArguments *a)
@@ -96,7 +90,8 @@ static void one_sided_filter(const struct RTCFilterFunctionNArguments *a)
             along += lane_float(a->ray, a->N, RAY_DIRECTION_X + k, i) *
                      lane_float(a->hit, a->N, HIT_NORMAL_X + k, i);
         }
-        if (along > 0.0f && !is_double_sided(context->tracer->scene, lane_triangle(a, i))) {
+        if (along > 0.0f &&
+            !alpi_surface_is_double_sided(context->tracer->scene, lane_triangle(a, i))) {
             a->valid[i] = 0;
         }
     }

@@ -7,7 +7,7 @@ done
 for map in bent light direction sh probes ao,bent ao, ,ao AO; do
     try bake scene.glb -o out.glb --maps $map
 done
-for mode in blend vertex; do
+for mode in blend; do
     try bake scene.glb -o out.glb --atlas $mode
 done
 for method in reference radiosity lightmap probes ambience lpv hemisphere cube raytrace; do

@@ -27,3 +27,15 @@ wrong render --camera -1 x 1,2,3 1,2,3,4,5,6,0 1,2,3,4,5,6,179.1 1,2,3,1,2,3,40 
     1,2,3,4,5,6,7,8 nan,2,3,4,5,6,40 1,2,3,4,5,6, 4294967295
 wrong compare --scale -1000000001 1000000001 nan x
 wrong compare --max-rmse -0.001 1000000001 nan x
+for value in 0 0.009 101 1e400 nan pct; do
+    try bake scene.glb -o out.glb --error $value
+done
+for value in 0 1K 1023K 1.5M 10x 10MB -1 99999999999999999999G; do
+    try bake scene.glb -o out.glb --memory-limit $value
+done
+for value in 0 1 -1 on; do
+    try bake scene.glb -o out.glb --adaptive $value
+done
+try bake scene.glb -o out.glb --time-limit 0
+try bake scene.glb -o out.glb --quality best
+try bake scene.glb -o out.glb --quality high --error 1

@@ -140,11 +140,16 @@ double texel_area(const alp_atlas *atlas, uint32_t triangle)
     return 0.5 * (ax * by - ay * bx) * atlas->info.width * atlas->info.height;
 }
 
-static alp_result count_overlaps(void *user, const alpi_row *row)
+static alp_result count_overlaps(void *user, const alpi_band *band)
 {
     uint32_t *count = user;
-    for (uint32_t x = row->first; x <= row->last; x++) {
-        *count += row->cells[x].triangle != ALPI_NONE && row->cells[x].other != ALPI_NONE;
+    for (uint32_t y = 0; y < band->end_row - band->first_row; y++) {
+        for (uint32_t x = band->columns[y][0]; x < band->columns[y][1]; x++) {
+            const alpi_cell *cell = &band->cells[(size_t)y * band->width + x];
+            if (cell->triangle != ALPI_NONE && cell->other != ALPI_NONE) {
+                __atomic_fetch_add(count, 1, __ATOMIC_RELAXED); // bands come from several workers
+            }
+        }
     }
     return ALP_OK;
 }

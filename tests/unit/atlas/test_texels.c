@@ -45,13 +45,13 @@ static void check_texels(alp_context *context, alp_scene *scene, uint32_t size, 
         vec3 c[3];
         alpi_triangle_corners(scene, texels.triangles[i], c);
         vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 0, 0});
-        const float *p = texels.points.positions[i];
-        const float *g = texels.points.geometric_normals[i];
-        const float *s = texels.points.shading_normals[i];
-        ASSERT_NEAR(vec3_dot(normal, vec3_sub(vec3_load(p), c[0])), 0.0, 1e-5);
-        ASSERT_NEAR(vec3_dot(normal, vec3_load(g)), 1.0, 1e-5);
-        ASSERT_NEAR(vec3_length(vec3_load(s)), 1.0, 1e-5);
-        assert_true(vec3_dot(vec3_load(g), vec3_load(s)) > 0.0f);
+        alpi_receiver_point point;
+        alpi_texels_point(&texels, i, &point);
+        ASSERT_NEAR(vec3_dot(normal, vec3_sub(point.position, c[0])), 0.0, 1e-5);
+        ASSERT_NEAR(vec3_dot(normal, point.geometric_normal), 1.0, 1e-5);
+        ASSERT_NEAR(vec3_length(point.shading_normal), 1.0, 1e-5);
+        assert_true(vec3_dot(point.geometric_normal, point.shading_normal) > 0.0f);
+        ASSERT_NEAR(vec3_dot(point.shading_normal, vec3_load(texels.normals[i])), 1.0, 1e-6);
     }
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
@@ -160,8 +160,10 @@ static void a_center_is_the_receiver(void **state)
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     assert_int_equal(texels.count, 64);
     for (uint32_t i = 0; i < 64; i++) { // one metre a texel
-        double dx = (double)texels.points.positions[i][0] - texels.pixels[i][0] - 0.5;
-        double dy = (double)texels.points.positions[i][1] - texels.pixels[i][1] - 0.5;
+        alpi_receiver_point point;
+        alpi_texels_point(&texels, i, &point);
+        double dx = (double)point.position.x - texels.pixels[i][0] - 0.5;
+        double dy = (double)point.position.y - texels.pixels[i][1] - 0.5;
         bool diagonal = texels.pixels[i][0] == texels.pixels[i][1];
         ASSERT_NEAR(hypot(dx, dy), diagonal ? 0.05 : 0.0, 1e-6); // not on the edge itself
         assert_true(!diagonal || dx > dy);                       // into the first triangle

@@ -245,3 +245,16 @@ const alp_image *orm_image(const orm_bake *p, int material)
     assert_int_not_equal(texture->image, ALPI_NONE);
     return p->result->images[texture->image];
 }
+
+void orm_check_meshes_kept(const orm_bake *p)
+{
+    const alpi_gltf_document *old = orm_document(p->scene), *new = orm_document(p->result);
+    alpi_json_span root, a, b;
+    assert_true(alpi_json_value(old->text, 0, old->text_size, &root));
+    assert_true(alpi_json_at(old->text, root, "meshes", &a));
+    assert_true(alpi_json_value(new->text, 0, new->text_size, &root));
+    assert_true(alpi_json_at(new->text, root, "meshes", &b));
+    assert_int_equal(a.end - a.begin, b.end - b.begin);
+    assert_memory_equal(old->text + a.begin, new->text + b.begin, a.end - a.begin);
+    assert_memory_equal(old->bin, new->bin, old->bin_size);
+}

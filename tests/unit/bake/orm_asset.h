@@ -45,5 +45,7 @@ const alpi_gltf_document *orm_document(const alp_scene *scene);
 const char *orm_text(const orm_bake *bake, const char *path);
 /// The image that a material of the written file reads its occlusion from.
 const alp_image *orm_image(const orm_bake *bake, int material);
+/// Nothing of geometry was touched: not a byte of the meshes' text or of the old data.
+void orm_check_meshes_kept(const orm_bake *bake);
 
 #endif

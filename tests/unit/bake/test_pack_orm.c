@@ -77,20 +77,6 @@ static void check_others(const orm_bake *p, int material, uint32_t channels)
     }
 }
 
-/// Nothing of geometry was touched: not a byte of the meshes' text or of the old data.
-static void check_meshes_kept(const orm_bake *p)
-{
-    const alpi_gltf_document *old = orm_document(p->scene), *new = orm_document(p->result);
-    alpi_json_span root, a, b;
-    assert_true(alpi_json_value(old->text, 0, old->text_size, &root));
-    assert_true(alpi_json_at(old->text, root, "meshes", &a));
-    assert_true(alpi_json_value(new->text, 0, new->text_size, &root));
-    assert_true(alpi_json_at(new->text, root, "meshes", &b));
-    assert_int_equal(a.end - a.begin, b.end - b.begin);
-    assert_memory_equal(old->text + a.begin, new->text + b.begin, a.end - a.begin);
-    assert_memory_equal(old->bin, new->bin, old->bin_size);
-}
-
 // --- the image -----------------------------------------------------------------------------------
 
 static void red_is_the_map_and_nothing_else_changes(void **state)
@@ -106,7 +92,7 @@ static void red_is_the_map_and_nothing_else_changes(void **state)
         check_red(&p, 0, asset.floor, 0.0f);
         check_red(&p, 1, asset.lid, 0.0f);
         check_others(&p, 0, channels);
-        check_meshes_kept(&p);
+        orm_check_meshes_kept(&p);
         // both materials read one new image, and the old one is still there
         assert_int_equal(p.result->image_count, 2);
         assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
@@ -304,7 +290,7 @@ static void keep_leaves_the_material_alone(void **state)
         orm_text(&p, "materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
     assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
     check_red(&p, 1, asset.lid, 0.0f);
-    check_meshes_kept(&p);
+    orm_check_meshes_kept(&p);
     orm_stop(&p);
 }
 
@@ -533,6 +519,32 @@ static void memory_may_run_out_anywhere(void **state)
     }
 }
 
+static void workers_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    orm_asset asset = orm_asset_default();
+    orm_bake p = orm_start(&asset);
+    p.options.output = p.path;
+    p.options.atlas.size = 192;
+    p.options.occlusion.samples = 8;
+    unsigned char *bytes[2];
+    size_t sizes[2];
+    for (int i = 0; i < 2; i++) {
+        alp_context *context = test_context(i == 0 ? 1 : 7);
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alp_scene_load(context, p.scene->name, &scene));
+        ASSERT_OK(context, alp_bake(scene, &p.options, NULL, NULL));
+        bytes[i] = test_read_file(p.path, &sizes[i]);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+    assert_int_equal(sizes[0], sizes[1]);
+    assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+    free(bytes[0]);
+    free(bytes[1]);
+    orm_stop(&p);
+}
+
 static void an_unknown_choice_is_refused(void **state)
 {
     (void)state;
@@ -540,6 +552,12 @@ static void an_unknown_choice_is_refused(void **state)
     orm_bake p = orm_start(&asset);
     p.options.ao_into = (alp_ao_into)7;
     assert_int_equal(alp_bake(p.scene, &p.options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    p.options.ao_into = ALP_AO_INTO_ORM; // vertices have no map
+    p.options.output = p.path;
+    p.options.atlas.mode = ALP_ATLAS_VERTEX;
+    p.options.sampling.accuracy = ALP_ADAPTIVE_OFF;
+    assert_int_equal(alp_bake(p.scene, &p.options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(alp_context_message(p.context), "no map to pack"));
     orm_stop(&p);
 }
 
@@ -563,6 +581,7 @@ int main(void)
         cmocka_unit_test(others_keep_the_old_image),
         cmocka_unit_test(nothing_to_pack_is_the_same_as_separate),
         cmocka_unit_test(a_gltf_gets_the_image_beside_it),
+        cmocka_unit_test(workers_do_not_change_a_bit),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(an_unknown_choice_is_refused),
     };

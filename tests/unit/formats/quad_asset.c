@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 // --- the asset -----------------------------------------------------------------------------------
 
@@ -14,11 +15,11 @@ static const struct {
     const char *type;
     int component_type, count, size; // size in bytes, padded to 4
     bool has_bounds;
-} arrays[] = {{"VEC3", 5126, 4, 48, true},    {"VEC3", 5126, 4, 48, false},
-              {"VEC2", 5126, 4, 32, false},   {"VEC4", 5121, 4, 16, false},
-              {"VEC4", 5126, 4, 64, false},   {"VEC3", 5121, 4, 16, false},
-              {"SCALAR", 5123, 6, 12, false}, {"VEC3", 5126, 4, 48, true},
-              {"SCALAR", 5121, 4, 4, false},  {"MAT2", 5121, 4, 32, false}};
+} arrays[] = {
+    {"VEC3", 5126, 4, 48, true},    {"VEC3", 5126, 4, 48, false}, {"VEC2", 5126, 4, 32, false},
+    {"VEC4", 5121, 4, 16, false},   {"VEC4", 5126, 4, 64, false}, {"VEC3", 5121, 4, 16, false},
+    {"SCALAR", 5123, 6, 12, false}, {"VEC3", 5126, 4, 48, true},  {"SCALAR", 5121, 4, 4, false},
+    {"MAT2", 5121, 4, 32, false},   {"VEC4", 5121, 4, 16, false}};
 enum { ARRAY_COUNT = sizeof arrays / sizeof *arrays };
 
 typedef struct quad_data {
@@ -30,6 +31,7 @@ typedef struct quad_data {
     float morph[4][3];
     uint8_t strip[4];
     uint8_t matrices[4][8]; // two columns of two bytes and two of padding
+    uint8_t colors[4][4];
 } quad_data;
 
 static void fill_data(quad_data *data)
@@ -45,6 +47,9 @@ static void fill_data(quad_data *data)
         data->morph[v][2] = 0.5f + (float)v;
         for (int k = 0; k < 3; k++) {
             data->custom[v][k] = (uint8_t)(10 * v + k);
+        }
+        for (int k = 0; k < 4; k++) {
+            data->colors[v][k] = (uint8_t)(50 + 40 * v + 10 * k);
         }
         for (int k = 0; k < 8; k++) {
             data->matrices[v][k] = (uint8_t)(k % 4 < 2 ? 10 * v + k : 0);
@@ -78,9 +83,10 @@ static size_t print_json(char *json, size_t size, const char *uri, const char *a
             json + at, size - at,
             "%s{\"bufferView\":%d,\"componentType\":%d,\"count\":%d,\"type\":\"%s\"%s}",
             i ? "," : "", i, arrays[i].component_type, arrays[i].count, arrays[i].type,
-            i == 0   ? ",\"min\":[0,0,0],\"max\":[1,1,0]"
-            : i == 7 ? ",\"min\":[0,0,0.5],\"max\":[0,0,3.5]"
-                     : "");
+            i == 0    ? ",\"min\":[0,0,0],\"max\":[1,1,0]"
+            : i == 7  ? ",\"min\":[0,0,0.5],\"max\":[0,0,3.5]"
+            : i == 10 ? ",\"normalized\":true"
+                      : "");
     }
     at += (size_t)snprintf(json + at, size - at, "],%s}", rest);
     assert_true(at < size);
@@ -102,7 +108,7 @@ const char *quad_folder(void)
     if (kept == NULL) {
         return test_folder();
     }
-    snprintf(folder, sizeof folder, "%s/quad%d", kept, counter++);
+    snprintf(folder, sizeof folder, "%s/quad%ld-%d", kept, (long)getpid(), counter++);
     char command[700];
     snprintf(command, sizeof command, "mkdir -p '%s'", folder);
     assert_int_equal(system(command), 0);

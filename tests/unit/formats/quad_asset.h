@@ -3,7 +3,8 @@
 //
 // Accessors: 0 POSITION, 1 NORMAL, 2 TEXCOORD_0 (float), 3 JOINTS_0 (u8×4), 4 WEIGHTS_0 (float),
 // 5 three bytes a vertex, 6 indices 0 1 2 0 2 3 (u16), 7 a morph target's POSITION,
-// 8 indices 0 1 3 2 of a strip (u8), 9 a MAT2 of bytes a vertex.
+// 8 indices 0 1 3 2 of a strip (u8), 9 a MAT2 of bytes a vertex,
+// 10 a colour of four normalised bytes a vertex: (50 + 40 vertex + 10 component) / 255.
 #ifndef QUAD_ASSET_H
 #define QUAD_ASSET_H
 

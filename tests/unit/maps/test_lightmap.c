@@ -32,8 +32,9 @@ static void a_linear_function_is_read_back(void **state)
     static float values[64 * 64];
     assert_in_range(texels->count, 64 * 30, 64 * 64);
     for (uint32_t i = 0; i < texels->count; i++) {
-        const float *p = texels->points.positions[i];
-        values[i] = 0.1f + 0.2f * p[0] + 0.05f * p[2];
+        alpi_receiver_point point;
+        alpi_texels_point(texels, i, &point);
+        values[i] = 0.1f + 0.2f * point.position.x + 0.05f * point.position.z;
     }
     ASSERT_OK(context, alpi_lightmap_store(lightmap, values));
     for (uint32_t t = 0; t < 2; t++) {

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "maps/validity.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8, RING = 2 };
+
+// Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
+static const double NEAR_DISTANCE = 3.0;
+
+typedef struct validity_job {
+    const alpi_occlusion_setup *setup;
+    const alpi_receivers *receivers;
+    alpi_texels *texels;
+    const alpi_lattice *lattice;
+    const uint32_t *order;
+    uint32_t order_count;
+    alpi_validity *out;
+    uint16_t *inside; // [texels] bit i: stratum i is inside other geometry
+} validity_job;
+
+/// Side of a texel on the surface, metres.
+static float texel_side(const alpi_texels *t, uint32_t texel)
+{
+    return sqrtf(t->areas[texel] / fmaxf(t->coverages[texel], 1e-6f));
+}
+
+// --- what is near --------------------------------------------------------------------------------
+
+/// A few short rays from each texel, by the occlusion kernel: cheap enough for all.
+static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
+{
+    alpi_occlusion_setup near = *job->setup;
+    double area = 0.0, coverage = 0.0;
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        area += (double)job->texels->areas[job->order[i]];
+        coverage += (double)job->texels->coverages[job->order[i]];
+    }
+    const uint32_t most = near.samples;
+    const uint32_t count = most < NEAR_SAMPLES ? most : NEAR_SAMPLES;
+    near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
+    near.falloff = ALP_FALLOFF_NONE;
+    near.bent = false;
+    near.filter = (alpi_trace_filter){0};
+    alpi_occlusion_sums sums;
+    ALP_TRY(alpi_occlusion_sums_create(near.context, job->texels->count, false, &sums));
+    alp_result result = alpi_occlusion_add(&near, job->receivers, job->order, job->order_count, 0,
+                                           count, count, progress, &sums);
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        const uint32_t t = job->order[i];
+        job->out->near[t] = alpi_occlusion_value(&sums, t) < 1.0f;
+    }
+    job->out->rays += (uint64_t)job->order_count * count;
+    alpi_occlusion_sums_destroy(near.context, &sums);
+    return result;
+}
+
+// --- rays ----------------------------------------------------------------------------------------
+
+static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, float reach)
+{
+    rays->origin_x[lane] = origin.x;
+    rays->origin_y[lane] = origin.y;
+    rays->origin_z[lane] = origin.z;
+    rays->direction_x[lane] = direction.x;
+    rays->direction_y[lane] = direction.y;
+    rays->direction_z[lane] = direction.z;
+    rays->minimum[lane] = 0.0f;
+    rays->maximum[lane] = reach;
+}
+
+/// Lanes 0 to 3: tangent rays of a texel's length; 4 to 7: upwards at 55°, without end.
+static void look_around(const validity_job *job, const alpi_receiver_point *p, float side,
+                        alpi_rays *rays, alpi_hits *hits)
+{
+    vec3 t, b, n = p->geometric_normal;
+    vec3_frame(n, &t, &b);
+    // Higher than rays usually start: a tangent ray must not graze its own, slightly bent surface.
+    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * side, n);
+    for (int i = 0; i < 4; i++) {
+        const vec3 axis = vec3_scale(i % 2 == 0 ? t : b, i < 2 ? 1.0f : -1.0f);
+        const vec3 other = vec3_scale(i % 2 == 0 ? b : t, i < 2 ? 1.0f : -1.0f);
+        const vec3 diagonal = vec3_add(axis, other);
+        const vec3 upward = vec3_normalize_or(vec3_add(diagonal, n), n);
+        set_ray(rays, i, origin, axis, side);
+        set_ray(rays, i + 4, origin, upward, INFINITY);
+    }
+    memset(rays->time, 0, sizeof rays->time);
+    memset(rays->id, 0, sizeof rays->id);
+    memset(rays->flags, 0, sizeof rays->flags);
+    alpi_trace_nearest(job->setup->tracer, rays, 0xffu, (alpi_trace_filter){0}, hits);
+}
+
+/// Whether a lane met the inside of a single-sided surface.
+static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const alpi_hits *hits,
+                          int lane)
+{
+    const uint32_t triangle = hits->triangle[lane];
+    if (triangle == ALPI_NONE || alpi_surface_is_double_sided(scene, triangle)) {
+        return false;
+    }
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    const vec3 none = {0.0f, 0.0f, 0.0f};
+    const vec3 direction = {rays->direction_x[lane], rays->direction_y[lane],
+                            rays->direction_z[lane]};
+    return vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], none), direction) > 0.0f;
+}
+
+// --- texels --------------------------------------------------------------------------------------
+
+/// Points at the middles of the strata.
+static void place_strata(const validity_job *job, uint32_t texel,
+                         alpi_receiver_point points[STRATA])
+{
+    float square[STRATA][2];
+    for (int i = 0; i < STRATA; i++) {
+        square[i][0] = ((float)(i % 4) + 0.5f) / 4.0f;
+        square[i][1] = ((float)(i / 4) + 0.5f) / 4.0f;
+    }
+    job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
+}
+
+/// Whether the lift of any point of a texel passes through something.
+static bool lift_is_blocked(const validity_job *job, uint32_t texel)
+{
+    alpi_receiver_point lifted[STRATA], lying[STRATA];
+    place_strata(job, texel, lifted);
+    job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
+    place_strata(job, texel, lying);
+    bool blocked = false, any = false;
+    for (int half = 0; half < STRATA && !blocked; half += ALPI_PACKET) {
+        alpi_rays rays;
+        uint32_t active = 0;
+        memset(&rays, 0, sizeof rays);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            const alpi_receiver_point *p = &lying[half + i];
+            const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
+            const vec3 lift = vec3_sub(lifted[half + i].position, p->position);
+            const float length = vec3_length(lift);
+            set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f),
+                    length);
+            active |= (length > p->offset ? 1u : 0u) << i;
+        }
+        any = any || active != 0;
+        if (active != 0) {
+            alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
+        }
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
+        }
+    }
+    if (!blocked) {
+        job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
+    }
+    return blocked && any;
+}
+
+/// Which strata of a texel lie inside other geometry.
+static uint16_t find_inside(const validity_job *job, uint32_t texel)
+{
+    const alp_scene *scene = job->texels->atlas->scene;
+    const float side = texel_side(job->texels, texel);
+    alpi_receiver_point points[STRATA];
+    alpi_rays rays;
+    alpi_hits hits;
+    place_strata(job, texel, points);
+    uint16_t inside = 0;
+    for (int i = 0; i < STRATA; i++) {
+        look_around(job, &points[i], side, &rays, &hits);
+        int tangent = 0, upward = 0;
+        for (int k = 0; k < 4; k++) {
+            tangent += met_back_face(scene, &rays, &hits, k);
+            upward += met_back_face(scene, &rays, &hits, k + 4);
+        }
+        inside |= (uint16_t)((tangent > 0 || upward >= 3 ? 1u : 0u) << i);
+    }
+    return inside;
+}
+
+/// Whether a texel near a surface can have strata inside: anything within a texel, or back faces
+/// above.
+static bool is_suspicious(const validity_job *job, uint32_t texel)
+{
+    const alp_scene *scene = job->texels->atlas->scene;
+    alpi_receiver_point point;
+    alpi_rays rays;
+    alpi_hits hits;
+    alpi_texels_point(job->texels, texel, &point);
+    look_around(job, &point, texel_side(job->texels, texel), &rays, &hits);
+    bool suspicious = false;
+    for (int k = 0; k < 8; k++) {
+        suspicious = suspicious || (k < 4 && hits.triangle[k] != ALPI_NONE) ||
+                     met_back_face(scene, &rays, &hits, k);
+    }
+    return suspicious;
+}
+
+static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const validity_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        if (alpi_texels_are_lifted(job->texels, job->order[i])) {
+            (void)lift_is_blocked(job, job->order[i]);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const validity_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        if (job->out->near[t] && is_suspicious(job, t)) {
+            job->inside[t] = find_inside(job, t);
+        }
+    }
+    return ALP_OK;
+}
+
+/// Whether a texel that is not wholly inside is within RING texels, in its chart.
+static bool is_beside_valid(const validity_job *job, uint32_t texel)
+{
+    const alpi_texels *t = job->texels;
+    const uint16_t *p = t->pixels[texel];
+    for (int dy = -RING; dy <= RING; dy++) {
+        for (int dx = -RING; dx <= RING; dx++) {
+            const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + dx,
+                                                  (int64_t)p[1] + dy);
+            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
+                job->inside[n] != UINT16_MAX) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those
+/// farther in, which nobody sees, stay what they are.
+static alp_result settle(validity_job *job)
+{
+    alpi_texels *texels = job->texels;
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        const uint32_t t = job->order[i];
+        if (job->inside[t] == UINT16_MAX) {
+            job->out->dropped[t] = is_beside_valid(job, t);
+            job->out->dropped_count += job->out->dropped[t];
+        } else if (job->inside[t] != 0) {
+            if (texels->valid == NULL) {
+                ALPI_TRY_NEW(job->setup->context, texels->valid, texels->count);
+            }
+            texels->valid[t] = (uint16_t)~job->inside[t];
+            job->out->moved_count++;
+        }
+        job->out->lowered_count += (texels->flags[t] & ALPI_TEXEL_NO_LIFT) != 0;
+    }
+    return ALP_OK;
+}
+
+static alp_result run(validity_job *job, const alpi_task_progress *progress)
+{
+    alp_context *context = job->setup->context;
+    ALPI_TRY_NEW(context, job->out->near, job->texels->count);
+    ALPI_TRY_NEW(context, job->out->dropped, job->texels->count);
+    ALPI_TRY_NEW(context, job->inside, job->texels->count);
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    ALP_TRY(
+        alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &told));
+    ALP_TRY(find_near(job, progress));
+    ALP_TRY(
+        alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, judge_range, job, &told));
+    return settle(job);
+}
+
+alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                                alpi_texels *texels, const alpi_lattice *lattice,
+                                const uint32_t *order, uint32_t order_count,
+                                const alpi_task_progress *progress, alpi_validity *validity)
+{
+    *validity = (alpi_validity){.context = setup->context};
+    validity_job job = {.setup = setup,
+                        .receivers = receivers,
+                        .texels = texels,
+                        .lattice = lattice,
+                        .order = order,
+                        .order_count = order_count,
+                        .out = validity};
+    alp_result result = run(&job, progress);
+    alpi_release(setup->context, job.inside);
+    if (result != ALP_OK) {
+        alpi_validity_destroy(validity);
+    }
+    return result;
+}
+
+void alpi_validity_destroy(alpi_validity *validity)
+{
+    if (validity->context != NULL) {
+        alpi_release(validity->context, validity->near);
+        alpi_release(validity->context, validity->dropped);
+    }
+    *validity = (alpi_validity){0};
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Texels that lie inside other geometry, in part or wholly, and points that a lift would put there.
+#ifndef ALPI_MAPS_VALIDITY_H
+#define ALPI_MAPS_VALIDITY_H
+
+#include "maps/lattice.h"
+#include "transport/occlusion.h"
+
+/// What a few short rays found around the texels.
+typedef struct alpi_validity {
+    alp_context *context;
+    uint8_t *near;    // [texels] 1: another surface is within some texels
+    uint8_t *dropped; // [texels] 1: wholly inside other geometry and beside one that is not: its
+                      // value must come from there
+    uint64_t rays, moved_count, dropped_count, lowered_count;
+} alpi_validity;
+
+/// Looks around every texel of `order`:
+/// - lifted points that the lift carries through a surface stay on their triangle (flag NO_LIFT);
+/// - of texels near another surface, each of 16 strata is inside when one of four tangent rays of a
+///   texel's length meets a back face first, or three of four rays upwards do; texels->valid leaves
+///   those strata out. Back faces of double-sided materials are no sign of an inside.
+/// @param setup  of the bake; its tracer and random numbers   @param receivers of `texels`
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                                alpi_texels *texels, const alpi_lattice *lattice,
+                                const uint32_t *order, uint32_t order_count,
+                                const alpi_task_progress *progress, alpi_validity *validity);
+void alpi_validity_destroy(alpi_validity *validity);
+
+#endif

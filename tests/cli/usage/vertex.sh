@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+# what has no meaning with values at vertices, or only with them, is refused and never ignored
+. "$(dirname "$0")/helpers.bash"
+try bake scene.glb -o out.glb --atlas vertex --size 64
+try bake scene.glb -o out.glb --atlas vertex --texels-per-metre 3
+try bake scene.glb -o out.glb --atlas vertex --padding 2
+try bake scene.glb -o out.glb --atlas vertex --existing-ao multiply
+try bake scene.glb -o out.glb --atlas vertex --maps-dir maps
+try bake scene.glb --atlas vertex --maps-dir maps
+try bake scene.glb -o out.glb --atlas vertex --error 1
+try bake scene.glb -o out.glb --atlas vertex --quality high
+try bake scene.glb -o out.glb --atlas vertex --time-limit 5
+try bake scene.glb -o out.glb --atlas vertex --keep-partial
+try bake scene.glb -o out.glb --atlas vertex --adaptive off
+try bake scene.glb --atlas vertex
+try bake scene.glb -o out.glb --vertex-attribute color
+try bake scene.glb -o out.glb --atlas charts --vertex-attribute occlusion
+try bake scene.glb -o out.glb --atlas vertex --vertex-attribute COLOR_0

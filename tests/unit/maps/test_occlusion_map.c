@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// Which texels are traced, when it stops, and whether what it says of its error is true.
+#include "base/context.h"
+#include "base/tasks.h"
+#include "maps/occlusion_map.h"
+#include "maps/stated_error.h"
+#include "test_scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SIZE = 64, TRUTH_SAMPLES = 1 << 14 };
+
+typedef struct map_setup {
+    alp_context *context;
+    alp_scene *scene;
+    alp_atlas *atlas;
+    alpi_texels texels;
+    alpi_tracer *tracer;
+    alpi_receivers receivers;
+    alp_occlusion_options options;
+    float *errors, *truth;
+} map_setup;
+
+/// Into *s: the receivers point into it.
+static void set_up(map_setup *setup, uint32_t workers, const char *scene)
+{
+    map_setup s = {.context = test_context(workers)};
+    ASSERT_OK(s.context, alp_scene_load(s.context, scene, &s.scene));
+    alp_atlas_options atlas = alp_atlas_options_default();
+    atlas.size = SIZE;
+    ASSERT_OK(s.context, alp_atlas_create(s.scene, &atlas, &s.atlas));
+    ASSERT_OK(s.context, alpi_texels_create(s.atlas, &s.texels));
+    ASSERT_OK(s.context, alpi_tracer_for_scene(s.scene, NULL, NULL, &s.tracer, NULL));
+    s.options = alp_occlusion_options_default();
+    s.options.samples = 256;
+    s.errors = calloc(s.texels.count, sizeof *s.errors);
+    s.truth = calloc(s.texels.count, sizeof *s.truth);
+    assert_true(s.errors != NULL && s.truth != NULL);
+    *setup = s;
+    setup->receivers = alpi_texels_receivers(&setup->texels);
+}
+
+static void find_truth(map_setup *s)
+{
+    alp_occlusion_options options = s->options;
+    alpi_occlusion_setup setup;
+    options.samples = TRUTH_SAMPLES;
+    options.seed = 99;
+    ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &options, &setup));
+    ASSERT_OK(s->context,
+              alpi_occlusion_gather(&setup, &s->receivers, NULL, s->texels.count, s->truth));
+    alpi_occlusion_release(&setup);
+}
+
+static void tear_down(map_setup *s)
+{
+    free(s->errors);
+    free(s->truth);
+    alpi_texels_destroy(s->context, &s->texels);
+    alp_atlas_destroy(s->atlas);
+    alp_scene_destroy(s->scene);
+    alp_context_destroy(s->context);
+}
+
+static alp_result run(map_setup *s, const alpi_occlusion_map_options *options,
+                      alpi_lattice *lattice, alpi_occlusion_map_report *report)
+{
+    alpi_occlusion_setup setup;
+    ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, lattice));
+    ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &s->options, &setup));
+    alp_result result = alpi_occlusion_map(&setup, &s->receivers, lattice->order, s->texels.count,
+                                           options, lattice, s->errors, report);
+    alpi_occlusion_release(&setup);
+    return result;
+}
+
+static double true_rmse(const map_setup *s, const alpi_lattice *l)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < s->texels.count; i++) {
+        sum += pow((double)l->values[i] - (double)s->truth[i], 2);
+    }
+    return sqrt(sum / s->texels.count);
+}
+
+static double mean_of(const map_setup *s)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < s->texels.count; i++) {
+        sum += (double)s->truth[i] / s->texels.count;
+    }
+    return sum;
+}
+
+static void interpolation_saves_rays_and_no_truth(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:torus-plane");
+    find_truth(&s);
+    double rmse[2];
+    alpi_occlusion_map_report reports[2];
+    for (int adaptive = 0; adaptive < 2; adaptive++) {
+        const alpi_occlusion_map_options options = {
+            .accuracy = adaptive ? ALP_ADAPTIVE_AUTO : ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
+        alpi_lattice lattice;
+        ASSERT_OK(s.context, run(&s, &options, &lattice, &reports[adaptive]));
+        rmse[adaptive] = true_rmse(&s, &lattice);
+        const double stated = reports[adaptive].relative * mean_of(&s);
+        print_message("accuracy: %s: %llu traced, %llu interpolated, rmse %.5f, stated %.5f\n",
+                      adaptive ? "adaptive" : "all traced",
+                      (unsigned long long)reports[adaptive].traced,
+                      (unsigned long long)reports[adaptive].interpolated, rmse[adaptive], stated);
+        assert_true(fabs(stated / rmse[adaptive] - 1.0) < 0.25); // a small map: few held-out texels
+        alpi_lattice_destroy(&lattice);
+    }
+    assert_int_equal(reports[0].traced, s.texels.count);
+    assert_true(reports[1].traced < s.texels.count * 3 / 5);
+    assert_int_equal(reports[1].traced + reports[1].interpolated, s.texels.count);
+    assert_true(rmse[1] < 1.1 * rmse[0]);
+    tear_down(&s);
+}
+
+static void any_number_of_workers_gives_the_same_map(void **state)
+{
+    (void)state;
+    static const uint32_t workers[] = {1, 2, 7, 32};
+    float *first = NULL;
+    uint32_t count = 0;
+    for (int w = 0; w < 4; w++) {
+        map_setup s;
+        set_up(&s, workers[w], "builtin:teapot-room");
+        s.options.samples = 1024;
+        const alpi_occlusion_map_options options = {
+            .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.02f, .deadline = HUGE_VAL};
+        alpi_lattice lattice;
+        alpi_occlusion_map_report report;
+        ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+        if (w == 0) {
+            count = s.texels.count;
+            first = malloc(2 * count * sizeof *first);
+            assert_non_null(first);
+            memcpy(first, lattice.values, count * sizeof *first);
+            memcpy(first + count, s.errors, count * sizeof *first);
+        }
+        assert_memory_equal(first, lattice.values, count * sizeof *first);
+        assert_memory_equal(first + count, s.errors, count * sizeof *first);
+        alpi_lattice_destroy(&lattice);
+        tear_down(&s);
+    }
+    free(first);
+}
+
+static void rounds_stop_at_the_wanted_error(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:cornell");
+    s.options.samples = 1 << 14;
+    find_truth(&s);
+    uint64_t rays = 0;
+    for (int i = 0; i < 2; i++) {
+        const double wanted = i == 0 ? 0.02 : 0.005;
+        const alpi_occlusion_map_options options = {
+            .accuracy = ALP_ADAPTIVE_AUTO, .error = (float)wanted, .deadline = HUGE_VAL};
+        alpi_lattice lattice;
+        alpi_occlusion_map_report report;
+        ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+        assert_true(report.relative <= wanted && report.p99 <= 4.0 * wanted);
+        assert_true(report.samples < s.options.samples && report.rays > rays);
+        assert_true(true_rmse(&s, &lattice) < 1.25 * wanted * mean_of(&s));
+        rays = report.rays;
+        alpi_lattice_destroy(&lattice);
+    }
+    // Too few rays allowed: it ends there, with its error stated.
+    s.options.samples = 64;
+    const alpi_occlusion_map_options options = {
+        .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.001f, .deadline = HUGE_VAL};
+    alpi_lattice lattice;
+    alpi_occlusion_map_report report;
+    ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+    assert_true(report.relative > 0.001 && report.samples == 64);
+    alpi_lattice_destroy(&lattice);
+    tear_down(&s);
+}
+
+static bool stop_after(void *user, const alp_progress *progress)
+{
+    (void)progress;
+    int *left = user;
+    return --*left > 0;
+}
+
+static void what_is_cut_off_keeps_what_it_has(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:cornell");
+    s.options.samples = 1 << 18;
+    int left = 3;
+    alpi_occlusion_map_options options = {.accuracy = ALP_ADAPTIVE_OFF,
+                                          .deadline = HUGE_VAL,
+                                          .keep_partial = true,
+                                          .progress = stop_after,
+                                          .progress_user = &left};
+    alpi_lattice lattice;
+    alpi_occlusion_map_report report;
+    ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+    assert_true(report.cut_off);
+    assert_int_equal(report.traced + report.interpolated + report.unknown, s.texels.count);
+    alpi_lattice_destroy(&lattice);
+    left = 3;
+    options.keep_partial = false;
+    assert_int_equal(run(&s, &options, &lattice, &report), ALP_ERROR_CANCELLED);
+    alpi_lattice_destroy(&lattice);
+    // A deadline: rounds as far as they come, each texel with a value of its own after the first.
+    options = (alpi_occlusion_map_options){.accuracy = ALP_ADAPTIVE_OFF,
+                                           .deadline = alpi_seconds() + 0.4};
+    ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+    assert_true(report.cut_off);
+    assert_true(report.samples < s.options.samples);
+    alpi_lattice_destroy(&lattice);
+    tear_down(&s);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    return *(const float *)a < *(const float *)b ? -1 : *(const float *)a > *(const float *)b;
+}
+
+static void percentiles_are_those_of_a_sort(void **state)
+{
+    (void)state;
+    enum { COUNT = 1000 };
+    alp_context *context = test_context(1);
+    float values[COUNT], sorted[COUNT];
+    uint32_t order[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        values[i] = i % 7 == 0 ? 0.0f : (float)(i * 37 % 1009) * 1e-4f;
+        sorted[i] = values[i];
+        order[i] = COUNT - 1 - i;
+    }
+    qsort(sorted, COUNT, sizeof *sorted, ascending);
+    const double shares[] = {0.0, 0.1, 0.5, 0.99, 1.0};
+    for (int i = 0; i < 5; i++) {
+        double value = -1.0;
+        ASSERT_OK(context, alpi_percentile(context, values, order, COUNT, shares[i], &value));
+        ASSERT_NEAR(value, sorted[(int)(shares[i] * (COUNT - 1))], 0.0);
+    }
+    double none = -1.0;
+    ASSERT_OK(context, alpi_percentile(context, values, order, 0, 0.99, &none));
+    ASSERT_NEAR(none, 0.0, 0.0);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interpolation_saves_rays_and_no_truth),
+        cmocka_unit_test(any_number_of_workers_gives_the_same_map),
+        cmocka_unit_test(rounds_stop_at_the_wanted_error),
+        cmocka_unit_test(what_is_cut_off_keeps_what_it_has),
+        cmocka_unit_test(percentiles_are_those_of_a_sort),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
