@@ -125,65 +125,80 @@ static void place_strata(const validity_job *job, uint32_t texel,
     job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
 }
 
-/// Whether the lift of any point of a texel passes through something.
-static bool lift_is_blocked(const validity_job *job, uint32_t texel)
+/// Lifts of eight points, as rays from where they lie to where they are lifted.
+static bool any_is_blocked(const validity_job *job, const alpi_receiver_point *lying,
+                           const alpi_receiver_point *lifted)
+{
+    alpi_rays rays;
+    uint32_t active = 0;
+    memset(&rays, 0, sizeof rays);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const vec3 origin = vec3_mad(lying[i].position, lying[i].offset, lying[i].geometric_normal);
+        const vec3 lift = vec3_sub(lifted[i].position, lying[i].position);
+        const float length = vec3_length(lift);
+        set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f), length);
+        active |= (length > lying[i].offset ? 1u : 0u) << i;
+    }
+    if (active != 0) {
+        alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
+    }
+    bool blocked = false;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
+    }
+    return blocked;
+}
+
+/// Leaves the points of a texel on their triangles where the lift of any passes through something.
+static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     alpi_receiver_point lifted[STRATA], lying[STRATA];
     place_strata(job, texel, lifted);
     job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     place_strata(job, texel, lying);
-    bool blocked = false, any = false;
-    for (int half = 0; half < STRATA && !blocked; half += ALPI_PACKET) {
-        alpi_rays rays;
-        uint32_t active = 0;
-        memset(&rays, 0, sizeof rays);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            const alpi_receiver_point *p = &lying[half + i];
-            const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
-            const vec3 lift = vec3_sub(lifted[half + i].position, p->position);
-            const float length = vec3_length(lift);
-            set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f),
-                    length);
-            active |= (length > p->offset ? 1u : 0u) << i;
-        }
-        any = any || active != 0;
-        if (active != 0) {
-            alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
-        }
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
-        }
-    }
-    if (!blocked) {
+    if (!any_is_blocked(job, lying, lifted) &&
+        !any_is_blocked(job, lying + ALPI_PACKET, lifted + ALPI_PACKET)) {
         job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
     }
-    return blocked && any;
 }
 
-/// Which strata of a texel lie inside other geometry.
-static uint16_t find_inside(const validity_job *job, uint32_t texel)
+/// Whether a point lies inside other geometry: a back face is the first thing beside it within a
+/// texel, or above it in three of four directions.
+static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
 {
     const alp_scene *scene = job->texels->atlas->scene;
-    const float side = texel_side(job->texels, texel);
-    alpi_receiver_point points[STRATA];
     alpi_rays rays;
     alpi_hits hits;
+    look_around(job, point, side, &rays, &hits);
+    int tangent = 0, upward = 0;
+    for (int k = 0; k < 4; k++) {
+        tangent += met_back_face(scene, &rays, &hits, k);
+        upward += met_back_face(scene, &rays, &hits, k + 4);
+    }
+    return tangent > 0 || upward >= 3;
+}
+
+/// Which strata of a texel lie inside other geometry: all are asked where the representative point
+/// or one of the corner strata is inside.
+static uint16_t find_inside(const validity_job *job, uint32_t texel)
+{
+    static const int corners[4] = {0, 3, 12, 15};
+    const float side = texel_side(job->texels, texel);
+    alpi_receiver_point points[STRATA], middle;
+    alpi_texels_point(job->texels, texel, &middle);
     place_strata(job, texel, points);
+    bool any = is_inside(job, &middle, side);
+    for (int i = 0; i < 4 && !any; i++) {
+        any = is_inside(job, &points[corners[i]], side);
+    }
     uint16_t inside = 0;
-    for (int i = 0; i < STRATA; i++) {
-        look_around(job, &points[i], side, &rays, &hits);
-        int tangent = 0, upward = 0;
-        for (int k = 0; k < 4; k++) {
-            tangent += met_back_face(scene, &rays, &hits, k);
-            upward += met_back_face(scene, &rays, &hits, k + 4);
-        }
-        inside |= (uint16_t)((tangent > 0 || upward >= 3 ? 1u : 0u) << i);
+    for (int i = 0; i < STRATA && any; i++) {
+        inside |= (uint16_t)((is_inside(job, &points[i], side) ? 1u : 0u) << i);
     }
     return inside;
 }
 
-/// Whether a texel near a surface can have strata inside: anything within a texel, or back faces
-/// above.
+/// Whether something is within a texel of a texel that has something near, or back faces are above.
 static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
     const alp_scene *scene = job->texels->atlas->scene;
@@ -204,9 +219,18 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
 {
     (void)worker;
     const validity_job *job = user;
+    const alpi_texels *texels = job->texels;
+    uint32_t last = ALPI_NONE; // most texels lie in the triangle of the one before
+    bool lifted = false;
     for (uint32_t i = begin; i < end; i++) {
-        if (alpi_texels_are_lifted(job->texels, job->order[i])) {
-            (void)lift_is_blocked(job, job->order[i]);
+        const uint32_t t = job->order[i];
+        const bool whole = texels->piece_first[t] == texels->piece_first[t + 1];
+        if (!whole || texels->triangles[t] != last) {
+            lifted = alpi_texels_are_lifted(texels, t);
+            last = whole ? texels->triangles[t] : ALPI_NONE;
+        }
+        if (lifted) {
+            keep_low_if_blocked(job, t);
         }
     }
     return ALP_OK;
@@ -271,6 +295,9 @@ static alp_result run(validity_job *job, const alpi_task_progress *progress)
     ALPI_TRY_NEW(context, job->out->near, job->texels->count);
     ALPI_TRY_NEW(context, job->out->dropped, job->texels->count);
     ALPI_TRY_NEW(context, job->inside, job->texels->count);
+    alpi_release(context, job->texels->valid); // of an earlier look, through which places would go
+    job->texels->valid = NULL;
+    memset(job->texels->flags, 0, job->texels->count);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
         alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &told));
