@@ -29,6 +29,7 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
                    {OPTION_PADDING, "--padding"},
                    {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_AO_INTO, "--ao-into"},
                    {OPTION_QUALITY, "--quality"},
                    {OPTION_ERROR, "--error"},
                    {OPTION_ADAPTIVE, "--adaptive"},
@@ -112,6 +113,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->maps_folder = values[OPTION_MAPS_FOLDER].text;
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
+    o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;

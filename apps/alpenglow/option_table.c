@@ -419,6 +419,19 @@ static const option options[] = {
      .initial = "replace",
      .help = "What happens to an occlusion map that a material has already: ours takes its "
              "place, ours times the old one does, or the material keeps its own."},
+    {.id = OPTION_AO_INTO,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_CHOICE,
+     .name = "--ao-into",
+     .value = "separate|orm",
+     .choices = "separate|orm",
+     .initial = "separate",
+     .help = "Where the occlusion of a material goes. separate: a map of its own, with its own "
+             "coordinate set. orm: the red channel of the image that holds its roughness and "
+             "metalness (or occlusion), at that image's size and coordinates, the other channels "
+             "unchanged; a material whose image is tiled or shared by several places gets a "
+             "separate map and a warning. A JPEG becomes a PNG."},
 
     // --- run ------------------------------------------------------------------------------------
     {.id = OPTION_SEED,

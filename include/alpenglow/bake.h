@@ -16,6 +16,21 @@ typedef enum alp_existing_ao {
     ALP_EXISTING_AO_KEEP = 2      ///< the material keeps its own
 } alp_existing_ao;
 
+/// Where the occlusion of a written asset goes.
+typedef enum alp_ao_into {
+    /// Maps on the pages of the atlas, read with a coordinate set of their own (default).
+    ALP_AO_INTO_SEPARATE = 0,
+    /// Into the red channel of the image that a material reads its roughness and metalness from, or
+    /// else its occlusion, at that image's size, its other channels unchanged. existing_ao says
+    /// what happens to that channel where the material's occlusion map used it; where none did, it
+    /// is replaced. A material whose image can not hold the occlusion (it is tiled, several
+    /// surfaces lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above,
+    /// with a warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of
+    /// the maps, which for materials with a packed image are never multiplied by an older map
+    /// themselves.
+    ALP_AO_INTO_ORM = 1
+} alp_ao_into;
+
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
@@ -51,6 +66,7 @@ typedef struct alp_bake_options {
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
+    alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
     /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
     /// A surface is named like its node (like the mesh of a node without a name, "node N" without

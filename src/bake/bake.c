@@ -29,6 +29,14 @@ static alp_result check_options(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
     }
+    if ((int)o->ao_into < ALP_AO_INTO_SEPARATE || o->ao_into > ALP_AO_INTO_ORM) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
+    }
+    if (o->ao_into == ALP_AO_INTO_ORM && o->atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: occlusion at vertices has no map to pack into an image");
+    }
     const alp_sampling_options *s = &o->sampling;
     const bool accuracy_is_valid =
         s->accuracy == ALP_ADAPTIVE_AUTO || (s->accuracy >= ALP_ADAPTIVE_OFF && s->accuracy < 1.0f);
@@ -89,12 +97,14 @@ static alp_result run(alpi_bake_job *job)
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);
     }
+    ALP_TRY(alpi_bake_plan_packing(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     ALP_TRY(alpi_bake_occlusion(job));
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
+    ALP_TRY(alpi_bake_pack_images(job));
     ALP_TRY(alpi_bake_write_outputs(job));
     job->report.seconds_write = alpi_seconds() - write_started;
     job->report.seconds_total = alpi_seconds() - started;
@@ -123,6 +133,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_release(job.context, job.only);
     alpi_release(job.context, job.occluders);
     alpi_release(job.context, job.originals);
+    alpi_bake_release_packing(&job);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

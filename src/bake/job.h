@@ -7,6 +7,21 @@
 
 #include <alpenglow/bake.h>
 
+/// An image of the scene that occlusion is packed into.
+typedef struct alpi_pack_target {
+    uint32_t image; // of the scene
+    uint8_t *png;   // owned, NULL until it is made
+    size_t png_size;
+} alpi_pack_target;
+
+/// What --ao-into orm comes to: which materials read their occlusion from which image.
+typedef struct alpi_packing {
+    uint32_t count;
+    alpi_pack_target *targets;  // [count], as many as images at most
+    uint32_t *material_targets; // [materials] index into targets, ALPI_NONE = a separate map; or
+                                // NULL: all
+} alpi_packing;
+
 typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
@@ -14,6 +29,7 @@ typedef struct alpi_bake_job {
     bool *only, *occluders; // [surface_count] those of the patterns, NULL = all
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
+    alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
 
@@ -38,6 +54,16 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 
+/// Decides which images occlusion is packed into, and says why not where it is not.
+alp_result alpi_bake_plan_packing(alpi_bake_job *job);
+/// Makes those images from the finished maps.
+alp_result alpi_bake_pack_images(alpi_bake_job *job);
+void alpi_bake_release_packing(alpi_bake_job *job);
+/// Bytes that making them takes at its peak, besides the encoded ones.
+uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
+/// Whether the occlusion of a triangle is packed into an image.
+bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
+
 /// Refuses what has no meaning together with the choice of values at vertices or of maps.
 alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);
 /// The whole job of ALP_ATLAS_VERTEX, after the options were checked.
@@ -49,7 +75,8 @@ char *alpi_bake_make_extras(const alpi_bake_job *job);
 /// A warning when nearly nothing is open.
 void alpi_bake_warn_of_darkness(const alpi_bake_job *job);
 
-/// Multiplies each value by the occlusion map that the texel's material has already.
+/// Multiplies each value by the occlusion map that the texel's material has already; not those that
+/// are packed, which are multiplied where they go to.
 void alpi_bake_multiply_existing(const alpi_bake_job *job, float *accessibility);
 
 #endif

@@ -22,7 +22,7 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas)
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    double needed = (double)alpi_bake_memory(atlas);
+    double needed = (double)alpi_bake_memory(atlas) + (double)alpi_bake_packing_memory(job);
     double present = (double)pages * (double)page_size;
     const uint64_t limit = job->options.sampling.memory_limit;
     if (limit > 0 && needed > (double)limit) {

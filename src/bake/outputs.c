@@ -53,7 +53,8 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
         }
-        ALP_TRY(alpi_gltf_check_output(job->scene, pages, o->output, o->overwrite));
+        ALP_TRY(alpi_gltf_check_packed_output(job->scene, pages, job->packing.count, o->output,
+                                              o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -245,9 +246,15 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     uint32_t count = job->lightmap->page_count;
     const uint8_t **pngs = ALPI_NEW(job->context, const uint8_t *, count);
     size_t *sizes = ALPI_NEW(job->context, size_t, count);
+    const alpi_packing *packing = &job->packing;
+    alpi_packed_image *packed = ALPI_NEW(job->context, alpi_packed_image, packing->count);
     char *extras = alpi_bake_make_extras(job);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (pngs != NULL && sizes != NULL && extras != NULL) {
+    if (pngs != NULL && sizes != NULL && packed != NULL && extras != NULL) {
+        for (uint32_t i = 0; i < packing->count; i++) {
+            const alpi_pack_target *target = &packing->targets[i];
+            packed[i] = (alpi_packed_image){target->image, target->png, target->png_size};
+        }
         for (uint32_t p = 0; p < count; p++) {
             pngs[p] = pages[p].bytes[MAP_AO_PNG];
             sizes[p] = pages[p].sizes[MAP_AO_PNG];
@@ -265,6 +272,9 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .existing_ao = job->options.existing_ao == ALP_EXISTING_AO_KEEP
                                ? ALPI_EXISTING_AO_KEEP
                                : ALPI_EXISTING_AO_REPLACE,
+            .packed_count = packing->count,
+            .packed_images = packed,
+            .material_packed = packing->material_targets,
             .occlusion_strength = 1.0f,
             .extras_json = extras,
         };
@@ -273,6 +283,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     }
     alpi_release(job->context, pngs);
     alpi_release(job->context, sizes);
+    alpi_release(job->context, packed);
     alpi_release(job->context, extras);
     return result;
 }

@@ -439,8 +439,9 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                  .span = span,
                  .added_accessor = ALPI_GLTF_NONE};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
-    alp_result result = read_triangles(p, &r);
-    if (result == ALP_OK && (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
+    alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
+    if (result == ALP_OK && !plan->packed &&
+        (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
         result = split_vertices(p, &r);
     }
     if (result == ALP_OK) {

@@ -139,7 +139,9 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     }
     ALP_TRY(
         alpi_gltf_index(p->document, primitive, "material", "materials", owner, &plan->material));
-    if (keeps_its_map(p, plan->material)) {
+    plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
+    if (plan->packed || keeps_its_map(p, plan->material)) {
+        *wanted = plan->packed;
         return ALP_OK;
     }
     *wanted = choose_uv_set(p, primitive, &plan->uv_set);
@@ -294,15 +296,20 @@ static alp_result plan_whole(alpi_gltf_patcher *p, alpi_gltf_plan *plan)
     return ALP_OK;
 }
 
-/// One piece for each page that the plan's triangles lie on, in ascending order.
+/// One piece for each page that the plan's triangles lie on, in ascending order; where the map is
+/// packed into an image, just one.
 static alp_result plan_pieces(alpi_gltf_patcher *p, alpi_gltf_plan *plan, bool *used)
 {
     const alpi_surface *surface = &p->scene->surfaces[plan->surface];
+    plan->piece_first = p->piece_count;
+    plan->piece_count = 1;
+    if (plan->packed) {
+        return add_piece(p, ALPI_NONE);
+    }
     memset(used, 0, p->patch->page_count * sizeof *used);
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         used[p->triangle_pages[surface->first_triangle + i]] = true;
     }
-    plan->piece_first = p->piece_count;
     for (uint32_t page = 0; page < p->patch->page_count; page++) {
         if (used[page]) {
             ALP_TRY(add_piece(p, page));
