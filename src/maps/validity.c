@@ -10,7 +10,7 @@
 enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8 };
 
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
-static const double NEAR_DISTANCE = 3.0;
+static const double NEAR_DISTANCE = 2.5;
 
 typedef struct validity_job {
     const alpi_occlusion_setup *setup;
@@ -20,6 +20,7 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
+    uint8_t *scouts;  // [texels] 0: not one, 1: nothing near it, 2: something
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry
 } validity_job;
 
@@ -31,8 +32,14 @@ static float texel_side(const alpi_texels *t, uint32_t texel)
 
 // --- what is near --------------------------------------------------------------------------------
 
-/// A few short rays from each texel, by the occlusion kernel: cheap enough for all.
-static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
+/// Texels that are asked for all around them: every second of every second row.
+static bool is_scout(const alpi_texels *t, uint32_t texel)
+{
+    return t->pixels[texel][0] % 2 == 0 && t->pixels[texel][1] % 2 == 0;
+}
+
+/// Occlusion over a short distance: of the bake's rays the first few.
+static alpi_occlusion_setup short_setup(const validity_job *job)
 {
     alpi_occlusion_setup near = *job->setup;
     double area = 0.0, coverage = 0.0;
@@ -40,23 +47,64 @@ static alp_result find_near(validity_job *job, const alpi_task_progress *progres
         area += (double)job->texels->areas[job->order[i]];
         coverage += (double)job->texels->coverages[job->order[i]];
     }
-    const uint32_t most = near.samples;
-    const uint32_t count = most < NEAR_SAMPLES ? most : NEAR_SAMPLES;
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
     near.bent = false;
     near.filter = (alpi_trace_filter){0};
+    return near;
+}
+
+/// A texel is near something when one of the scouts around it in its chart is, or there is none.
+static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const validity_job *job = user;
+    const alpi_texels *t = job->texels;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = job->order[i];
+        const uint16_t *p = t->pixels[texel];
+        bool any = false, near = false;
+        for (int k = 0; k < 9; k++) {
+            const uint32_t n =
+                alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + k % 3 - 1,
+                                   (int64_t)p[1] + k / 3 - 1);
+            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->scouts[n] > 0) {
+                any = true;
+                near = near || job->scouts[n] > 1;
+            }
+        }
+        job->out->near[texel] = near || !any;
+    }
+    return ALP_OK;
+}
+
+/// A few short rays from a quarter of the texels, by the occlusion kernel.
+static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
+{
+    const alpi_occlusion_setup near = short_setup(job);
+    const uint32_t rays = near.samples < NEAR_SAMPLES ? near.samples : NEAR_SAMPLES;
     alpi_occlusion_sums sums;
     ALP_TRY(alpi_occlusion_sums_create(near.context, job->texels->count, false, &sums));
-    alp_result result = alpi_occlusion_add(&near, job->receivers, job->order, job->order_count, 0,
-                                           count, count, progress, &sums);
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        job->out->near[t] = alpi_occlusion_value(&sums, t) < 1.0f;
+    uint32_t *list = ALPI_NEW(near.context, uint32_t, job->order_count), count = 0;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (list != NULL) {
+        for (uint32_t i = 0; i < job->order_count; i++) {
+            if (is_scout(job->texels, job->order[i])) {
+                list[count++] = job->order[i];
+            }
+        }
+        result =
+            alpi_occlusion_add(&near, job->receivers, list, count, 0, rays, rays, progress, &sums);
+        for (uint32_t i = 0; i < count; i++) { // 1: nothing near, 2: something
+            job->scouts[list[i]] = alpi_occlusion_value(&sums, list[i]) < 1.0f ? 2 : 1;
+        }
+        job->out->rays += (uint64_t)count * rays;
     }
-    job->out->rays += (uint64_t)job->order_count * count;
+    alpi_release(near.context, list);
     alpi_occlusion_sums_destroy(near.context, &sums);
-    return result;
+    ALP_TRY(result);
+    return alpi_parallel_for(near.context, job->order_count, TEXELS_PER_RANGE, spread_range, job,
+                             NULL);
 }
 
 // --- rays ----------------------------------------------------------------------------------------
@@ -239,47 +287,32 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-typedef bool texel_test(const validity_job *job, uint32_t texel);
-
-static bool is_near(const validity_job *job, uint32_t texel)
-{
-    return job->out->near[texel] != 0;
-}
-
-static bool is_seen(const validity_job *job, uint32_t texel)
-{
-    return job->inside[texel] != UINT16_MAX;
-}
-
-/// Whether a texel or one of the eight around it in its chart passes a test.
-static bool any_around(const validity_job *job, uint32_t texel, texel_test *test)
-{
-    const alpi_texels *t = job->texels;
-    const uint16_t *p = t->pixels[texel];
-    for (int dy = -1; dy <= 1; dy++) {
-        for (int dx = -1; dx <= 1; dx++) {
-            const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + dx,
-                                                  (int64_t)p[1] + dy);
-            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && test(job, n)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const validity_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
-        // Its own few rays may miss the corner of something that those of its neighbours meet.
-        if (any_around(job, t, is_near) && is_suspicious(job, t)) {
+        if (job->out->near[t] && is_suspicious(job, t)) {
             job->inside[t] = find_inside(job, t);
         }
     }
     return ALP_OK;
+}
+
+/// Whether a texel that is not wholly inside is beside it in its chart.
+static bool is_beside_seen(const validity_job *job, uint32_t texel)
+{
+    const alpi_texels *t = job->texels;
+    const uint16_t *p = t->pixels[texel];
+    for (int k = 0; k < 9; k++) {
+        const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel],
+                                              (int64_t)p[0] + k % 3 - 1, (int64_t)p[1] + k / 3 - 1);
+        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those
@@ -290,7 +323,7 @@ static alp_result settle(validity_job *job)
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (job->inside[t] == UINT16_MAX) {
-            job->out->dropped[t] = any_around(job, t, is_seen);
+            job->out->dropped[t] = is_beside_seen(job, t);
             job->out->dropped_count += job->out->dropped[t];
         } else if (job->inside[t] != 0) {
             if (texels->valid == NULL) {
@@ -309,6 +342,7 @@ static alp_result run(validity_job *job, const alpi_task_progress *progress)
     alp_context *context = job->setup->context;
     ALPI_TRY_NEW(context, job->out->near, job->texels->count);
     ALPI_TRY_NEW(context, job->out->dropped, job->texels->count);
+    ALPI_TRY_NEW(context, job->scouts, job->texels->count);
     ALPI_TRY_NEW(context, job->inside, job->texels->count);
     alpi_release(context, job->texels->valid); // of an earlier look, through which places would go
     job->texels->valid = NULL;
@@ -336,6 +370,7 @@ alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_re
                         .order_count = order_count,
                         .out = validity};
     alp_result result = run(&job, progress);
+    alpi_release(setup->context, job.scouts);
     alpi_release(setup->context, job.inside);
     if (result != ALP_OK) {
         alpi_validity_destroy(validity);
