@@ -110,7 +110,9 @@ static void print_footer(command_id command)
     if (command != COMMAND_COMPARE) {
         printf("\nSCENE is a .gltf or .glb file, or one of\n"
                "  builtin:cornell builtin:furnace builtin:bowl builtin:sphere-plane\n"
-               "  builtin:torus-plane builtin:teapot-room\n");
+               "  builtin:torus-plane builtin:teapot-room builtin:windows\n"
+               "  builtin:atrium[,triangles=N]             20000 to 4000000; default 50000\n"
+               "  builtin:terrain[,triangles=N][,trees=N]  5000 to 4000000; default 60000\n");
     }
     printf("\nExit status: 0 done, 1 failed, 2 wrong usage%s.\n",
            command == COMMAND_BAKE || command == COMMAND_RENDER ? ", 130 interrupted" : "");

@@ -17,14 +17,14 @@ static const vec3 ORIGIN = {0.0f, 0.0f, 0.0f};
 /// Heights of a storey: floor, springing and top of its arcades.
 typedef struct storey {
     float floor, spring, top;
-    const char *columns, *piers, *arcades, *mouldings, *galleries, *walls;
+    const char *columns, *piers, *arcades, *short_arcades, *mouldings, *galleries, *walls;
 } storey;
 
 static const storey STOREYS[2] = {
     {0.0f, 4.0f, ALPI_ATRIUM_CEILING, "ground columns", "ground piers", "ground arcades",
-     "ground mouldings", "ground gallery arches", "ground walls"},
+     "ground short arcades", "ground mouldings", "ground gallery arches", "ground walls"},
     {ALPI_ATRIUM_UPPER, 9.7f, ALPI_ATRIUM_EAVES, "upper columns", "upper piers", "upper arcades",
-     "upper mouldings", "upper gallery arches", "upper walls"}};
+     "upper short arcades", "upper mouldings", "upper gallery arches", "upper walls"}};
 
 /// Thickness of the arcades, radius of their arches, half an abacus.
 static const float WALL = 0.5f, RADIUS = 1.3f, ABACUS = 0.38f;
@@ -52,7 +52,7 @@ static void build_column(alpi_shaper *shaper, const storey *s)
         {r + 0.1f, neck + 0.4f, 0.0f},
         {0.0f, neck + 0.4f, 0.0f},
     };
-    alpi_shape_turned(shaper, points, sizeof points / sizeof *points, 16.0);
+    alpi_shape_turned(shaper, points, sizeof points / sizeof *points, 18.0);
     alpi_shape_bevelled_box(shaper, (vec3){-0.38f, 0.0f, -0.38f}, (vec3){0.38f, 0.14f, 0.38f},
                             0.015f);
     alpi_shape_bevelled_box(shaper, (vec3){-ABACUS, height - 0.1f, -ABACUS},
@@ -62,7 +62,7 @@ static void build_column(alpi_shaper *shaper, const storey *s)
 /// Two rows of leaves that lean out round the bell.
 static void build_capital_leaves(alpi_shaper *shaper, const storey *s)
 {
-    uint32_t count = alpi_shaper_divide(shaper, 7.0, 4);
+    uint32_t count = alpi_shaper_divide(shaper, 8.0, 2);
     float neck = s->spring - s->floor - 0.5f;
     for (uint32_t row = 0; row < 2; row++) {
         float size = row == 0 ? 0.1f : 0.12f;
@@ -141,9 +141,10 @@ static uint32_t side_bays(int side)
     return side % 2 == 1 ? ALPI_ATRIUM_Z_BAYS : ALPI_ATRIUM_X_BAYS;
 }
 
-static void build_arcades(alpi_shaper *shaper, const storey *s)
+/// Those of sides 0 and 2, or of 1 and 3.
+static void build_arcades(alpi_shaper *shaper, const storey *s, int first)
 {
-    for (int side = 0; side < 4; side++) {
+    for (int side = first; side < 4; side += 2) {
         float half = 0.5f * ALPI_ATRIUM_BAY * (float)side_bays(side);
         // Long sides go round the corner, short ones stand between them.
         float end = half + (side % 2 == 0 ? 0.5f : -0.5f) * WALL;
@@ -226,7 +227,9 @@ static void build_storey(alpi_shaper *shaper, const storey *s, const alpi_atrium
     alpi_shaper_surface(shaper, s->piers, m->stone);
     build_supports(shaper, s, true, build_pier);
     alpi_shaper_surface(shaper, s->arcades, m->plaster);
-    build_arcades(shaper, s);
+    build_arcades(shaper, s, 0);
+    alpi_shaper_surface(shaper, s->short_arcades, m->plaster);
+    build_arcades(shaper, s, 1);
     alpi_shaper_surface(shaper, s->mouldings, m->stone);
     build_mouldings(shaper, s);
     alpi_shaper_surface(shaper, s->galleries, m->stone);
@@ -263,7 +266,7 @@ void alpi_builtin_atrium(alpi_builder *builder, const uint32_t *values)
     alpi_shaper shaper = alpi_shaper_start(builder, fineness);
     build(&shaper, &materials);
     // From the court's corner under the sky, and along a gallery.
-    alpi_builder_camera(builder, (vec3){-7.1f, 2.1f, 3.9f}, (vec3){4.2f, 4.4f, -3.6f}, 1.15f);
+    alpi_builder_camera(builder, (vec3){-3.4f, 1.3f, 4.0f}, (vec3){3.2f, 4.3f, -4.0f}, 1.25f);
     alpi_builder_camera(builder, (vec3){-10.6f, 1.8f, 6.9f}, (vec3){2.0f, 2.6f, 5.2f}, 1.05f);
     alpi_builder_camera(builder, (vec3){-9.9f, 8.4f, -6.6f}, (vec3){5.0f, 4.6f, 4.0f}, 1.1f);
 }

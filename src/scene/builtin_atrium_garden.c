@@ -97,8 +97,8 @@ static void build_trees(alpi_shaper *shaper, const alpi_atrium_materials *materi
         alpi_shape_turned(shaper, TRUNK, COUNT(TRUNK), 10.0);
     }
     alpi_shaper_surface(shaper, "leaves", materials->leaf);
-    uint32_t leaves = (uint32_t)(170.0 * pow(shaper->fineness, 1.8)) + 40;
-    float size = fminf(0.2f, 2.4f / sqrtf((float)leaves));
+    uint32_t leaves = (uint32_t)(130.0 * pow(shaper->fineness, 1.8)) + 20;
+    float size = fminf(0.16f, 2.0f / sqrtf((float)leaves));
     for (int tree = 0; tree < 4; tree++) {
         place_tree(shaper, tree);
         for (uint32_t leaf = 0; leaf < leaves; leaf++) {

@@ -181,7 +181,7 @@ static const alpi_profile_point BALUSTER[] = {
 /// Between neighbouring supports of the upper storey: a foot, balusters and a rail.
 static void build_balustrade(alpi_shaper *shaper)
 {
-    uint32_t count = (uint32_t)fmin(9.0, fmax(4.0, 7.0 * sqrt(shaper->fineness)));
+    uint32_t count = (uint32_t)fmin(10.0, fmax(2.0, 8.0 * shaper->fineness));
     for (int side = 0; side < 4; side++) {
         bool at_x = side % 2 == 1;
         uint32_t bays = at_x ? ALPI_ATRIUM_Z_BAYS : ALPI_ATRIUM_X_BAYS;
@@ -205,7 +205,7 @@ static void build_balustrade(alpi_shaper *shaper)
                 foot.x += side % 2 == 0 ? at : 0.0f;
                 foot.z += side % 2 == 1 ? at : 0.0f;
                 alpi_shaper_place(shaper, foot, yaw);
-                alpi_shape_turned(shaper, BALUSTER, sizeof BALUSTER / sizeof *BALUSTER, 8.0);
+                alpi_shape_turned(shaper, BALUSTER, sizeof BALUSTER / sizeof *BALUSTER, 6.0);
             }
         }
     }

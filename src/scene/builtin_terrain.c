@@ -22,7 +22,7 @@ typedef struct terrain {
 
 // --- houses --------------------------------------------------------------------------------------
 
-static const float FOUNDATION = 1.2f; // below the ground, so that no gap opens where that is coarse
+static const float FOUNDATION = 2.0f; // below the ground, so that no gap opens where that is coarse
 
 /// Cells of a house between its walls' planes; doors and windows are recessed by one cell.
 static bool house_is_solid(const void *user, uint32_t x, uint32_t y, uint32_t z)
@@ -35,8 +35,11 @@ static bool house_is_solid(const void *user, uint32_t x, uint32_t y, uint32_t z)
     return !window && !door;
 }
 
+/// Where triangles are few, houses have plain walls, one after the other.
+static const double PLAIN_HOUSES = 0.15;
+
 /// Walls to the eaves. Local z is along the ridge, y = 0 the ground.
-static void build_walls(alpi_shaper *shaper, const alpi_house *house)
+static void build_walls(alpi_shaper *shaper, const alpi_house *house, bool openings)
 {
     const float half_x = 0.5f * house->width, half_z = 0.5f * house->length, deep = 0.18f;
     const float x[] = {-half_x, -half_x + deep, -0.55f, 0.55f, half_x - deep, half_x};
@@ -48,6 +51,11 @@ static void build_walls(alpi_shaper *shaper, const alpi_house *house)
     uint32_t levels = house->eaves > 5.0f ? 8 : 5;
     for (uint32_t i = 0; i < levels; i++) {
         heights[i] = i + 1 == levels ? house->eaves : y[i];
+    }
+    if (!openings) {
+        alpi_shape_box(shaper, (vec3){-half_x, -FOUNDATION, -half_z},
+                       (vec3){half_x, house->eaves, half_z});
+        return;
     }
     const uint32_t cells[3] = {COUNT(x) - 1, levels - 1, COUNT(z) - 1};
     alpi_shape_blocks(shaper, &(alpi_blocks){.cuts = {x, heights, z},
@@ -111,7 +119,7 @@ static void build_houses(alpi_shaper *shaper, const terrain *t)
     alpi_shaper_surface(shaper, "house walls", t->plaster);
     for (int i = 0; i < ALPI_HOUSE_COUNT; i++) {
         place_house(shaper, &houses[i]);
-        build_walls(shaper, &houses[i]);
+        build_walls(shaper, &houses[i], shaper->fineness > PLAIN_HOUSES + 0.02 * i);
     }
     alpi_shaper_surface(shaper, "gables", t->plaster);
     for (int i = 0; i < ALPI_HOUSE_COUNT; i++) {
@@ -183,7 +191,7 @@ static void build_crown(alpi_shaper *shaper, uint32_t tree, float size)
                                          .height_scale = 1.15f,
                                          .roughness = 0.16f,
                                          .key = tree,
-                                         .slices = 12.0});
+                                         .slices = 15.0});
     shaper->origin = foot;
 }
 
@@ -256,9 +264,25 @@ static void build_lake(alpi_shaper *shaper, uint32_t water)
     shaper->fineness = fineness;
 }
 
+/// A deck on posts from the shore towards the middle of the lake.
+static void build_jetty(alpi_shaper *shaper, uint32_t wood)
+{
+    enum { POSTS = 5 };
+    const float start = ALPI_LAKE_X + 20.0f, spacing = 3.2f;
+    alpi_shaper_surface(shaper, "jetty", wood);
+    alpi_shaper_place(shaper, (vec3){start, 0.0f, ALPI_LAKE_Z}, 0.0);
+    alpi_shape_box(shaper, (vec3){-0.3f, 0.5f, -0.9f},
+                   (vec3){spacing * (float)(POSTS - 1) + 0.3f, 0.62f, 0.9f});
+    for (int i = 0; i < 2 * POSTS; i++) {
+        float x = spacing * (float)(i / 2), z = i % 2 == 0 ? -1.0f : 1.0f;
+        alpi_shape_box(shaper, (vec3){x - 0.12f, -5.5f, z - 0.12f},
+                       (vec3){x + 0.12f, 1.3f, z + 0.12f});
+    }
+}
+
 static uint32_t ground_cells(const alpi_shaper *shaper)
 {
-    return alpi_shaper_divide(shaper, 120.0, 8);
+    return alpi_shaper_divide(shaper, 110.0, 16);
 }
 
 static void build(alpi_shaper *shaper, const void *user)
@@ -269,6 +293,7 @@ static void build(alpi_shaper *shaper, const void *user)
     alpi_shaper_surface(shaper, "ground", t->ground);
     alpi_terrain_build_ground(shaper, t->field, cells);
     build_lake(shaper, t->water);
+    build_jetty(shaper, t->wood);
     build_houses(shaper, t);
     build_trees(shaper, t);
 }
@@ -290,15 +315,15 @@ static terrain make_terrain(alpi_builder *builder, uint32_t trees)
 
 void alpi_builtin_terrain(alpi_builder *builder, const uint32_t *values)
 {
-    const double coarsest = 0.1, finest = 20.0;
+    const double coarsest = 0.02, finest = 20.0;
     terrain t = make_terrain(builder, values[1]);
     alpi_shaper least = alpi_shaper_start(NULL, coarsest);
     build(&least, &t);
     if (least.triangle_count > values[0] && builder->result == ALP_OK) {
         builder->result = alpi_fail(builder->context, ALP_ERROR_INVALID_ARGUMENT,
-                                    "builtin:terrain: %u trees and the rest have %llu triangles at "
-                                    "least; ask for as many or for fewer trees",
-                                    values[1], (unsigned long long)least.triangle_count);
+                                    "builtin:terrain: trees=%u: %u triangles are too few; ask for "
+                                    "%llu or more, or for fewer trees",
+                                    values[1], values[0], (unsigned long long)least.triangle_count);
     }
     if (builder->result != ALP_OK) {
         return;
@@ -312,6 +337,6 @@ void alpi_builtin_terrain(alpi_builder *builder, const uint32_t *values)
         build(&shaper, &t);
     }
     alpi_terrain_destroy_ground(builder->context, field);
-    alpi_builder_camera(builder, (vec3){78.0f, 30.0f, 92.0f}, (vec3){-8.0f, 3.0f, -2.0f}, 0.8f);
-    alpi_builder_camera(builder, (vec3){2.0f, 5.0f, 34.0f}, (vec3){26.0f, 4.0f, -20.0f}, 0.9f);
+    alpi_builder_camera(builder, (vec3){-62.0f, 33.0f, 84.0f}, (vec3){6.0f, 1.0f, -4.0f}, 0.85f);
+    alpi_builder_camera(builder, (vec3){-50.0f, 5.0f, 18.0f}, (vec3){20.0f, 3.0f, -4.0f}, 0.7f);
 }

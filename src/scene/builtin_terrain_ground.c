@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-static const double LAKE_DEPTH = 5.0, LOWEST_HILL = 2.0, HIGHEST_HILL = 30.0;
-static const double PAD_LEVEL = 8.5, PAD_END = 17.0; // radii where level ground ends, hills begin
+static const double LAKE_DEPTH = 5.0, LOWEST_HILL = 3.0, HIGHEST_HILL = 30.0;
+static const double PAD_LEVEL = 11.0, PAD_END = 17.0; // radii where level ground ends, hills begin
 
 static const alpi_house HOUSES[ALPI_HOUSE_COUNT] = {
     {31.0f, 14.0f, 0.5f, 8.0f, 11.0f, 3.4f, 0.9f},  {36.0f, -9.0f, 1.9f, 7.0f, 9.5f, 5.6f, 0.85f},
@@ -63,8 +63,7 @@ static double hills(double x, double z)
     double away = hypot(x - (double)ALPI_LAKE_X, z - (double)ALPI_LAKE_Z);
     double rise = 0.1 + 0.9 * smooth_step(30.0, 130.0, away);
     double height = LOWEST_HILL + rise * (HIGHEST_HILL - LOWEST_HILL) * (sum / all);
-    double radius = (double)ALPI_LAKE_RADIUS,
-           shore = smooth_step(0.55 * radius, 1.6 * radius, away);
+    double radius = (double)ALPI_LAKE_RADIUS, shore = smooth_step(0.6 * radius, 1.4 * radius, away);
     return -LAKE_DEPTH + (height + LAKE_DEPTH) * shore;
 }
 

@@ -86,7 +86,7 @@ static void build_windows(alpi_shaper *shaper, uint32_t white)
     alpi_shaper_place(shaper, DARK, 0.0);
 }
 
-/// A square shaft between a plinth and a cap.
+/// A square shaft that reaches into a plinth and a cap.
 static void build_pillars(alpi_shaper *shaper, uint32_t stone)
 {
     alpi_shaper_surface(shaper, "pillars", stone);
@@ -94,7 +94,7 @@ static void build_pillars(alpi_shaper *shaper, uint32_t stone)
         alpi_shaper_place(shaper, (vec3){i == 0 ? -1.5f : 1.5f, 0.0f, 0.2f}, 0.0);
         alpi_shape_bevelled_box(shaper, (vec3){-0.36f, 0.0f, -0.36f}, (vec3){0.36f, 0.3f, 0.36f},
                                 0.03f);
-        alpi_shape_bevelled_box(shaper, (vec3){-0.28f, 0.3f, -0.28f}, (vec3){0.28f, 3.7f, 0.28f},
+        alpi_shape_bevelled_box(shaper, (vec3){-0.28f, 0.2f, -0.28f}, (vec3){0.28f, 3.8f, 0.28f},
                                 0.04f);
         alpi_shape_bevelled_box(shaper, (vec3){-0.36f, 3.7f, -0.36f}, (vec3){0.36f, 4.0f, 0.36f},
                                 0.03f);
@@ -150,6 +150,6 @@ void alpi_builtin_windows(alpi_builder *builder)
     build_pillars(&shaper, stone);
     build_furniture(&shaper, clay, oak);
     build_sun(builder, sun);
-    alpi_builder_camera(builder, (vec3){3.6f, 1.9f, 2.75f}, (vec3){-1.6f, 1.45f, -1.2f}, 1.15f);
-    alpi_builder_camera(builder, (vec3){-3.7f, 2.3f, -2.6f}, (vec3){1.6f, 1.2f, 1.4f}, 1.15f);
+    alpi_builder_camera(builder, (vec3){-3.65f, 1.8f, 2.8f}, (vec3){-0.9f, 1.55f, -1.4f}, 1.12f);
+    alpi_builder_camera(builder, (vec3){3.5f, 2.0f, -2.6f}, (vec3){-2.6f, 1.3f, 1.0f}, 1.15f);
 }

@@ -300,6 +300,10 @@ static void build_bevel_edges(alpi_shaper *shaper, vec3 low, vec3 high, float be
 
 void alpi_shape_bevelled_box(alpi_shaper *shaper, vec3 low, vec3 high, float bevel)
 {
+    if (shaper->fineness < ALPI_BEVEL_FINENESS) {
+        alpi_shape_box(shaper, low, high);
+        return;
+    }
     build_bevel_faces(shaper, low, high, bevel);
     for (int axis = 0; axis < 3; axis++) {
         build_bevel_edges(shaper, low, high, bevel, axis);

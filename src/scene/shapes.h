@@ -65,7 +65,9 @@ typedef struct alpi_blocks {
 } alpi_blocks;
 enum { ALPI_BLOCK_CUTS = 32 };
 void alpi_shape_blocks(alpi_shaper *shaper, const alpi_blocks *blocks);
-/// A box, its edges cut off at 45°: `bevel` metres along each face, 0 < bevel < half a side.
+/// A box, its edges cut off at 45°: `bevel` metres along each face, 0 < bevel < half a side. Below
+/// a fineness of ALPI_BEVEL_FINENESS they stay sharp.
+#define ALPI_BEVEL_FINENESS 0.85
 void alpi_shape_bevelled_box(alpi_shaper *shaper, vec3 low, vec3 high, float bevel);
 /// A box with sharp edges, two triangles a face.
 void alpi_shape_box(alpi_shaper *shaper, vec3 low, vec3 high);

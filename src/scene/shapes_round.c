@@ -14,15 +14,15 @@ typedef struct piece {
     uint32_t count;
 } piece;
 
-/// Cells: more where a piece is bent more, and of 0.8 m at most along straight ones.
+/// Cells: one where a piece is straight, more where it is bent more or is long (0.8 m).
 static piece make_piece(const alpi_shaper *shaper, const alpi_profile_point *p,
                         const alpi_profile_point *q)
 {
     double length = hypot((double)(q->out - p->out), (double)(q->up - p->up));
     uint32_t along = alpi_shaper_cells(shaper, length, 0.8);
     double bend = fabs((double)p->bulge);
-    uint32_t bent = bend > 0.0 ? alpi_shaper_divide(shaper, 1.0 + 8.0 * bend, 2) : 1;
-    return (piece){*p, *q, along > bent ? along : bent};
+    uint32_t bent = alpi_shaper_divide(shaper, 1.0 + 6.0 * bend, 1);
+    return (piece){*p, *q, !(bend > 0.0) ? 1 : along > bent ? along : bent};
 }
 
 /// Point j of a piece, a parabola, and its normal to the right of the way: (out, up).
@@ -64,7 +64,7 @@ static void turned_at(const void *shape, uint32_t i, uint32_t j, vec3 *position,
 void alpi_shape_turned(alpi_shaper *shaper, const alpi_profile_point *points, uint32_t count,
                        double slices)
 {
-    turning t = {.slices = alpi_shaper_divide(shaper, slices, 5)};
+    turning t = {.slices = alpi_shaper_divide(shaper, slices, 4)};
     for (uint32_t k = 0; k + 1 < count; k++) {
         t.part = make_piece(shaper, &points[k], &points[k + 1]);
         alpi_shape_patch(shaper, &(alpi_patch){.u_count = t.slices,
@@ -132,7 +132,7 @@ static void half_turn(uint32_t i, uint32_t n, double *cosine, double *sine)
 
 static uint32_t arch_cells(const alpi_shaper *shaper)
 {
-    return alpi_shaper_divide(shaper, 12.0, 6);
+    return alpi_shaper_divide(shaper, 14.0, 5);
 }
 
 typedef struct archivolt {
@@ -354,7 +354,7 @@ void alpi_shape_blob(alpi_shaper *shaper, const alpi_blob *blob)
             numbers[axis] = 2.0 * (double)alpi_unit_float(key) - 1.0;
         }
         for (int axis = 0; axis < 3; axis++) {
-            u.wave[k][axis] = (2.0 + k) * numbers[axis];
+            u.wave[k][axis] = (2.0 + 0.5 * k) * numbers[axis];
         }
         u.phase[k] = ALPI_PI * numbers[3];
     }
