@@ -10,12 +10,12 @@
 #include <math.h>
 
 static const double LAKE_DEPTH = 5.0, LOWEST_HILL = 3.0, HIGHEST_HILL = 30.0;
-static const double PAD_LEVEL = 11.0, PAD_END = 17.0; // radii where level ground ends, hills begin
+static const double PAD_LEVEL = 10.0, PAD_END = 17.0; // radii where level ground ends, hills begin
 
 static const alpi_house HOUSES[ALPI_HOUSE_COUNT] = {
     {31.0f, 14.0f, 0.5f, 8.0f, 11.0f, 3.4f, 0.9f},  {36.0f, -9.0f, 1.9f, 7.0f, 9.5f, 5.6f, 0.85f},
     {52.0f, 4.0f, -0.2f, 8.0f, 12.0f, 5.8f, 0.8f},  {22.0f, -34.0f, 1.1f, 7.5f, 10.0f, 3.4f, 1.0f},
-    {47.0f, -32.0f, 0.1f, 7.0f, 9.0f, 3.3f, 0.9f},  {46.0f, 29.0f, 1.2f, 7.5f, 11.0f, 5.6f, 0.85f},
+    {47.0f, -32.0f, 0.1f, 7.0f, 9.0f, 3.3f, 0.9f},  {50.0f, 31.0f, 1.2f, 7.5f, 11.0f, 5.6f, 0.85f},
     {20.0f, 36.0f, -0.5f, 7.0f, 10.0f, 3.4f, 0.95f}};
 
 const alpi_house *alpi_terrain_houses(void)
@@ -72,18 +72,28 @@ float alpi_terrain_pad(const alpi_house *house)
     return (float)hills((double)house->x, (double)house->z);
 }
 
+/// Level ground wins over hills, and over what slopes down from other houses: the weight of each is
+/// its own level times what the others leave. Houses stand more than 2 PAD_LEVEL apart.
 static double height_at(double x, double z)
 {
-    double height = hills(x, z);
+    double level[ALPI_HOUSE_COUNT], left = 1.0;
     for (int i = 0; i < ALPI_HOUSE_COUNT; i++) {
-        double dx = x - (double)HOUSES[i].x, dz = z - (double)HOUSES[i].z;
-        double away = hypot(dx, dz);
-        if (away < PAD_END) {
-            double level = 1.0 - smooth_step(PAD_LEVEL, PAD_END, away);
-            height += ((double)alpi_terrain_pad(&HOUSES[i]) - height) * level;
+        double away = hypot(x - (double)HOUSES[i].x, z - (double)HOUSES[i].z);
+        level[i] = 1.0 - smooth_step(PAD_LEVEL, PAD_END, away);
+        left *= 1.0 - level[i];
+    }
+    double sum = left > 0.0 ? left * hills(x, z) : 0.0, weights = left;
+    for (int i = 0; i < ALPI_HOUSE_COUNT; i++) {
+        double weight = level[i];
+        for (int k = 0; k < ALPI_HOUSE_COUNT && weight > 0.0; k++) {
+            weight *= k == i ? 1.0 : 1.0 - level[k];
+        }
+        if (weight > 0.0) {
+            sum += weight * (double)alpi_terrain_pad(&HOUSES[i]);
+            weights += weight;
         }
     }
-    return height;
+    return sum / weights;
 }
 
 // --- the grid ------------------------------------------------------------------------------------
