@@ -534,6 +534,7 @@ static const option program_options[] = {
 static const char *const builtin_scenes[] = {
     "builtin:cornell",      "builtin:furnace",     "builtin:bowl",
     "builtin:sphere-plane", "builtin:torus-plane", "builtin:teapot-room",
+    "builtin:windows",      "builtin:atrium",      "builtin:terrain",
 };
 
 static const char *const group_titles[GROUP_COUNT] = {
@@ -567,6 +568,12 @@ const char *const *builtin_scene_names(size_t *count)
 {
     *count = sizeof builtin_scenes / sizeof *builtin_scenes;
     return builtin_scenes;
+}
+
+const char *builtin_scene_settings(void)
+{
+    return "  builtin:atrium,triangles=N           20000 to 4000000; default 50000\n"
+           "  builtin:terrain,triangles=N,trees=N  5000 to 4000000 (default 60000), 0 to 20000";
 }
 
 bool command_interruptible(command_id command)

@@ -144,6 +144,7 @@ const command_entry *command_table(void); ///< [COMMAND_COUNT]
 const option *option_table(size_t *count);
 const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
 const char *const *builtin_scene_names(size_t *count);
+const char *builtin_scene_settings(void); ///< lines that say which scenes take settings
 const char *option_group_title(option_group group);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
 bool command_interruptible(command_id command);
