@@ -105,6 +105,9 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_occlusion_setup *s
         const uint32_t count = drop(lattice, texels->count, validity.dropped, order);
         result = alpi_occlusion_map(setup, receivers, order, count, options, lattice,
                                     job->lightmap->errors, &report);
+        if (result == ALP_OK) {
+            result = alpi_bake_obscurance(job, setup, receivers, order, count, report.samples);
+        }
     }
     alpi_release(job->context, order);
     alpi_validity_destroy(&validity);
@@ -124,11 +127,13 @@ static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lat
         .error = s->error,
         .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
         .keep_partial = s->keep_partial,
+        .bent = job->bent,
         .progress = job->options.progress,
         .progress_user = job->options.progress_user,
     };
     alpi_occlusion_setup setup;
     ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &job->options.occlusion, &setup));
+    setup.bent = job->bent != NULL;
     job->report.ao_distance = setup.distance;
     alp_result result = gather_valid(job, &setup, &receivers, &options, lattice);
     alpi_occlusion_release(&setup);
@@ -144,7 +149,8 @@ static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
     if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
         alpi_bake_multiply_existing(job, lattice->values);
     }
-    return alpi_lightmap_store(l, lattice->values);
+    ALP_TRY(alpi_lightmap_store(l, lattice->values));
+    return alpi_bake_store_side_maps(job);
 }
 
 alp_result alpi_bake_occlusion(alpi_bake_job *job)
@@ -156,7 +162,8 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     const double started = alpi_seconds();
     alpi_lattice lattice;
     ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
-    alp_result result = gather(job, tracer, &lattice);
+    alp_result result = alpi_bake_begin_side_maps(job);
+    result = result == ALP_OK ? gather(job, tracer, &lattice) : result;
     job->report.seconds_bake = alpi_seconds() - started;
     if (result == ALP_OK && job->report.cut_off) {
         job->options.progress = NULL; // asked again it would cancel what it wanted kept
@@ -165,6 +172,7 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     if (result == ALP_OK) {
         result = store(job, &lattice);
     }
+    alpi_bake_end_side_maps(job);
     alpi_lattice_destroy(&lattice);
     return result;
 }
