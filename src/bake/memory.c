@@ -8,26 +8,25 @@
 enum {
     // alpi_texels 49, a piece 8, lattice 9, error 4, state 1, sums 20, lists 5
     BYTES_PER_TEXEL = 96,
-    BYTES_PER_PAGE_TEXEL = 20,      // of every page: float RGBA, grid 4
-    BYTES_PER_BENT_TEXEL = 24,      // sum 12, normal 12
-    BYTES_PER_SIDE_PAGE_TEXEL = 16, // float RGBA of one more map
-    BYTES_PER_OBSCURANCE_TEXEL = 12,
-    BYTES_TO_DILATE = 5 // of one page at a time: filled 1, queue 4
+    BYTES_OF_SUMS = 20,        // of these, gone when the maps are stored
+    BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
+    BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
+    // Of each map beside occlusion.
+    SIDE_BYTES_PER_TEXEL = 12,
+    SIDE_BYTES_OF_SUMS = 12,
+    SIDE_BYTES_PER_PAGE_TEXEL = 16 // its pages are made when it is stored
 };
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps)
 {
-    uint64_t page = (uint64_t)atlas->width * atlas->height;
-    uint64_t of_texel = BYTES_PER_TEXEL, of_pages = BYTES_PER_PAGE_TEXEL;
-    if ((maps & ALP_MAP_BENT) != 0) {
-        of_texel += BYTES_PER_BENT_TEXEL;
-        of_pages += BYTES_PER_SIDE_PAGE_TEXEL;
-    }
-    if ((maps & ALP_MAP_OBSCURANCE) != 0) { // its sums come after those of occlusion
-        of_texel += BYTES_PER_OBSCURANCE_TEXEL;
-        of_pages += BYTES_PER_SIDE_PAGE_TEXEL;
-    }
-    return of_texel * atlas->texels + of_pages * page * atlas->pages + BYTES_TO_DILATE * page;
+    const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
+    const uint64_t sides =
+        ((maps & ALP_MAP_BENT) != 0 ? 1u : 0u) + ((maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u);
+    const uint64_t of_texel = BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides;
+    const uint64_t rays = (of_texel + SIDE_BYTES_OF_SUMS * sides) * atlas->texels;
+    const uint64_t store =
+        (of_texel - BYTES_OF_SUMS) * atlas->texels + SIDE_BYTES_PER_PAGE_TEXEL * sides * pages;
+    return (rays > store ? rays : store) + BYTES_PER_PAGE_TEXEL * pages + BYTES_TO_DILATE * page;
 }
 
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)

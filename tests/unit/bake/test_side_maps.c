@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bent normals and coloured obscurance as a bake writes them and hands them out.
+#include "bake/job.h"
 #include "test_scenes.h"
 
 #include <math.h>
@@ -85,7 +86,6 @@ static void maps_are_written_and_handed_out(void **state)
         colored += fabsf(c[0] - c[1]) > 0.02f;
     }
     assert_true(colored > SIZE);
-    assert_true(report.rays > report.atlas.texels * 64);
     check_files(context, folder, "bent", bent, 0.5, 0.5);
     check_files(context, folder, "obscurance", color, 1.0, 0.0);
     assert_true(is_there(folder, "ao.exr") && is_there(folder, "ao.png"));
@@ -94,16 +94,60 @@ static void maps_are_written_and_handed_out(void **state)
     alp_context_destroy(context);
 }
 
+static void channels_are_x_y_z(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start(); // open, normal (1, 2, 3)
+    test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){2, -1, 0}, (double[]){3, 0, -1});
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alp_bake_options options = small_options(ALP_MAP_BENT);
+    options.occlusion.samples = 1024;
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
+    const float *bent = alp_lightmap_map_page(lightmap, ALP_MAP_BENT, 0, NULL, NULL);
+    for (size_t i = 0; i < (size_t)3 * SIZE * SIZE; i++) {
+        ASSERT_NEAR(bent[i / 3 * 4 + i % 3], (double)(i % 3 + 1) / sqrt(14.0), 0.01);
+    }
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void memory_is_known_beforehand(void **state)
+{
+    (void)state;
+    const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_BENT, ALP_MAP_AO | ALP_MAP_OBSCURANCE, ALL};
+    for (int i = 0; i < 3; i++) {
+        alp_context *context = test_context(2);
+        alp_scene *scene = load(context, "builtin:furnace");
+        alp_bake_options options = small_options(maps[i]);
+        options.atlas.size = 1024;
+        options.occlusion.samples = 1;
+        alp_bake_report report;
+        alp_lightmap *lightmap = NULL;
+        ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
+        const double told = (double)alpi_bake_memory(&report.atlas, options.maps);
+        ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
+        alp_lightmap_destroy(lightmap);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 static void side_maps_leave_occlusion_as_it_is(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
     alp_scene *scene = load(context, "builtin:torus-plane");
     alp_lightmap *alone = NULL, *all = NULL;
+    alp_bake_report reports[2];
     alp_bake_options options = small_options(ALP_MAP_AO);
-    ASSERT_OK(context, alp_bake(scene, &options, &alone, NULL));
+    ASSERT_OK(context, alp_bake(scene, &options, &alone, &reports[0]));
     options.maps = ALL;
-    ASSERT_OK(context, alp_bake(scene, &options, &all, NULL));
+    ASSERT_OK(context, alp_bake(scene, &options, &all, &reports[1]));
+    assert_int_equal(reports[1].rays - reports[0].rays,
+                     (reports[0].atlas.texels - reports[0].dropped) * 64);
     assert_memory_equal(alp_lightmap_page(alone, 0, NULL, NULL),
                         alp_lightmap_page(all, 0, NULL, NULL), sizeof(float) * SIZE * SIZE * 4);
     assert_null(alp_lightmap_map_page(alone, ALP_MAP_BENT, 0, NULL, NULL));
@@ -231,6 +275,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_are_written_and_handed_out),
+        cmocka_unit_test(channels_are_x_y_z),
+        cmocka_unit_test(memory_is_known_beforehand),
         cmocka_unit_test(side_maps_leave_occlusion_as_it_is),
         cmocka_unit_test(only_what_is_asked_for_is_written),
         cmocka_unit_test(a_map_cut_off_has_bent_normals_where_it_has_values),
