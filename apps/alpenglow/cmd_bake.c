@@ -29,6 +29,7 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
                    {OPTION_PADDING, "--padding"},
                    {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_AO_INTO, "--ao-into"},
                    {OPTION_QUALITY, "--quality"},
                    {OPTION_ERROR, "--error"},
                    {OPTION_ADAPTIVE, "--adaptive"},
@@ -116,6 +117,25 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     return EXIT_DONE;
 }
 
+/// Which surfaces are baked and which occlude them.
+static int read_choice(const option_value *values, alp_bake_options *o)
+{
+    o->only = values[OPTION_ONLY].text;
+    o->occluders = values[OPTION_OCCLUDERS].text;
+    o->ao_self = values[OPTION_AO_SELF].given;
+    if (o->ao_self && o->occluders != NULL) {
+        return usage_error(COMMAND_BAKE, "--ao-self and --occluders: an object that is alone has "
+                                         "no other occluders; leave one of them out");
+    }
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && (o->ao_self || o->only != NULL)) {
+        return usage_error(COMMAND_BAKE,
+                           "%s: with --atlas vertex all surfaces are baked, and "
+                           "together; use --atlas charts",
+                           o->ao_self ? "--ao-self" : "--only");
+    }
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_bake_options *o)
 {
     const option_value *values = a->values;
@@ -124,6 +144,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     o->maps_folder = values[OPTION_MAPS_FOLDER].text;
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
+    o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
     o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
@@ -131,6 +152,9 @@ static int read_options(const command_line *a, alp_bake_options *o)
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
     o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
     int code = check_vertex_options(values);
+    if (code == EXIT_DONE) {
+        code = read_choice(values, o);
+    }
     if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
@@ -185,9 +209,12 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
     } else {
-        printf("to %.4g m%s", (double)r->ao_distance,
-               a->values[OPTION_AO_DISTANCE].choice == 0 ? " (auto: 20 % of the scene's diagonal)"
-                                                         : "");
+        const bool is_auto = a->values[OPTION_AO_DISTANCE].choice == 0;
+        const bool is_self = a->values[OPTION_AO_SELF].given;
+        printf("to %s%.4g m%s", is_auto && is_self ? "at most " : "", (double)r->ao_distance,
+               !is_auto  ? ""
+               : is_self ? " (auto: 20 % of each object's diagonal)"
+                         : " (auto: 20 % of the scene's diagonal)");
     }
     printf("; mean accessibility %.4f\n", r->ao_mean);
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
@@ -208,6 +235,9 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
     }
     if (o->maps_folder != NULL) {
         print_maps(o, r->atlas.pages);
+    }
+    if (o->only != NULL) {
+        printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);
     }
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
         print_vertices(o, r);

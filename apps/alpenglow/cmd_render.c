@@ -106,6 +106,7 @@ static int read_options(const command_line *a, alp_render_options *o)
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
+    o->occluders = a->values[OPTION_OCCLUDERS].text;
     int code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
     if (code == EXIT_DONE) {
         code = read_camera(a->values[OPTION_CAMERA].text, o);

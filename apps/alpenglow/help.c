@@ -116,7 +116,7 @@ static void print_scenes(void)
     for (size_t i = 0; i < count; i++) {
         print_wrapped(names[i], INDENT, &column);
     }
-    putchar('\n');
+    printf("\n%s\n", builtin_scene_settings());
 }
 
 static void print_footer(command_id command)

@@ -190,6 +190,26 @@ static const option options[] = {
      .initial = "2",
      .help = "Free texels between neighbouring charts, filled with the nearest value. More keeps "
              "smaller mip levels clean, and leaves less of the page for charts."},
+    {.id = OPTION_ONLY,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--only",
+     .value = "GLOB",
+     .help =
+         "Bake only the surfaces whose node's name matches (its mesh's, where it has none; info "
+         "lists them): * any characters, ? one, [a-z] one of these, [!a-z] one that is not; "
+         "several patterns with commas between, and \\ before a comma or another sign that is "
+         "meant. Each must match something. All other surfaces come out as they were, and "
+         "still occlude. Not with --atlas vertex."},
+    {.id = OPTION_OCCLUDERS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--occluders",
+     .value = "GLOB",
+     .help = "Only surfaces whose name matches occlude, patterns as in bake --only; rays pass all "
+             "others."},
 
     // --- picture --------------------------------------------------------------------------------
     {.id = OPTION_QUALITY,
@@ -376,6 +396,15 @@ static const option options[] = {
      .initial = "cosine",
      .help = "cosine: as uniform light from the sky reaches a matte surface. uniform: every "
              "direction counts the same."},
+    {.id = OPTION_AO_SELF,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_FLAG,
+     .name = "--ao-self",
+     .help =
+         "Every object, a node with its whole mesh, is baked as if it were alone, and all nodes "
+         "with the same mesh share one map. --ao-distance auto is then 20 % of the diagonal of "
+         "the object's own box. Not with --occluders or --atlas vertex."},
     {.id = OPTION_ONE_SIDED,
      .commands = RAY_COMMANDS,
      .group = GROUP_AO,
@@ -402,6 +431,19 @@ static const option options[] = {
      .initial = "replace",
      .help = "What happens to an occlusion map that a material has already: ours takes its "
              "place, ours times the old one does, or the material keeps its own."},
+    {.id = OPTION_AO_INTO,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_CHOICE,
+     .name = "--ao-into",
+     .value = "separate|orm",
+     .choices = "separate|orm",
+     .initial = "separate",
+     .help = "Where the occlusion of a material goes. separate: a map of its own, with its own "
+             "coordinate set. orm: the red channel of the image that holds its roughness and "
+             "metalness (or occlusion), at that image's size and coordinates, the other channels "
+             "unchanged; a material whose image is tiled or shared by several places gets a "
+             "separate map and a warning. A JPEG becomes a PNG."},
 
     // --- run ------------------------------------------------------------------------------------
     {.id = OPTION_SEED,
@@ -460,9 +502,6 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--only", "GLOB", "everything is baked"),
-    LATER(IN_BAKE, "--occluders", "GLOB", "everything occludes"),
-    LATER(IN_BAKE, "--ao-self", NULL, "objects occlude themselves and each other"),
     LATER(RAY_COMMANDS, "--bounces", "N|converge", no_light),
     LATER(IN_BAKE, "--direct", "on|off|only", no_light),
     LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),
@@ -506,6 +545,7 @@ static const option program_options[] = {
 static const char *const builtin_scenes[] = {
     "builtin:cornell",      "builtin:furnace",     "builtin:bowl",
     "builtin:sphere-plane", "builtin:torus-plane", "builtin:teapot-room",
+    "builtin:windows",      "builtin:atrium",      "builtin:terrain",
 };
 
 static const char *const group_titles[GROUP_COUNT] = {
@@ -539,6 +579,12 @@ const char *const *builtin_scene_names(size_t *count)
 {
     *count = sizeof builtin_scenes / sizeof *builtin_scenes;
     return builtin_scenes;
+}
+
+const char *builtin_scene_settings(void)
+{
+    return "  builtin:atrium,triangles=N           20000 to 4000000; default 50000\n"
+           "  builtin:terrain,triangles=N,trees=N  5000 to 4000000 (default 60000), 0 to 20000";
 }
 
 bool command_interruptible(command_id command)

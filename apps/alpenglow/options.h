@@ -42,14 +42,18 @@ typedef enum option_id {
     OPTION_ATLAS,
     OPTION_PADDING,
     OPTION_VERTEX_ATTRIBUTE,
+    OPTION_ONLY,
+    OPTION_OCCLUDERS,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
     OPTION_AO_CONE,
     OPTION_AO_DISTRIBUTION,
+    OPTION_AO_SELF,
     OPTION_ONE_SIDED,
     OPTION_AO_BLEED,
     OPTION_EXISTING_AO,
+    OPTION_AO_INTO,
     OPTION_QUALITY,
     OPTION_ERROR,
     OPTION_TIME_LIMIT,
@@ -141,6 +145,7 @@ const command_entry *command_table(void); ///< [COMMAND_COUNT]
 const option *option_table(size_t *count);
 const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
 const char *const *builtin_scene_names(size_t *count);
+const char *builtin_scene_settings(void); ///< lines that say which scenes take settings
 const char *option_group_title(option_group group);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
 bool command_interruptible(command_id command);

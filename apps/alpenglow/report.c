@@ -131,14 +131,14 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     char hash[24];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)r->input_hash);
     json_t *document = json_pack(
-        "{s:s, s:{s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{s:{s:o, s:o}}, s:I, s:o, s:o}",
+        "{s:s, s:{s:I, s:I, s:I}, s:o, s:o, s:I, s:I, s:I, s:s, s:{s:{s:o, s:o}}, s:I, s:o, s:o}",
         "version", alp_version(), "scene", "triangles", (json_int_t)r->scene.triangles, "surfaces",
-        (json_int_t)r->scene.surfaces, "atlas", make_atlas(&r->atlas), "seconds",
-        make_seconds(r, s->load_seconds), "rays", (json_int_t)r->rays, "threads",
-        (json_int_t)r->threads, "seed", (json_int_t)r->seed, "input_hash", hash, "error", "ao",
-        "relative", json_number(r->ao_relative_error), "p99", json_number(r->ao_p99_error),
-        "peak_memory_bytes", (json_int_t)r->peak_memory_bytes, "objects",
-        make_objects(s->scene, lightmap), "warnings", report_warnings(&s->messages));
+        (json_int_t)r->scene.surfaces, "surfaces_baked", (json_int_t)r->surfaces_baked, "atlas",
+        make_atlas(&r->atlas), "seconds", make_seconds(r, s->load_seconds), "rays",
+        (json_int_t)r->rays, "threads", (json_int_t)r->threads, "seed", (json_int_t)r->seed,
+        "input_hash", hash, "error", "ao", "relative", json_number(r->ao_relative_error), "p99",
+        json_number(r->ao_p99_error), "peak_memory_bytes", (json_int_t)r->peak_memory_bytes,
+        "objects", make_objects(s->scene, lightmap), "warnings", report_warnings(&s->messages));
     if (r->atlas.mode == ALP_ATLAS_VERTEX) { // no error is stated
         json_object_clear(json_object_get(document, "error"));
     }

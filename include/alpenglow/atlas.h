@@ -60,8 +60,8 @@ typedef struct alp_atlas_info {
 ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 
 /// Texture coordinates [triangles][3][2] of every triangle's corners, v = 0 at row 0; and page
-/// [triangles]. Unusable triangles have coordinates too (one point inside a chart). Owned by the
-/// atlas.
+/// [triangles]. Unusable triangles have coordinates too (one point inside a chart). In the atlas of
+/// a bake of some surfaces only, triangles of the others have page UINT32_MAX. Owned by the atlas.
 ALP_API const float *alp_atlas_corner_uvs(const alp_atlas *atlas);
 ALP_API const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas);
 

@@ -16,6 +16,21 @@ typedef enum alp_existing_ao {
     ALP_EXISTING_AO_KEEP = 2      ///< the material keeps its own
 } alp_existing_ao;
 
+/// Where the occlusion of a written asset goes.
+typedef enum alp_ao_into {
+    /// Maps on the pages of the atlas, read with a coordinate set of their own (default).
+    ALP_AO_INTO_SEPARATE = 0,
+    /// Into the red channel of the image that a material reads its roughness and metalness from, or
+    /// else its occlusion, at that image's size, its other channels unchanged. existing_ao says
+    /// what happens to that channel where the material's occlusion map used it; where none did, it
+    /// is replaced. A material whose image can not hold the occlusion (it is tiled, several
+    /// surfaces lie in one place of it, it has 16 bits, it is no PNG or JPEG) gets a map as above,
+    /// with a warning "ao-not-packed". The value of a texel is the mean over up to 8 × 8 points of
+    /// the maps, which for materials with a packed image are never multiplied by an older map
+    /// themselves.
+    ALP_AO_INTO_ORM = 1
+} alp_ao_into;
+
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
@@ -63,8 +78,21 @@ typedef struct alp_bake_options {
     /// time_limit and no keep_partial; existing_ao changes ALP_MAP_AO alone.
     unsigned maps;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
+    alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
-    const char *output;                    ///< .glb or .gltf, or NULL: no asset
+    /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
+    /// A surface is named like its node (like the mesh of a node without a name, "node N" without
+    /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
+    /// (of UTF-8), [a-z] one of these, [!a-z] one that is not, \ takes the next character as it is.
+    /// Every pattern must match something. Other surfaces come out as they went in, and occlude.
+    const char *only;
+    /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
+    const char *occluders;
+    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
+    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
+    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
+    bool ao_self;
+    const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_ATLAS_VERTEX:
@@ -84,7 +112,7 @@ typedef struct alp_bake_report {
     alp_scene_info scene;
     alp_atlas_info atlas;
     uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
-    float ao_distance;   ///< metres, as used
+    float ao_distance;   ///< metres, as used; automatic with ao_self: of the largest object
     uint32_t ao_samples; ///< rays of a traced texel
     uint64_t traced, interpolated, unknown; ///< texels; unknown: cut off before their turn
     uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
@@ -96,6 +124,7 @@ typedef struct alp_bake_report {
     double ao_mean; ///< area-weighted mean accessibility
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;
+    uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
     uint64_t seed;
     uint64_t input_hash;
@@ -109,7 +138,8 @@ typedef struct alp_lightmap alp_lightmap;
 /// its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
-/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake, or a second UV set that cannot
+/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
+///         INVALID_DATA (nothing to bake, or a second UV set that cannot
 ///         be kept); UNSUPPORTED (an output that is neither .glb nor .gltf); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
@@ -130,7 +160,7 @@ ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t pa
 ///     normalised ∫ (1 − w) ω (n·ω) dω
 ///
 /// with the directions of the occlusion options (uniform ones: without n·ω); the shading normal
-/// where nothing is open.
+/// where nothing is open. With ao_self, directions are those of the instance that was baked.
 ///
 /// ALP_MAP_OBSCURANCE: RGB = (1/π) ∫ [ (1 − w) + w · albedo of the hit ] (n·ω) dω per channel,
 /// linear, 0 to 1. Open is 1; single-sided surfaces are black from behind.

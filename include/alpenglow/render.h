@@ -24,7 +24,8 @@ typedef struct alp_render_options {
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     uint32_t camera_index;  ///< default 0; past the last: the automatic camera
     alp_occlusion_options
-        occlusion; ///< for AO by rays, `samples` per pixel; its progress is ignored
+        occlusion;         ///< for AO by rays, `samples` per pixel; its progress is ignored
+    const char *occluders; ///< which surfaces occlude, as in alp_bake_options; NULL (default) = all
     const alp_lightmap
         *lightmap; ///< NULL, or maps of this scene that are read instead of its textures
     alp_progress_fn *progress;
@@ -33,7 +34,8 @@ typedef struct alp_render_options {
 ALP_API alp_render_options alp_render_options_default(void);
 
 /// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen.
-/// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
+/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match among them); OUT_OF_MEMORY;
+/// CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Making an atlas: the stages in a row, and the questions one can ask it.
+#include "atlas/choice.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -58,10 +59,6 @@ static alp_result check_options(const alp_scene *scene, const alp_atlas_options 
     if (!(o->max_angle > 0.0f && o->max_angle <= 1.2f)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "a chart angle of %g radians: must be in (0, 1.2]", (double)o->max_angle);
-    }
-    if (scene->usable_count == 0) {
-        return alpi_fail(context, ALP_ERROR_INVALID_DATA,
-                         "%s: nothing to bake: no triangle has an area", scene->name);
     }
     return ALP_OK;
 }
@@ -185,6 +182,55 @@ static alp_result build(alp_atlas *atlas)
     return ALP_OK;
 }
 
+/// Builds an atlas of what is usable in `view`, and makes it one of `scene`.
+static alp_result create_from_view(const alp_scene *scene, const alp_scene *view,
+                                   const alp_atlas_options *options, alp_atlas **atlas)
+{
+    if (view->usable_count == 0) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
+                         "%s: nothing to bake: no triangle%s has an area", scene->name,
+                         scene->usable_count > 0 ? " of the chosen surfaces" : "");
+    }
+    alp_atlas *made = ALPI_NEW(scene->context, alp_atlas, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    made->scene = view;
+    made->context = scene->context;
+    made->options = *options;
+    made->info.width = made->info.height = options->size;
+    alpi_watch former = alpi_set_watch(
+        made->context, (alpi_watch){.callback = options->progress, .user = options->progress_user});
+    alp_result result = build(made);
+    alpi_set_watch(made->context, former);
+    made->scene = scene;
+    if (result != ALP_OK) {
+        alp_atlas_destroy(made);
+        return result;
+    }
+    *atlas = made;
+    return ALP_OK;
+}
+
+alp_result alpi_atlas_create(const alp_scene *scene, const alp_atlas_options *options,
+                             const alpi_atlas_choice *choice, alp_atlas **atlas)
+{
+    *atlas = NULL;
+    alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
+    ALP_TRY(check_options(scene, &chosen));
+    if (choice == NULL) {
+        return create_from_view(scene, scene, &chosen, atlas);
+    }
+    alp_scene view;
+    ALP_TRY(alpi_choice_view(scene, choice, &view));
+    alp_result result = create_from_view(scene, &view, &chosen, atlas);
+    alpi_choice_end(&view);
+    if (result == ALP_OK) {
+        alpi_choice_share(*atlas, choice);
+    }
+    return result;
+}
+
 alp_result alp_atlas_create(const alp_scene *scene, const alp_atlas_options *options,
                             alp_atlas **atlas)
 {
@@ -192,29 +238,8 @@ alp_result alp_atlas_create(const alp_scene *scene, const alp_atlas_options *opt
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     *atlas = NULL;
-    if (scene == NULL) {
-        return ALP_ERROR_INVALID_ARGUMENT;
-    }
-    alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
-    ALP_TRY(check_options(scene, &chosen));
-    alp_atlas *made = ALPI_NEW(scene->context, alp_atlas, 1);
-    if (made == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    made->scene = scene;
-    made->context = scene->context;
-    made->options = chosen;
-    made->info.width = made->info.height = chosen.size;
-    alpi_watch former = alpi_set_watch(
-        made->context, (alpi_watch){.callback = chosen.progress, .user = chosen.progress_user});
-    alp_result result = build(made);
-    alpi_set_watch(made->context, former);
-    if (result != ALP_OK) {
-        alp_atlas_destroy(made);
-        return result;
-    }
-    *atlas = made;
-    return ALP_OK;
+    return scene == NULL ? ALP_ERROR_INVALID_ARGUMENT
+                         : alpi_atlas_create(scene, options, NULL, atlas);
 }
 
 void alp_atlas_destroy(alp_atlas *atlas)

@@ -16,8 +16,9 @@ struct alp_atlas {
     alp_atlas_options options;
     alp_atlas_info info;
     float (*corner_uvs)[3][2];  // [triangle_count]
-    uint32_t *triangle_pages;   // [triangle_count]
-    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for unusable triangles.
+    uint32_t *triangle_pages;   // [triangle_count]; ALPI_NONE: of a surface that was not chosen
+    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for triangles without
+                                // texels of their own: unusable, not chosen, or of an instance.
                                 // KEEP: chart = connected island in uv
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
@@ -62,6 +63,34 @@ typedef struct alpi_texels {
 alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 
+// --- the layout of a texture that is there already -----------------------------------------------
+
+/// An atlas of one page, width × height, on which each surface s with textures[s] ≠ NULL lies where
+/// that texture is read: coordinate set, KHR_texture_transform, and each triangle moved from its
+/// tile into [0, 1] as the wrap mode has it. Its triangles' page is 0, that of others ALPI_NONE; it
+/// has no charts.
+/// @param textures [surface_count]
+/// @param reason   out: where the layout cannot hold a bake (a missing set, triangles that reach
+///                 across tiles, surface without area in it), why; released by the caller. The call
+///                 then gives INVALID_DATA without a message.
+alp_result alpi_uv_layout_create(const alp_scene *scene, const alpi_texture *const *textures,
+                                 uint32_t width, uint32_t height, alp_atlas **layout,
+                                 char **reason);
+/// INVALID_DATA and a reason, as above, where triangles overlap by more than the border of a texel.
+alp_result alpi_uv_layout_check(const alp_atlas *layout, char **reason);
+
+/// A cell that a triangle covers some of, and a point of that triangle inside it: the middle of the
+/// cell where a triangle holds it, else the middle of the largest piece.
+typedef struct alpi_uv_cell {
+    uint32_t x, y, triangle;
+    float barycentrics[2]; // weights of corners 1 and 2
+    float coverage;        // (0, 1]
+} alpi_uv_cell;
+typedef void alpi_uv_cell_fn(void *user, const alpi_uv_cell *cell);
+/// Hands out all cells, each texel divided into parts × parts of them, on all workers at once and
+/// in any order.
+alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv_cell_fn *each,
+                                void *user);
 /// A texel's representative point.
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
 

@@ -17,6 +17,11 @@ typedef struct carrier {
     alpi_facet facet;
 } carrier;
 
+static double length(double x, double y)
+{
+    return sqrt(x * x + y * y); // hypot is slow, and texels are neither tiny nor huge
+}
+
 static void load_carrier(const alp_atlas *atlas, uint32_t triangle, carrier *c)
 {
     alpi_page_triangle shape;
@@ -29,9 +34,9 @@ static void load_carrier(const alp_atlas *atlas, uint32_t triangle, carrier *c)
         e[k][0] = end[0] - shape.p[0][0];
         e[k][1] = end[1] - shape.p[0][1];
     }
-    c->heights[0] = 2.0 * shape.area / hypot(e[1][0] - e[0][0], e[1][1] - e[0][1]);
-    c->heights[1] = 2.0 * shape.area / hypot(e[1][0], e[1][1]);
-    c->heights[2] = 2.0 * shape.area / hypot(e[0][0], e[0][1]);
+    c->heights[0] = 2.0 * shape.area / length(e[1][0] - e[0][0], e[1][1] - e[0][1]);
+    c->heights[1] = 2.0 * shape.area / length(e[1][0], e[1][1]);
+    c->heights[2] = 2.0 * shape.area / length(e[0][0], e[0][1]);
     alpi_facet_load(atlas->scene, triangle, false, &c->facet);
 }
 
@@ -52,9 +57,9 @@ static void leave_edges(const carrier *c, double b[2])
         return;
     }
     double to[2] = {1.0 / 3.0 - b[0], 1.0 / 3.0 - b[1]};
-    double length = hypot(to[0] * c->edges[0][0] + to[1] * c->edges[1][0],
-                          to[0] * c->edges[0][1] + to[1] * c->edges[1][1]);
-    double share = length > margin ? margin / length : 1.0;
+    double way = length(to[0] * c->edges[0][0] + to[1] * c->edges[1][0],
+                        to[0] * c->edges[0][1] + to[1] * c->edges[1][1]);
+    double share = way > margin ? margin / way : 1.0;
     b[0] += share * to[0];
     b[1] += share * to[1];
 }
@@ -117,7 +122,7 @@ static uint32_t write_pieces(const alpi_band *band, const alpi_cell *cell, alpi_
     for (uint32_t p = cell->first_piece; p != ALPI_NONE; p = pieces[p].next) {
         const uint32_t at = first[cell_of_point(pieces[p].x, pieces[p].y)]++;
         triangles[at] = pieces[p].triangle;
-        ends[at] = pieces[p].area;
+        ends[at] = (float)(pieces[p].area / cell->area);
     }
     double total = 0.0, sum = 0.0;
     for (uint32_t k = 0; k < count; k++) {
@@ -125,9 +130,9 @@ static uint32_t write_pieces(const alpi_band *band, const alpi_cell *cell, alpi_
     }
     for (uint32_t k = 0; k < count; k++) {
         sum += (double)ends[k];
-        ends[k] = (float)(sum / total);
+        ends[k] = total > 0.0 ? (float)(sum / total) : 1.0f; // 0: all too small for a float
     }
-    ends[count - 1] = 1.0f; // also where areas are too small for a float
+    ends[count - 1] = 1.0f;
     chunk->piece_count += count;
     return count;
 }

@@ -26,6 +26,17 @@ void alpi_polygon_clip(const alpi_polygon *in, int axis, double at, bool keep_lo
     }
 }
 
+void alpi_polygon_cut(alpi_polygon *shape, int axis, double at, bool keep_low)
+{
+    alpi_polygon in;
+    in.count = shape->count;
+    for (int i = 0; i < shape->count; i++) { // not those that are not there
+        in.p[i][0] = shape->p[i][0];
+        in.p[i][1] = shape->p[i][1];
+    }
+    alpi_polygon_clip(&in, axis, at, keep_low, shape);
+}
+
 double alpi_polygon_measure(const alpi_polygon *shape, double centroid[2])
 {
     double area = 0.0, sx = 0.0, sy = 0.0;
@@ -94,25 +105,28 @@ bool alpi_page_triangle_range(const alpi_page_triangle *triangle, int axis, uint
     return true;
 }
 
-double alpi_page_triangle_cut(const alpi_page_triangle *t, uint32_t x, uint32_t y,
-                              alpi_polygon *shape)
+void alpi_polygon_of_triangle(const alpi_page_triangle *t, alpi_polygon *shape)
+{
+    shape->count = 3;
+    for (int k = 0; k < 3; k++) {
+        shape->p[k][0] = t->p[k][0];
+        shape->p[k][1] = t->p[k][1];
+    }
+}
+
+void alpi_page_triangle_cut(const alpi_page_triangle *t, uint32_t x, uint32_t y,
+                            alpi_polygon *shape)
 {
     const double at[2] = {x, y};
-    *shape = (alpi_polygon){
-        3, {{t->p[0][0], t->p[0][1]}, {t->p[1][0], t->p[1][1]}, {t->p[2][0], t->p[2][1]}}};
+    alpi_polygon_of_triangle(t, shape);
     for (int axis = 0; axis < 2; axis++) {
-        alpi_polygon rest;
         if (t->low[axis] < at[axis]) {
-            alpi_polygon_clip(shape, axis, at[axis], false, &rest);
-            *shape = rest;
+            alpi_polygon_cut(shape, axis, at[axis], false);
         }
         if (t->high[axis] > at[axis] + 1.0) {
-            alpi_polygon_clip(shape, axis, at[axis] + 1.0, true, &rest);
-            *shape = rest;
+            alpi_polygon_cut(shape, axis, at[axis] + 1.0, true);
         }
     }
-    double centroid[2];
-    return shape->count > 2 ? alpi_polygon_measure(shape, centroid) : 0.0;
 }
 
 alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *t, double x, double y)

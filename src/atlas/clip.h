@@ -28,6 +28,8 @@ typedef struct alpi_polygon {
 /// The part of `in` with coordinate `axis` ≤ at (keep_low) or ≥ at. `out` is another polygon.
 void alpi_polygon_clip(const alpi_polygon *in, int axis, double at, bool keep_low,
                        alpi_polygon *out);
+/// The same in place.
+void alpi_polygon_cut(alpi_polygon *shape, int axis, double at, bool keep_low);
 /// Area and centroid; all 0 where it has no area.
 double alpi_polygon_measure(const alpi_polygon *shape, double centroid[2]);
 
@@ -50,9 +52,11 @@ bool alpi_page_triangle_load(const alp_atlas *atlas, uint32_t triangle, alpi_pag
 bool alpi_page_triangle_range(const alpi_page_triangle *triangle, int axis, uint32_t size,
                               uint32_t *first, uint32_t *last);
 
-/// The part of a triangle inside texel (x, y). @return its area; 0: nothing is left
-double alpi_page_triangle_cut(const alpi_page_triangle *triangle, uint32_t x, uint32_t y,
-                              alpi_polygon *shape);
+void alpi_polygon_of_triangle(const alpi_page_triangle *triangle, alpi_polygon *shape);
+
+/// The part of a triangle inside texel (x, y); fewer than three corners: none.
+void alpi_page_triangle_cut(const alpi_page_triangle *triangle, uint32_t x, uint32_t y,
+                            alpi_polygon *shape);
 
 /// Barycentrics of a triangle's corners 1 and 2 as functions of the page, (x, y) in texels from an
 /// origin of the caller's.

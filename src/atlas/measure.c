@@ -84,25 +84,37 @@ static uint64_t count_bits(const uint64_t *words, uint32_t count)
     return bits;
 }
 
+/// Widens a row by `padding` texels on both sides. What is widened by r is widened by up to r + 1
+/// more in one step, also at the row's ends, where one half of it is missing.
+static void widen_row(const tally *t, uint64_t *row)
+{
+    const uint32_t padding = t->atlas->options.padding;
+    for (uint32_t reach = 0, step; reach < padding; reach += step) {
+        step = reach + 1 < padding - reach ? reach + 1 : padding - reach;
+        memcpy(t->around, row, t->words * sizeof *row);
+        add_moved(t->around, t->words, step, true, row);
+        add_moved(t->around, t->words, step, false, row);
+    }
+    row[t->words - 1] &= UINT64_MAX >> (t->words * 64 - t->atlas->info.width);
+}
+
 /// Counts the covered texels of a page, and those with a covered one within `padding` rows and
 /// columns.
-static void count_page(tally *t, const uint64_t *page)
+static alp_result count_page(tally *t, const uint64_t *page)
 {
     const uint32_t height = t->atlas->info.height, padding = t->atlas->options.padding;
-    const uint32_t words = t->words, spare = words * 64 - t->atlas->info.width;
-    memset(t->wide, 0, (size_t)height * words * sizeof *t->wide);
+    const uint32_t words = t->words;
+    memcpy(t->wide, page, (size_t)height * words * sizeof *t->wide);
     for (uint32_t y = 0; y < height; y++) {
-        const uint64_t *row = page + (size_t)y * words;
+        uint64_t *row = t->wide + (size_t)y * words;
         const uint64_t covered = count_bits(row, words);
         t->texels += covered;
-        for (uint32_t k = 0; covered > 0 && k <= padding; k++) {
-            uint64_t *wide = t->wide + (size_t)y * words;
-            add_moved(row, words, k, true, wide);
-            add_moved(row, words, k, false, wide);
-            wide[words - 1] &= UINT64_MAX >> spare;
+        if (covered > 0) {
+            widen_row(t, row);
         }
     }
     for (uint32_t y = 0; y < height; y++) {
+        ALP_TRY(alpi_tick(t->atlas->context, "texels", y, height));
         const uint32_t first = y > padding ? y - padding : 0;
         memset(t->around, 0, words * sizeof *t->around);
         for (uint32_t v = first; v <= y + padding && v < height; v++) {
@@ -112,6 +124,7 @@ static void count_page(tally *t, const uint64_t *page)
         }
         t->taken += count_bits(t->around, words);
     }
+    return ALP_OK;
 }
 
 /// √(texel area / world area) over the usable triangles.
@@ -139,8 +152,7 @@ static alp_result run_round(tally *t)
     memset(t->covered, 0, pages * page_words * sizeof *t->covered);
     ALP_TRY(alpi_raster(atlas, t->first_page, t->end_page, count_band, t));
     for (uint32_t p = 0; p < pages; p++) {
-        ALP_TRY(alpi_tick(atlas->context, "texels", t->first_page + p, atlas->info.pages));
-        count_page(t, t->covered + p * page_words);
+        ALP_TRY(count_page(t, t->covered + p * page_words));
     }
     return ALP_OK;
 }

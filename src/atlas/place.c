@@ -20,6 +20,20 @@ typedef struct fan {
     double ends[ALPI_POLYGON_LIMIT]; // of each triangle, ascending to 1
 } fan;
 
+/// A fan of no area: one point of the triangle. Rounding may leave nothing of a sliver where the
+/// raster, which clips in another order, found something.
+static void make_point(const alpi_page_triangle *page, const uint16_t pixel[2], fan *f)
+{
+    for (int k = 0; k < 2; k++) {
+        const double middle = (page->p[0][k] + page->p[1][k] + page->p[2][k]) / 3.0 - pixel[k];
+        for (int i = 0; i < 3; i++) {
+            f->shape.p[i][k] = alpi_lesser(alpi_greater(middle, 0.0), 1.0);
+        }
+    }
+    f->shape.count = 3;
+    f->ends[0] = 1.0;
+}
+
 static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, fan *f)
 {
     const alp_atlas *atlas = texels->atlas;
@@ -31,19 +45,24 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     f->map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
     alpi_facet_load(atlas->scene, triangle, (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0,
                     &f->facet);
-    double sum = 0.0;
     for (int i = 0; i < f->shape.count; i++) {
         f->shape.p[i][0] -= pixel[0];
         f->shape.p[i][1] -= pixel[1];
     }
+    double sum = 0.0;
     const double *o = f->shape.p[0];
     for (int i = 1; i + 1 < f->shape.count; i++) {
         const double *a = f->shape.p[i], *b = f->shape.p[i + 1];
-        sum += alpi_greater((a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]), 0.0);
+        const double part = (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+        sum += alpi_greater(part, 0.0);
         f->ends[i - 1] = sum;
     }
-    for (int i = 1; i + 1 < f->shape.count; i++) {
-        f->ends[i - 1] /= sum; // > 0: the piece was counted
+    if (!(sum > 0.0)) {
+        make_point(&page, pixel, f);
+        return;
+    }
+    for (int i = 0; i + 2 < f->shape.count; i++) {
+        f->ends[i] /= sum;
     }
 }
 
@@ -137,8 +156,9 @@ static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2],
         const float u = square[i][0] * (float)strata_count;
         uint32_t k = (uint32_t)u;
         k = k < strata_count ? k : strata_count - 1;
-        const float x = (float)(strata[k] % 4) + fminf(u - (float)k, below_one);
-        const float y = (float)(strata[k] / 4) + square[i][1];
+        const uint32_t column = strata[k] % 4u, row = strata[k] / 4u;
+        const float x = (float)column + fminf(u - (float)k, below_one);
+        const float y = (float)row + square[i][1];
         out[i][0] = fminf(0.25f * x, below_one);
         out[i][1] = fminf(0.25f * y, below_one);
     }

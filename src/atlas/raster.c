@@ -137,7 +137,7 @@ static alp_result add_piece(const raster *r, bench *b, alpi_cell *cell, const ac
     if (cell->coverage <= CROWDED_TEXEL) {
         b->pieces[b->piece_count] = (alpi_piece){.triangle = a->shape.triangle,
                                                  .next = cell->first_piece,
-                                                 .area = (float)(p->area * a->world_per_texel),
+                                                 .area = p->area * a->world_per_texel,
                                                  .x = (float)(p->centroid[0] - p->center[0] + 0.5),
                                                  .y = (float)(p->centroid[1] - p->center[1] + 0.5)};
         b->covered += cell->first_piece == ALPI_NONE;
@@ -198,27 +198,22 @@ static void full_texels(const active *a, uint32_t y, uint32_t *first, uint32_t *
 static void cut_row(const active *a, uint32_t y, alpi_polygon *rest)
 {
     const alpi_page_triangle *t = &a->shape;
-    *rest = (alpi_polygon){
-        3, {{t->p[0][0], t->p[0][1]}, {t->p[1][0], t->p[1][1]}, {t->p[2][0], t->p[2][1]}}};
-    alpi_polygon shape;
+    alpi_polygon_of_triangle(t, rest);
     if (t->low[1] < y) {
-        alpi_polygon_clip(rest, 1, y, false, &shape);
-        *rest = shape;
+        alpi_polygon_cut(rest, 1, y, false);
     }
     if (t->high[1] > y + 1.0) {
-        alpi_polygon_clip(rest, 1, y + 1.0, true, &shape);
-        *rest = shape;
+        alpi_polygon_cut(rest, 1, y + 1.0, true);
     }
     if (t->low[0] < a->first_column) {
-        alpi_polygon_clip(rest, 0, a->first_column, false, &shape);
-        *rest = shape;
+        alpi_polygon_cut(rest, 0, a->first_column, false);
     }
 }
 
 /// Adds one triangle's share of row y.
 static alp_result add_row(const raster *r, bench *b, const active *a, uint32_t y, alpi_cell *cells)
 {
-    alpi_polygon rest, shape;
+    alpi_polygon rest;
     cut_row(a, y, &rest);
     uint32_t full_first, full_end;
     full_texels(a, y, &full_first, &full_end);
@@ -228,8 +223,7 @@ static alp_result add_row(const raster *r, bench *b, const active *a, uint32_t y
             const part all = {1.0, {center[0], center[1]}, {center[0], center[1]}};
             ALP_TRY(add_piece(r, b, &cells[x], a, &all));
             if (x + 1 == full_end) {
-                alpi_polygon_clip(&rest, 0, full_end, false, &shape);
-                rest = shape;
+                alpi_polygon_cut(&rest, 0, full_end, false);
             }
             continue;
         }
@@ -238,9 +232,8 @@ static alp_result add_row(const raster *r, bench *b, const active *a, uint32_t y
         }
         alpi_polygon inside;
         alpi_polygon_clip(&rest, 0, x + 1.0, true, &inside);
-        alpi_polygon_clip(&rest, 0, x + 1.0, false, &shape);
         ALP_TRY(add_shape(r, b, &cells[x], a, &inside, center));
-        rest = shape;
+        alpi_polygon_cut(&rest, 0, x + 1.0, false);
     }
     return ALP_OK;
 }
@@ -347,7 +340,7 @@ static alp_result find_bands(void *user, uint32_t begin, uint32_t end, uint32_t 
         const uint32_t page = atlas->triangle_pages[t];
         r->bands[t][0] = 1;
         r->bands[t][1] = 0;
-        if (atlas->scene->triangle_usable[t] && page >= r->first_page && page < r->end_page &&
+        if (atlas->triangle_charts[t] != ALPI_NONE && page >= r->first_page && page < r->end_page &&
             alpi_page_triangle_load(atlas, t, &shape) &&
             alpi_page_triangle_range(&shape, 0, atlas->info.width, &first, &last) &&
             alpi_page_triangle_range(&shape, 1, atlas->info.height, &row[0], &row[1])) {

@@ -20,9 +20,9 @@ typedef struct alpi_cell {
 
 /// A triangle's part of a texel.
 typedef struct alpi_piece {
+    double area; // m²
     uint32_t triangle;
     uint32_t next; // of the same texel, or ALPI_NONE
-    float area;    // m²
     float x, y;    // centroid in the texel, [0, 1]
 } alpi_piece;
 

@@ -2,6 +2,8 @@
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
 #include "bake/job.h"
 
+#include "atlas/choice.h"
+#include "base/memory.h"
 #include "base/tasks.h"
 #include "transport/occlusion.h"
 
@@ -27,6 +29,14 @@ static alp_result check_options(const alpi_bake_job *job)
     if ((int)o->existing_ao < ALP_EXISTING_AO_REPLACE || o->existing_ao > ALP_EXISTING_AO_KEEP) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
+    }
+    if ((int)o->ao_into < ALP_AO_INTO_SEPARATE || o->ao_into > ALP_AO_INTO_ORM) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
+    }
+    if (o->ao_into == ALP_AO_INTO_ORM && o->atlas.mode == ALP_ATLAS_VERTEX) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: occlusion at vertices has no map to pack into an image");
     }
     const alp_sampling_options *s = &o->sampling;
     const bool accuracy_is_valid =
@@ -67,7 +77,8 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    ALP_TRY(alp_atlas_create(job->scene, &options, &atlas));
+    const alpi_atlas_choice choice = {job->only, job->originals};
+    ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
@@ -84,15 +95,18 @@ static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);
     }
+    ALP_TRY(alpi_bake_plan_packing(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     ALP_TRY(alpi_bake_occlusion(job));
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
+    ALP_TRY(alpi_bake_pack_images(job));
     ALP_TRY(alpi_bake_write_outputs(job));
     job->report.seconds_write = alpi_seconds() - write_started;
     job->report.seconds_total = alpi_seconds() - started;
@@ -118,6 +132,10 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     alp_result result = run(&job);
     alpi_set_watch(job.context, former);
+    alpi_release(job.context, job.only);
+    alpi_release(job.context, job.occluders);
+    alpi_release(job.context, job.originals);
+    alpi_bake_release_packing(&job);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

@@ -8,14 +8,36 @@
 
 #include <alpenglow/bake.h>
 
+/// An image of the scene that occlusion is packed into.
+typedef struct alpi_pack_target {
+    uint32_t image; // of the scene
+    uint8_t *png;   // owned, NULL until it is made
+    size_t png_size;
+} alpi_pack_target;
+
+/// What --ao-into orm comes to: which materials read their occlusion from which image.
+typedef struct alpi_packing {
+    uint32_t count;
+    alpi_pack_target *targets;  // [count], as many as images at most
+    uint32_t *material_targets; // [materials] index into targets, ALPI_NONE = a separate map; or
+                                // NULL: all
+} alpi_packing;
+
 typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
     alp_bake_options options;
+    bool *only, *occluders; // [surface_count] those of the patterns, NULL = all
+    uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3]; // [texels] while sampling; NULL: not asked for
+    alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
+
+/// Fills only, occluders, originals and report.surfaces_baked.
+/// @return ALP_OK; INVALID_ARGUMENT: a pattern that matches nothing, or occluders with ao_self
+alp_result alpi_bake_choose(alpi_bake_job *job);
 
 /// Tells the user that a stage begins; false from the user cancels.
 alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
@@ -28,10 +50,12 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job);
 /// Room for what the maps besides occlusion need while they are gathered, and its end.
 alp_result alpi_bake_begin_side_maps(alpi_bake_job *job);
 void alpi_bake_end_side_maps(alpi_bake_job *job);
-/// Coloured obscurance of the texels in `order`, if it was asked for; `samples` rays each.
+/// Coloured obscurance of the texels in `order`, if it was asked for; `samples` rays each. The
+/// stage of `progress` is set here.
 alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *setup,
                                 const alpi_receivers *receivers, const uint32_t *order,
-                                uint32_t order_count, uint32_t samples);
+                                uint32_t order_count, uint32_t samples,
+                                const alpi_task_progress *progress);
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
@@ -47,6 +71,16 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 
+/// Decides which images occlusion is packed into, and says why not where it is not.
+alp_result alpi_bake_plan_packing(alpi_bake_job *job);
+/// Makes those images from the finished maps.
+alp_result alpi_bake_pack_images(alpi_bake_job *job);
+void alpi_bake_release_packing(alpi_bake_job *job);
+/// Bytes that making them takes at its peak, besides the encoded ones.
+uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
+/// Whether the occlusion of a triangle is packed into an image.
+bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
+
 /// Refuses what has no meaning together with the choice of values at vertices or of maps.
 alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);
 /// The whole job of ALP_ATLAS_VERTEX, after the options were checked.
@@ -58,7 +92,8 @@ char *alpi_bake_make_extras(const alpi_bake_job *job);
 /// A warning when nearly nothing is open.
 void alpi_bake_warn_of_darkness(const alpi_bake_job *job);
 
-/// Multiplies each value by the occlusion map that the texel's material has already.
+/// Multiplies each value by the occlusion map that the texel's material has already; not those that
+/// are packed, which are multiplied where they go to.
 void alpi_bake_multiply_existing(const alpi_bake_job *job, float *accessibility);
 
 #endif

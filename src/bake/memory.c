@@ -32,7 +32,8 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps)
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    double needed = (double)alpi_bake_memory(atlas, job->options.maps);
+    double needed =
+        (double)alpi_bake_memory(atlas, job->options.maps) + (double)alpi_bake_packing_memory(job);
     double present = (double)pages * (double)page_size;
     const uint64_t limit = job->options.sampling.memory_limit;
     if (limit > 0 && needed > (double)limit) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The occlusion stage of a bake: tracer → map → lightmap, and what the report says of it.
-#include "bake/job.h"
+#include "bake/objects.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/occlusion_map.h"
+#include "maps/stated_error.h"
 #include "maps/validity.h"
 
 #include <math.h>
@@ -69,60 +70,11 @@ static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map
     warn_of_error(job);
 }
 
-/// Texels in an order without those that take their value from elsewhere. @return how many
-static uint32_t drop(const alpi_lattice *lattice, uint32_t count, const uint8_t *dropped,
-                     uint32_t *order)
-{
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t t = lattice->order[i];
-        if (!dropped[t]) {
-            order[kept++] = t;
-        }
-    }
-    return kept;
-}
-
-/// Looks for texels inside other geometry, then gathers the others.
-static alp_result gather_valid(alpi_bake_job *job, const alpi_occlusion_setup *setup,
-                               const alpi_receivers *receivers, alpi_occlusion_map_options *options,
-                               alpi_lattice *lattice)
-{
-    alpi_texels *texels = &job->lightmap->texels;
-    const alpi_task_progress progress = {
-        .callback = job->options.progress, .user = job->options.progress_user, .stage = "validity"};
-    alpi_validity validity;
-    ALP_TRY(alpi_validity_create(setup, receivers, texels, lattice, lattice->order, texels->count,
-                                 &progress, &validity));
-    job->report.rays += validity.rays;
-    job->report.moved = validity.moved_count;
-    job->report.dropped = validity.dropped_count;
-    options->near = validity.near;
-    uint32_t *order = ALPI_NEW(job->context, uint32_t, texels->count);
-    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    alpi_occlusion_map_report report;
-    if (order != NULL) {
-        const uint32_t count = drop(lattice, texels->count, validity.dropped, order);
-        result = alpi_occlusion_map(setup, receivers, order, count, options, lattice,
-                                    job->lightmap->errors, &report);
-        if (result == ALP_OK) {
-            result = alpi_bake_obscurance(job, setup, receivers, order, count, report.samples);
-        }
-    }
-    alpi_release(job->context, order);
-    alpi_validity_destroy(&validity);
-    if (result == ALP_OK) {
-        fill_report(job, &report, lattice);
-    }
-    return result;
-}
-
-static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lattice *lattice)
+/// Options of the map that are the same for all objects.
+static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
 {
     const alp_sampling_options *s = &job->options.sampling;
-    const alpi_texels *texels = &job->lightmap->texels;
-    const alpi_receivers receivers = alpi_texels_receivers(texels);
-    alpi_occlusion_map_options options = {
+    return (alpi_occlusion_map_options){
         .accuracy = s->accuracy,
         .error = s->error,
         .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
@@ -131,13 +83,157 @@ static alp_result gather(alpi_bake_job *job, const alpi_tracer *tracer, alpi_lat
         .progress = job->options.progress,
         .progress_user = job->options.progress_user,
     };
-    alpi_occlusion_setup setup;
-    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &job->options.occlusion, &setup));
-    setup.bent = job->bent != NULL;
-    job->report.ao_distance = setup.distance;
-    alp_result result = gather_valid(job, &setup, &receivers, &options, lattice);
-    alpi_occlusion_release(&setup);
+}
+
+/// Texels in an order without those that take their value from elsewhere. @return how many
+static uint32_t drop(const alpi_object *object, const uint8_t *dropped, uint32_t *order)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < object->texel_count; i++) {
+        const uint32_t t = object->texels[i];
+        if (!dropped[t]) {
+            order[kept++] = t;
+        }
+    }
+    return kept;
+}
+
+/// Looks for texels of an object that are inside other geometry, then gathers the others.
+static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
+                               const alpi_occlusion_setup *setup,
+                               alpi_occlusion_map_options options, alpi_lattice *lattice,
+                               alpi_occlusion_map_report *report)
+{
+    alpi_texels *texels = &job->lightmap->texels;
+    const alpi_receivers receivers = alpi_texels_receivers(texels);
+    const alpi_task_progress progress = {
+        .callback = options.progress, .user = options.progress_user, .stage = "validity"};
+    alpi_validity validity;
+    ALP_TRY(alpi_validity_create(setup, &receivers, texels, lattice, object->texels,
+                                 object->texel_count, &progress, &validity));
+    job->report.rays += validity.rays;
+    job->report.moved += validity.moved_count;
+    job->report.dropped += validity.dropped_count;
+    options.near = validity.near;
+    uint32_t *order = ALPI_NEW(job->context, uint32_t, object->texel_count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (order != NULL) {
+        const uint32_t count = drop(object, validity.dropped, order);
+        result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
+                                    job->lightmap->errors, report);
+        if (result == ALP_OK) {
+            result = alpi_bake_obscurance(job, setup, &receivers, order, count, report->samples,
+                                          &progress);
+        }
+    }
+    alpi_release(job->context, order);
+    alpi_validity_destroy(&validity);
     return result;
+}
+
+/// Gathers the texels of one object: with the tracer of what occludes it, to its distance limit.
+static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
+                                const alpi_object *object,
+                                const alpi_occlusion_map_options *options, alpi_lattice *lattice,
+                                alpi_occlusion_map_report *report)
+{
+    const double started = alpi_seconds();
+    alpi_tracer *tracer = NULL, *owned = NULL;
+    ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
+                               &tracer, &owned));
+    job->report.seconds_build += alpi_seconds() - started;
+    alp_occlusion_options occlusion = job->options.occlusion;
+    occlusion.distance = object->distance;
+    alpi_occlusion_setup setup;
+    alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
+    if (result == ALP_OK) {
+        setup.bent = job->bent != NULL;
+        job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
+        result = gather_valid(job, object, &setup, *options, lattice, report);
+    }
+    alpi_occlusion_release(&setup);
+    alpi_tracer_destroy(owned);
+    return result;
+}
+
+static void add_report(alpi_occlusion_map_report *all, const alpi_occlusion_map_report *one)
+{
+    all->rays += one->rays;
+    all->traced += one->traced;
+    all->interpolated += one->interpolated;
+    all->unknown += one->unknown;
+    all->samples = one->samples > all->samples ? one->samples : all->samples;
+    all->relative = one->relative;
+    all->p99 = one->p99;
+    all->cut_off = all->cut_off || one->cut_off;
+}
+
+/// The stated error of all objects together.
+static alp_result join_errors(const alpi_bake_job *job, const alpi_lattice *lattice,
+                              alpi_occlusion_map_report *all)
+{
+    const float *errors = job->lightmap->errors;
+    const uint32_t count = job->lightmap->texels.count;
+    const double mean = fmax(area_mean(&job->lightmap->texels, lattice), 1e-30);
+    double sum = 0.0, p99 = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += (double)errors[i] * (double)errors[i];
+    }
+    ALP_TRY(alpi_percentile(job->context, errors, lattice->order, count, 0.99, &p99));
+    all->relative = sqrt(sum / fmax((double)count, 1.0)) / mean;
+    all->p99 = p99 / mean;
+    return ALP_OK;
+}
+
+/// Several objects, one after the other; told as one stage. After a cut-off the others stay
+/// unknown.
+static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
+                               alpi_occlusion_map_report *all)
+{
+    const double texels = (double)job->lightmap->texels.count;
+    alpi_part_progress part = {.callback = job->options.progress,
+                               .user = job->options.progress_user,
+                               .stage = "occlusion",
+                               .started = alpi_seconds(),
+                               .rays = (uint64_t)(texels * job->options.occlusion.samples)};
+    alpi_occlusion_map_options options = map_options(job);
+    options.progress = alpi_tell_part;
+    options.progress_user = &part;
+    for (uint32_t i = 0; i < objects->count; i++) {
+        const alpi_object *object = &objects->items[i];
+        alpi_occlusion_map_report one = {.unknown = object->texel_count};
+        part.begin = part.end;
+        part.end += (double)object->texel_count / texels;
+        if (!all->cut_off) {
+            alp_result result = gather_object(job, objects, object, &options, lattice, &one);
+            const bool kept = job->options.sampling.keep_partial && all->traced > 0;
+            if (result == ALP_ERROR_CANCELLED && kept) { // before its rays: others have theirs
+                one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
+            } else {
+                ALP_TRY(result);
+            }
+        }
+        add_report(all, &one);
+    }
+    return join_errors(job, lattice, all);
+}
+
+static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
+{
+    alpi_objects objects;
+    alpi_occlusion_map_report all = {0};
+    ALP_TRY(alpi_objects_create(job, lattice->order, &objects));
+    alp_result result;
+    if (objects.count == 1) {
+        const alpi_occlusion_map_options options = map_options(job);
+        result = gather_object(job, &objects, &objects.items[0], &options, lattice, &all);
+    } else {
+        result = gather_apart(job, &objects, lattice, &all);
+    }
+    alpi_objects_destroy(&objects);
+    ALP_TRY(result);
+    fill_report(job, &all, lattice);
+    return ALP_OK;
 }
 
 static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
@@ -156,15 +252,11 @@ static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
 alp_result alpi_bake_occlusion(alpi_bake_job *job)
 {
     ALP_TRY(alpi_bake_begin_stage(job, "build"));
-    alpi_tracer *tracer = NULL;
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
-                                  &tracer, &job->report.seconds_build));
     const double started = alpi_seconds();
     alpi_lattice lattice;
     ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
-    alp_result result = alpi_bake_begin_side_maps(job);
-    result = result == ALP_OK ? gather(job, tracer, &lattice) : result;
-    job->report.seconds_bake = alpi_seconds() - started;
+    alp_result result = gather(job, &lattice);
+    job->report.seconds_bake = alpi_seconds() - started - job->report.seconds_build;
     if (result == ALP_OK && job->report.cut_off) {
         job->options.progress = NULL; // asked again it would cancel what it wanted kept
         alpi_set_watch(job->context, (alpi_watch){0});

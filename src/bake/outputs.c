@@ -76,7 +76,8 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
         }
-        ALP_TRY(alpi_gltf_check_output(job->scene, pages, o->output, o->overwrite));
+        ALP_TRY(alpi_gltf_check_packed_output(job->scene, pages, job->packing.count, o->output,
+                                              o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -118,24 +119,67 @@ static void replace_pages(const alpi_bake_job *job, json_t *occlusion)
                         json_string(in_color ? "COLOR_0" : "_OCCLUSION"));
 }
 
+/// A name of the scene, which arrays may give in any bytes.
+static json_t *name_text(const char *name)
+{
+    json_t *text = json_string(name);
+    return text != NULL ? text : json_string("(no UTF-8)");
+}
+
+/// What was baked and what it saw, where that is not everything.
+static void add_choice(const alpi_bake_job *job, json_t *object)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->ao_self) {
+        json_object_set_new(object, "self", json_true());
+    }
+    if (o->occluders != NULL) {
+        json_object_set_new(object, "occluders", name_text(o->occluders));
+    }
+    if (job->only == NULL) {
+        return;
+    }
+    json_t *names = json_array();
+    const char *last = NULL;
+    for (uint32_t s = 0; s < job->scene->surface_count; s++) {
+        const char *name = job->scene->surfaces[s].name;
+        if (job->only[s] && (last == NULL || strcmp(last, name) != 0)) { // primitives of one node
+            json_array_append_new(names, name_text(name));
+            last = name;
+        }
+    }
+    json_object_set_new(object, "only", name_text(o->only));
+    json_object_set_new(object, "surfaces", names);
+}
+
+/// The distance limit: metres, "inf", or what it is of each object.
+static json_t *distance_value(const alpi_bake_job *job)
+{
+    if (job->options.ao_self && job->options.occlusion.distance == 0.0f) {
+        return json_string("0.2 of each object's diagonal");
+    }
+    return job->report.ao_distance < 1e30f ? json_real((double)job->report.ao_distance)
+                                           : json_string("inf");
+}
+
 /// Version, options, quantity, input hash.
 char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
     const alp_occlusion_options *ao = &job->options.occlusion;
     char hash[17];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)job->scene->input_hash);
-    json_t *distance = job->report.ao_distance < 1e30f ? json_real((double)job->report.ao_distance)
-                                                       : json_string("inf");
     json_t *object = json_pack(
         "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:f, s:b, s:s, s:i, s:i, s:i}}",
         "version", alp_version(), "input_hash", hash, "occlusion", "quantity",
         "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)job->report.ao_samples,
-        "distance_m", distance, "falloff", falloff_name(ao->falloff), "cone_rad", (double)ao->cone,
-        "distribution", ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform",
-        "one_sided", (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
+        "distance_m", distance_value(job), "falloff", falloff_name(ao->falloff), "cone_rad",
+        (double)ao->cone, "distribution",
+        ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform", "one_sided",
+        (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
         job->report.ao_relative_error, "cut_off", (int)job->report.cut_off, "atlas",
         atlas_name(job->report.atlas.mode), "size", (int)job->report.atlas.width, "pages",
         (int)job->report.atlas.pages, "padding", (int)job->options.atlas.padding);
+    add_choice(job, object); // jansson takes NULL and does nothing
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
     }
@@ -241,9 +285,15 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     uint32_t count = job->lightmap->page_count;
     const uint8_t **pngs = ALPI_NEW(job->context, const uint8_t *, count);
     size_t *sizes = ALPI_NEW(job->context, size_t, count);
+    const alpi_packing *packing = &job->packing;
+    alpi_packed_image *packed = ALPI_NEW(job->context, alpi_packed_image, packing->count);
     char *extras = alpi_bake_make_extras(job);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (pngs != NULL && sizes != NULL && extras != NULL) {
+    if (pngs != NULL && sizes != NULL && packed != NULL && extras != NULL) {
+        for (uint32_t i = 0; i < packing->count; i++) {
+            const alpi_pack_target *target = &packing->targets[i];
+            packed[i] = (alpi_packed_image){target->image, target->png, target->png_size};
+        }
         for (uint32_t p = 0; p < count; p++) {
             pngs[p] = pages[p].bytes[MAP_AO_PNG];
             sizes[p] = pages[p].sizes[MAP_AO_PNG];
@@ -255,11 +305,15 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .corner_uvs = keep ? NULL : (const float(*)[3][2])atlas->corner_uvs,
             .kept_uv_set = 1,
             .triangle_pages = atlas->triangle_pages,
+            .originals = job->originals,
             .page_pngs = pngs,
             .page_png_sizes = sizes,
             .existing_ao = job->options.existing_ao == ALP_EXISTING_AO_KEEP
                                ? ALPI_EXISTING_AO_KEEP
                                : ALPI_EXISTING_AO_REPLACE,
+            .packed_count = packing->count,
+            .packed_images = packed,
+            .material_packed = packing->material_targets,
             .occlusion_strength = 1.0f,
             .extras_json = extras,
         };
@@ -268,6 +322,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     }
     alpi_release(job->context, pngs);
     alpi_release(job->context, sizes);
+    alpi_release(job->context, packed);
     alpi_release(job->context, extras);
     return result;
 }

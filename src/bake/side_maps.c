@@ -56,16 +56,16 @@ void alpi_bake_end_side_maps(alpi_bake_job *job)
 
 alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *setup,
                                 const alpi_receivers *receivers, const uint32_t *order,
-                                uint32_t order_count, uint32_t samples)
+                                uint32_t order_count, uint32_t samples,
+                                const alpi_task_progress *progress)
 {
     if (job->obscurance == NULL) {
         return ALP_OK;
     }
-    const alpi_task_progress progress = {.callback = job->options.progress,
-                                         .user = job->options.progress_user,
-                                         .stage = "obscurance"};
+    alpi_task_progress told = *progress;
+    told.stage = "obscurance";
     job->report.rays += (uint64_t)order_count * samples;
-    return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &progress,
+    return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &told,
                                   job->obscurance);
 }
 

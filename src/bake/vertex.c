@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The job without an atlas: vertices → acceleration structure → occlusion → values → the asset; and
 // a word to the user where triangles are too large for what lies on them.
-#include "bake/job.h"
+#include "bake/objects.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -32,6 +32,11 @@ alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job)
         return alpi_fail(job->context, code,
                          "%s: a bake at vertices has no maps to write; give an output alone",
                          o->maps_folder);
+    }
+    if (at_vertices && (o->only != NULL || o->ao_self)) {
+        return alpi_fail(job->context, code,
+                         "bake: at vertices all surfaces are baked, and together: no only and no "
+                         "ao_self");
     }
     const alp_sampling_options *sampling = &o->sampling;
     if (at_vertices && (sampling->accuracy > 0.0f || sampling->error != 0.0f ||
@@ -182,12 +187,9 @@ static alp_result store(alpi_bake_job *job, const alpi_vertex_map *map, const fl
     return alpi_lightmap_create_vertices(job->scene, all, &job->lightmap);
 }
 
-static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *values)
+static alp_result gather_with(alpi_bake_job *job, const alpi_vertex_map *map,
+                              const alpi_tracer *tracer, float *values)
 {
-    ALP_TRY(alpi_bake_begin_stage(job, "build"));
-    alpi_tracer *tracer = NULL;
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
-                                  &tracer, &job->report.seconds_build));
     double started = alpi_seconds();
     alp_occlusion_options options = job->options.occlusion;
     options.progress = job->options.progress;
@@ -207,6 +209,19 @@ static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *
     job->report.seconds_bake = alpi_seconds() - started;
     alpi_bake_warn_of_darkness(job);
     return store(job, map, values);
+}
+
+static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *values)
+{
+    double started = alpi_seconds();
+    ALP_TRY(alpi_bake_begin_stage(job, "build"));
+    alpi_tracer *tracer = NULL, *owned = NULL;
+    ALP_TRY(
+        alpi_bake_tracer(job, job->options.progress, job->options.progress_user, &tracer, &owned));
+    job->report.seconds_build = alpi_seconds() - started;
+    alp_result result = gather_with(job, map, tracer, values);
+    alpi_tracer_destroy(owned);
+    return result;
 }
 
 static alp_result find_values(alpi_bake_job *job)

@@ -10,6 +10,21 @@
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
+typedef enum alpi_image_encoding {
+    ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
+    ALPI_IMAGE_ENCODING_PNG_16,
+    ALPI_IMAGE_ENCODING_JPEG,
+    ALPI_IMAGE_ENCODING_OTHER // or not readable, or of a scene without a document
+} alpi_image_encoding;
+typedef struct alpi_image_source {
+    alpi_image_encoding encoding;
+    char name[96]; // for messages: "image 3 (wood.png)"
+} alpi_image_source;
+/// How image `image` of the scene's document is stored; what cannot be read is OTHER.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_gltf_image_source(const alp_scene *scene, uint32_t image,
+                                  alpi_image_source *source);
+
 /// Writes the scene's document with the patch to `path` (.glb or .gltf by its ending). A scene that
 /// came from no file is first exported to glTF. Nothing is overwritten unless asked; every file is
 /// written to a temporary one and renamed.
@@ -20,6 +35,9 @@ alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch
 /// writable, not there already unless overwrite.
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite);
+/// The same for a patch with packed images.
+alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
+                                         uint32_t packed_count, const char *path, bool overwrite);
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.

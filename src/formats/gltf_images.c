@@ -9,6 +9,7 @@
 #include "formats/gltf_tree.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static void mark_image(const alpi_texture *texture, bool *needed)
 {
@@ -31,10 +32,9 @@ static void mark_images(const alpi_gltf_reader *reader, bool *needed)
 }
 
 /// The encoded bytes. *owned is what to release, NULL when they lie in a buffer.
-static alp_result find_bytes(const alpi_gltf_reader *reader, size_t index, const char *owner,
+static alp_result find_bytes(const alpi_gltf_document *document, size_t index, const char *owner,
                              alpi_gltf_view *view, uint8_t **owned)
 {
-    const alpi_gltf_document *document = reader->document;
     json_t *object = alpi_gltf_item(document, "images", index);
     size_t buffer_view;
     ALP_TRY(alpi_gltf_index(document, object, "bufferView", "bufferViews", owner, &buffer_view));
@@ -56,7 +56,7 @@ static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_i
     snprintf(owner, sizeof owner, "image %zu", index);
     alpi_gltf_view view = {0};
     uint8_t *owned = NULL;
-    alp_result result = find_bytes(reader, index, owner, &view, &owned);
+    alp_result result = find_bytes(reader->document, index, owner, &view, &owned);
     if (result == ALP_OK) {
         char *name = alpi_format(reader->context, "%s: %s", reader->document->path, owner);
         result = name == NULL
@@ -98,4 +98,44 @@ alp_result alpi_gltf_read_images(alpi_gltf_reader *reader)
     }
     alpi_release(reader->context, needed);
     return result;
+}
+
+// --- how an image is stored ----------------------------------------------------------------------
+
+static alpi_image_encoding find_encoding(const alpi_gltf_view *view)
+{
+    enum { PNG_DEPTH_AT = 24 }; // signature 8, chunk header 8, width 4, height 4
+    if (view->size > PNG_DEPTH_AT && memcmp(view->bytes, "\x89PNG", 4) == 0) {
+        return view->bytes[PNG_DEPTH_AT] == 16 ? ALPI_IMAGE_ENCODING_PNG_16
+                                               : ALPI_IMAGE_ENCODING_PNG_8;
+    }
+    if (view->size > 3 && memcmp(view->bytes, "\xff\xd8\xff", 3) == 0) {
+        return ALPI_IMAGE_ENCODING_JPEG;
+    }
+    return ALPI_IMAGE_ENCODING_OTHER;
+}
+
+alp_result alpi_gltf_image_source(const alp_scene *scene, uint32_t image, alpi_image_source *source)
+{
+    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    *source = (alpi_image_source){.encoding = ALPI_IMAGE_ENCODING_OTHER};
+    snprintf(source->name, sizeof source->name, "image %u", image);
+    if (document == NULL || image >= alpi_gltf_count(document, "images")) {
+        return ALP_OK;
+    }
+    json_t *object = alpi_gltf_item(document, "images", image);
+    const char *text = alpi_gltf_text(object, "name");
+    text = text != NULL ? text : alpi_gltf_text(object, "uri");
+    if (text != NULL && text[0] != '\0' && strncmp(text, "data:", 5) != 0) {
+        snprintf(source->name, sizeof source->name, "image %u (%.60s)", image, text);
+        alpi_gltf_clean(source->name);
+    }
+    alpi_gltf_view view = {0};
+    uint8_t *owned = NULL;
+    alp_result result = find_bytes(document, image, source->name, &view, &owned);
+    if (result == ALP_OK) {
+        source->encoding = find_encoding(&view);
+    }
+    alpi_release(scene->context, owned);
+    return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names of the files that a written .gltf refers to: OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png.
+// Names of the files that a written .gltf refers to: OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png,
+// OUT.orm.png, OUT.orm.1.png.
 // A file baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
 #include "formats/gltf_patch.h"
 
@@ -56,15 +57,23 @@ static alp_result is_referenced(const alpi_gltf_document *document, const char *
     return ALP_OK;
 }
 
+static uint32_t image_count(const alpi_gltf_names *names)
+{
+    return names->page_count + names->packed_count;
+}
+
 static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *names)
 {
     bool good = (names->bin = alpi_format(context, "%s.bin", stem)) != NULL &&
                 (names->data = alpi_format(context, "%s.ao.bin", stem)) != NULL &&
                 (names->bin_uri = escape_uri(context, alpi_path_name(names->bin))) != NULL &&
                 (names->data_uri = escape_uri(context, alpi_path_name(names->data))) != NULL;
-    for (uint32_t i = 0; good && i < names->page_count; i++) {
-        names->pages[i] = i == 0 ? alpi_format(context, "%s.ao.png", stem)
-                                 : alpi_format(context, "%s.ao.%u.png", stem, i);
+    for (uint32_t i = 0; good && i < image_count(names); i++) {
+        bool packed = i >= names->page_count;
+        const char *kind = packed ? "orm" : "ao";
+        uint32_t number = packed ? i - names->page_count : i;
+        names->pages[i] = number == 0 ? alpi_format(context, "%s.%s.png", stem, kind)
+                                      : alpi_format(context, "%s.%s.%u.png", stem, kind, number);
         good = names->pages[i] != NULL &&
                (names->page_uris[i] = escape_uri(context, alpi_path_name(names->pages[i]))) != NULL;
     }
@@ -76,7 +85,7 @@ static alp_result find_clash(const alpi_gltf_document *document, const alpi_gltf
 {
     const char *const files[] = {names->bin, names->data};
     *clash = false;
-    for (size_t i = 0; i < 2 + (size_t)names->page_count && !*clash; i++) {
+    for (size_t i = 0; i < 2 + (size_t)image_count(names) && !*clash; i++) {
         const char *name = alpi_path_name(i < 2 ? files[i] : names->pages[i - 2]);
         ALP_TRY(is_referenced(document, "buffers", name, clash));
         if (!*clash) {
@@ -90,8 +99,8 @@ static alp_result try_names(alp_context *context, const alpi_gltf_document *docu
                             const char *path, uint32_t attempt, alpi_gltf_names *names, bool *clash)
 {
     int length = (int)(strlen(path) - strlen(".gltf"));
-    ALPI_TRY_NEW(context, names->pages, names->page_count);
-    ALPI_TRY_NEW(context, names->page_uris, names->page_count);
+    ALPI_TRY_NEW(context, names->pages, image_count(names));
+    ALPI_TRY_NEW(context, names->page_uris, image_count(names));
     char *stem = attempt == 1 ? alpi_format(context, "%.*s", length, path)
                               : alpi_format(context, "%.*s-%u", length, path, attempt);
     bool good = stem != NULL && fill_names(context, stem, names);
@@ -104,13 +113,15 @@ static alp_result try_names(alp_context *context, const alpi_gltf_document *docu
 }
 
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
-                                  const char *path, uint32_t page_count, alpi_gltf_names *names)
+                                  const char *path, uint32_t page_count, uint32_t packed_count,
+                                  alpi_gltf_names *names)
 {
     bool clash = true;
     *names = (alpi_gltf_names){0};
     for (uint32_t attempt = 1; clash; attempt++) { // ends: a document refers to finitely many
         alpi_gltf_names_destroy(context, names);
         names->page_count = page_count;
+        names->packed_count = packed_count;
         alp_result result = try_names(context, document, path, attempt, names, &clash);
         if (result != ALP_OK) {
             alpi_gltf_names_destroy(context, names);
@@ -122,7 +133,7 @@ alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document
 
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names)
 {
-    for (uint32_t i = 0; i < names->page_count; i++) {
+    for (uint32_t i = 0; i < image_count(names); i++) {
         if (names->pages != NULL) {
             alpi_release(context, names->pages[i]);
         }

@@ -69,6 +69,11 @@ static alp_result fill_patcher(alpi_gltf_patcher *p)
     for (uint32_t i = 0; i < p->patch->page_count; i++) {
         p->page_textures[i] = ALPI_GLTF_NONE;
     }
+    ALPI_TRY_NEW(p->context, p->packed_images, p->patch->packed_count);
+    memset(p->packed_images, 0xff, p->patch->packed_count * sizeof *p->packed_images); // all NONE
+    size_t textures = p->lists[ALPI_GLTF_TEXTURES].count;
+    ALPI_TRY_NEW(p->context, p->texture_copies, textures);
+    memset(p->texture_copies, 0xff, textures * sizeof *p->texture_copies);
     return ALP_OK;
 }
 
@@ -102,8 +107,11 @@ void alpi_patcher_destroy(alpi_gltf_patcher *p)
     alpi_release(p->context, p->known_table);
     alpi_release(p->context, p->triangle_pages);
     alpi_release(p->context, p->plans);
+    alpi_release(p->context, p->showings);
     alpi_release(p->context, p->pieces);
     alpi_release(p->context, p->page_textures);
+    alpi_release(p->context, p->packed_images);
+    alpi_release(p->context, p->texture_copies);
     alpi_release(p->context, p->image_embedded);
     *p = (alpi_gltf_patcher){
         .context = p->context, .edits = {.context = p->context}, .data = {.context = p->context}};

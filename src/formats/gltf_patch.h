@@ -4,6 +4,7 @@
 //   gltf_patch.c           the patcher: root arrays that grow, new binary data, the whole sequence
 //   gltf_patch_plan.c      which primitives get what: coordinate set, pages, in place or in a copy
 //   gltf_patch_material.c  one material per (old material, page, coordinate set)
+//   gltf_patch_packed.c    materials whose occlusion goes into an image that they have already
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
 //   gltf_patch_vertex.c    values at vertices as an attribute
@@ -42,21 +43,28 @@ typedef struct alpi_gltf_list {
 
 /// A part of a primitive whose triangles lie on one page; it becomes a primitive of its own.
 typedef struct alpi_gltf_piece {
-    uint32_t page;
+    uint32_t page;   // ALPI_NONE: its material's occlusion is packed into an image
     size_t material; // in the written file
 } alpi_gltf_piece;
 
 /// One surface that gets a map. Plans with the same `user` are neighbours: the primitives of one
-/// node (with kept coordinates: of one mesh).
+/// node, which further nodes may show too (with kept coordinates: of one mesh).
 typedef struct alpi_gltf_plan {
     uint32_t surface;
     size_t user; // node, or mesh with kept coordinates
     size_t mesh, primitive;
     size_t material; // in the document, ALPI_GLTF_NONE = none
     uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
-    bool in_a_copy;  // the mesh is copied for this node, because others use it too
+    bool packed;     // only its material changes
+    bool in_a_copy;  // the mesh is copied for its nodes, because others use it too
     size_t piece_first, piece_count;
+    size_t showing_first, showing_end; // of the first plan of a user: its nodes
 } alpi_gltf_plan;
+
+/// A node that shows the mesh of a user.
+typedef struct alpi_gltf_showing {
+    size_t user, node;
+} alpi_gltf_showing;
 
 // --- the patcher ---------------------------------------------------------------------------------
 
@@ -82,12 +90,16 @@ typedef struct alpi_gltf_patcher {
     uint32_t *triangle_pages; // [scene triangles] page of each; zero-area ones follow a neighbour
     alpi_gltf_plan *plans;
     size_t plan_count;
+    alpi_gltf_showing *showings; // sorted by user
+    size_t showing_count;
     alpi_gltf_piece *pieces;
     size_t piece_count, piece_capacity;
 
     // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
     size_t *page_textures;  // [page_count]
-    char *const *page_uris; // [page_count], or NULL: embed
+    char *const *page_uris; // [page_count + packed_count], or NULL: embed
+    size_t *packed_images;  // [packed_count] in the written file, ALPI_GLTF_NONE until used
+    size_t *texture_copies; // [textures of the document] the same with the packed image, or NONE
     bool *image_embedded;   // [images of the document] moved into the new data
 } alpi_gltf_patcher;
 
@@ -127,6 +139,14 @@ alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *patcher, const alpi_gltf
 alp_result alpi_patcher_plan(alpi_gltf_patcher *patcher);
 /// Decides the material of every piece and adds those that are needed.
 alp_result alpi_patcher_materials(alpi_gltf_patcher *patcher);
+/// The image of a PNG that the bake made, at its place `uri` of page_uris; its index.
+size_t alpi_patcher_add_image(alpi_gltf_patcher *patcher, const char *name, uint32_t uri,
+                              const uint8_t *png, size_t size);
+/// Which packed image a material of the document reads its occlusion from; ALPI_NONE = none.
+uint32_t alpi_patcher_packed(const alpi_gltf_patcher *patcher, size_t material);
+/// Edits a material of the document so that it reads the packed image.
+alp_result alpi_patcher_pack_material(alpi_gltf_patcher *patcher, size_t material,
+                                      alpi_edits *edits);
 /// Edits the meshes of the plan and the nodes that use copies.
 alp_result alpi_patcher_meshes(alpi_gltf_patcher *patcher);
 
@@ -201,13 +221,14 @@ void alpi_gltf_files_destroy(alpi_gltf_files *files);
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {
     char *bin, *data; // paths: what was the BIN chunk, what the bake adds
-    char **pages;     // [page_count] paths
+    char **pages;     // [page_count + packed_count] paths
     char *bin_uri, *data_uri;
-    char **page_uris; // [page_count]
-    uint32_t page_count;
+    char **page_uris; // [page_count + packed_count]
+    uint32_t page_count, packed_count;
 } alpi_gltf_names;
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
-                                  const char *path, uint32_t page_count, alpi_gltf_names *names);
+                                  const char *path, uint32_t page_count, uint32_t packed_count,
+                                  alpi_gltf_names *names);
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names);
 
 /// Where the data of the written file lives.

@@ -10,8 +10,8 @@
 
 /// A material that the written file needs.
 typedef struct need {
-    size_t old; // ALPI_GLTF_NONE = the primitive had none
-    uint32_t page, uv_set;
+    size_t old;            // ALPI_GLTF_NONE = the primitive had none
+    uint32_t page, uv_set; // page ALPI_NONE: packed into an image
     size_t written;
 } need;
 
@@ -91,23 +91,31 @@ static alp_result find_other_users(const alpi_gltf_patcher *p, bool *marks)
 
 // --- images and textures -------------------------------------------------------------------------
 
-static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
+size_t alpi_patcher_add_image(alpi_gltf_patcher *p, const char *name, uint32_t uri,
+                              const uint8_t *png, size_t size)
 {
     alpi_bytes image = alpi_bytes_create(p->context);
-    alpi_bytes_print(&image, "{\"name\":\"occlusion %u\",", page);
+    alpi_bytes_print(&image, "{\"name\":\"%s\",", name);
     if (p->page_uris != NULL) {
         alpi_bytes_print(&image, "\"uri\":");
-        alpi_bytes_quote(&image, p->page_uris[page]);
+        alpi_bytes_quote(&image, p->page_uris[uri]);
         alpi_bytes_print(&image, "}");
     } else {
-        size_t view = alpi_patcher_add_view(p, p->patch->page_pngs[page],
-                                            p->patch->page_png_sizes[page], 0, 0);
+        size_t view = alpi_patcher_add_view(p, png, size, 0, 0);
         alpi_bytes_print(&image, "\"bufferView\":%zu,\"mimeType\":\"image/png\"}", view);
     }
     p->data.failed |= image.failed;
     size_t index = alpi_patcher_append(p, ALPI_GLTF_IMAGES, image.bytes, image.size);
     alpi_bytes_destroy(&image);
     return index;
+}
+
+static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
+{
+    char name[32];
+    snprintf(name, sizeof name, "occlusion %u", page);
+    return alpi_patcher_add_image(p, name, page, p->patch->page_pngs[page],
+                                  p->patch->page_png_sizes[page]);
 }
 
 /// The texture of a page, made at its first use. Not mipmapped: charts are padded by few texels.
@@ -144,34 +152,48 @@ static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value
     alpi_bytes_print(value, "}");
 }
 
-/// Puts the map into a material: the one of the document, a copy of it, or a new one. The whole
-/// occlusionTexture is replaced, so that no KHR_texture_transform of the old one remains.
+/// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
+/// no KHR_texture_transform of the old one remains.
+static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits *edits)
+{
+    if (n->page == ALPI_NONE) {
+        return alpi_patcher_pack_material(p, n->old, edits);
+    }
+    alpi_bytes value = alpi_bytes_create(p->context);
+    print_texture(p, n, &value);
+    p->data.failed |= value.failed;
+    alpi_edits_set(edits, p->lists[ALPI_GLTF_MATERIALS].spans[n->old], "occlusionTexture",
+                   value.bytes, value.size);
+    alpi_bytes_destroy(&value);
+    return ALP_OK;
+}
+
+/// Puts the map into a material: the one of the document, a copy of it, or a new one.
 static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
-    alpi_bytes value = alpi_bytes_create(p->context), text = alpi_bytes_create(p->context);
-    print_texture(p, n, &value);
+    alpi_bytes text = alpi_bytes_create(p->context);
     alp_result result = ALP_OK;
     if (n->old == ALPI_GLTF_NONE) {
         // Looks like glTF's default material; the mark tells a later reading that there was none.
-        alpi_bytes_print(&text, "{\"occlusionTexture\":%s,\"extras\":{\"alpenglow\":\"%s\"}}",
-                         (const char *)value.bytes, ALPI_GLTF_NO_MATERIAL);
+        alpi_bytes_print(&text, "{\"occlusionTexture\":");
+        print_texture(p, n, &text);
+        alpi_bytes_print(&text, ",\"extras\":{\"alpenglow\":\"%s\"}}", ALPI_GLTF_NO_MATERIAL);
         n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
     } else {
         alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];
         if (!all->has_other_users[n->old] && !all->edited[n->old]) {
             n->written = n->old;
-            alpi_edits_set(&p->edits, span, "occlusionTexture", value.bytes, value.size);
+            result = edit_material(p, n, &p->edits);
         } else {
             alpi_edits copy = alpi_edits_create(p->context, p->document->text);
-            alpi_edits_set(&copy, span, "occlusionTexture", value.bytes, value.size);
-            result = alpi_edits_apply(&copy, span, &text);
+            result = edit_material(p, n, &copy);
+            result = result == ALP_OK ? alpi_edits_apply(&copy, span, &text) : result;
             n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
             alpi_edits_destroy(&copy);
         }
         all->edited[n->old] = true;
     }
-    p->data.failed |= value.failed || text.failed;
-    alpi_bytes_destroy(&value);
+    p->data.failed |= text.failed;
     alpi_bytes_destroy(&text);
     return result;
 }

@@ -439,8 +439,9 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                  .span = span,
                  .added_accessor = ALPI_GLTF_NONE};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
-    alp_result result = read_triangles(p, &r);
-    if (result == ALP_OK && (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
+    alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
+    if (result == ALP_OK && !plan->packed &&
+        (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
         result = split_vertices(p, &r);
     }
     if (result == ALP_OK) {
@@ -470,7 +471,7 @@ static alp_result rewrite_mesh(alpi_gltf_patcher *p, alpi_edits *edits, size_t f
     return ALP_OK;
 }
 
-/// The node gets a copy of its mesh; what the copy does not change it shares with the original.
+/// The user's nodes get a copy of their mesh; what it does not change it shares with the original.
 static alp_result copy_mesh(alpi_gltf_patcher *p, size_t first, size_t end)
 {
     const alpi_gltf_plan *plan = &p->plans[first];
@@ -482,7 +483,10 @@ static alp_result copy_mesh(alpi_gltf_patcher *p, size_t first, size_t end)
     }
     if (result == ALP_OK) {
         size_t mesh = alpi_patcher_append(p, ALPI_GLTF_MESHES, text.bytes, text.size);
-        alpi_edits_set_index(&p->edits, p->lists[ALPI_GLTF_NODES].spans[plan->user], "mesh", mesh);
+        for (size_t i = plan->showing_first; i < plan->showing_end; i++) {
+            alpi_json_span node = p->lists[ALPI_GLTF_NODES].spans[p->showings[i].node];
+            alpi_edits_set_index(&p->edits, node, "mesh", mesh);
+        }
     }
     alpi_bytes_destroy(&text);
     alpi_edits_destroy(&edits);

@@ -24,6 +24,13 @@ static bool keeps_uvs(const alpi_gltf_patcher *p)
 
 // --- pages of triangles --------------------------------------------------------------------------
 
+/// Whether a surface gets a map: one that does has pages on all its triangles.
+static bool has_pages(const alpi_gltf_patcher *p, const alpi_surface *surface)
+{
+    return surface->triangle_count > 0 && (p->patch->triangle_pages == NULL ||
+                                           p->triangle_pages[surface->first_triangle] != ALPI_NONE);
+}
+
 /// A triangle without area is seen by nobody: it goes where the one before it goes, so that no
 /// primitive is split for its sake.
 static alp_result fill_pages(alpi_gltf_patcher *p)
@@ -41,10 +48,11 @@ static alp_result fill_pages(alpi_gltf_patcher *p)
                 break;
             }
         }
+        const bool left_out = page == ALPI_NONE;
         for (uint32_t t = first; t < end; t++) {
             page = scene->triangle_usable[t] ? given[t] : page;
             p->triangle_pages[t] = page;
-            if (page >= p->patch->page_count) {
+            if (left_out ? page != ALPI_NONE : page >= p->patch->page_count) {
                 return alpi_fail(p->context, ALP_ERROR_INVALID_ARGUMENT,
                                  "%s: triangle %u lies on page %u of %u", scene->name, t, page,
                                  p->patch->page_count);
@@ -84,6 +92,33 @@ static bool keeps_its_map(const alpi_gltf_patcher *p, size_t material)
                            "occlusionTexture") != NULL;
 }
 
+static size_t node_of(const alpi_gltf_patcher *p, uint32_t surface)
+{
+    return p->exported ? surface : p->scene->surfaces[surface].node;
+}
+
+static alp_result find_mesh(const alpi_gltf_patcher *p, size_t node, size_t *mesh)
+{
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "node %zu", node);
+    return alpi_gltf_needed_index(p->document, alpi_gltf_item(p->document, "nodes", node), "mesh",
+                                  "meshes", owner, mesh);
+}
+
+/// Whose mesh the node of a surface shows: its own, or that of the surface whose coordinates it has
+/// too, where both nodes have one mesh.
+static alp_result find_user(const alpi_gltf_patcher *p, uint32_t index, alpi_gltf_plan *plan)
+{
+    const uint32_t *originals = p->patch->originals;
+    plan->user = keeps_uvs(p) ? plan->mesh : node_of(p, index);
+    if (!keeps_uvs(p) && originals != NULL && originals[index] != index) {
+        size_t mesh, node = node_of(p, originals[index]);
+        ALP_TRY(find_mesh(p, node, &mesh));
+        plan->user = mesh == plan->mesh ? node : plan->user;
+    }
+    return ALP_OK;
+}
+
 /// Plans one surface; *wanted is false when it stays as it is.
 static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_plan *plan,
                                bool *wanted)
@@ -91,15 +126,12 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     const alpi_surface *surface = &p->scene->surfaces[index];
     char owner[ALPI_GLTF_OWNER_SIZE];
     *wanted = false;
-    if (surface->triangle_count == 0) {
+    if (!has_pages(p, surface)) {
         return ALP_OK;
     }
-    size_t node = p->exported ? index : surface->node;
     *plan = (alpi_gltf_plan){.surface = index, .primitive = p->exported ? 0 : surface->primitive};
-    snprintf(owner, sizeof owner, "node %zu", node);
-    ALP_TRY(alpi_gltf_needed_index(p->document, alpi_gltf_item(p->document, "nodes", node), "mesh",
-                                   "meshes", owner, &plan->mesh));
-    plan->user = keeps_uvs(p) ? plan->mesh : node;
+    ALP_TRY(find_mesh(p, node_of(p, index), &plan->mesh));
+    ALP_TRY(find_user(p, index, plan));
     json_t *primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive);
     snprintf(owner, sizeof owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
     if (primitive == NULL) {
@@ -107,7 +139,9 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     }
     ALP_TRY(
         alpi_gltf_index(p->document, primitive, "material", "materials", owner, &plan->material));
-    if (keeps_its_map(p, plan->material)) {
+    plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
+    if (plan->packed || keeps_its_map(p, plan->material)) {
+        *wanted = plan->packed;
         return ALP_OK;
     }
     *wanted = choose_uv_set(p, primitive, &plan->uv_set);
@@ -130,17 +164,18 @@ static int compare_plans(const void *left, const void *right)
     return a->surface < b->surface ? -1 : a->surface > b->surface;
 }
 
-/// Drops second plans for the same primitive of the same user: the other nodes of a mesh whose
-/// coordinates are kept see the map of the first.
+/// Drops second plans for the same primitive of the same user: its other nodes see the map of the
+/// first. That was asked for with `originals`; with kept coordinates it may surprise.
 static void drop_repeated(alpi_gltf_patcher *p)
 {
     size_t kept = 0, told = ALPI_GLTF_NONE;
+    const bool expected = p->patch->originals != NULL;
     for (size_t i = 0; i < p->plan_count; i++) {
         const alpi_gltf_plan *plan = &p->plans[i];
         const alpi_gltf_plan *last = kept > 0 ? &p->plans[kept - 1] : NULL;
         if (last == NULL || plan->user != last->user || plan->primitive != last->primitive) {
             p->plans[kept++] = *plan;
-        } else if (plan->mesh != told) {
+        } else if (plan->mesh != told && !expected) {
             told = plan->mesh;
             char owner[ALPI_GLTF_OWNER_SIZE];
             snprintf(owner, sizeof owner, "mesh %zu", plan->mesh);
@@ -149,6 +184,33 @@ static void drop_repeated(alpi_gltf_patcher *p)
         }
     }
     p->plan_count = kept;
+}
+
+static int compare_showings(const void *left, const void *right)
+{
+    const alpi_gltf_showing *a = left, *b = right;
+    if (a->user != b->user) {
+        return a->user < b->user ? -1 : 1;
+    }
+    return a->node < b->node ? -1 : a->node > b->node;
+}
+
+/// The nodes of every user, each once, from the plans of all surfaces.
+static alp_result list_showings(alpi_gltf_patcher *p)
+{
+    ALPI_TRY_NEW(p->context, p->showings, p->plan_count);
+    for (size_t i = 0; i < p->plan_count; i++) {
+        p->showings[i] = (alpi_gltf_showing){p->plans[i].user, node_of(p, p->plans[i].surface)};
+    }
+    if (p->plan_count > 0) {
+        qsort(p->showings, p->plan_count, sizeof *p->showings, compare_showings);
+    }
+    for (size_t i = 0; i < p->plan_count; i++) {
+        if (i == 0 || compare_showings(&p->showings[p->showing_count - 1], &p->showings[i]) != 0) {
+            p->showings[p->showing_count++] = p->showings[i];
+        }
+    }
+    return ALP_OK;
 }
 
 // --- in place or in a copy -----------------------------------------------------------------------
@@ -170,21 +232,24 @@ static alp_result count_mesh_users(const alpi_gltf_patcher *p, size_t *users)
     return ALP_OK;
 }
 
-/// The first node of a mesh may have the original, if every node that uses it gets a map.
+/// The first user of a mesh may have the original, if every node that uses the mesh gets a map.
 static void choose_copies(alpi_gltf_patcher *p, const size_t *users, size_t *ours, bool *taken)
 {
-    for (size_t i = 0; i < p->plan_count; i++) {
-        if (i == 0 || p->plans[i].user != p->plans[i - 1].user) {
-            ours[p->plans[i].mesh]++;
+    for (size_t i = 0, at = 0; i < p->plan_count; i++) {
+        alpi_gltf_plan *plan = &p->plans[i];
+        plan->showing_first = at;
+        while (at < p->showing_count && p->showings[at].user == plan->user) {
+            at++;
         }
+        plan->showing_end = at;
+        ours[plan->mesh] += at - plan->showing_first; // 0 for further plans of a user
     }
     for (size_t i = 0; i < p->plan_count; i++) {
         alpi_gltf_plan *plan = &p->plans[i];
         if (i > 0 && plan->user == plan[-1].user) {
             plan->in_a_copy = plan[-1].in_a_copy;
         } else {
-            plan->in_a_copy =
-                !keeps_uvs(p) && (taken[plan->mesh] || users[plan->mesh] != ours[plan->mesh]);
+            plan->in_a_copy = taken[plan->mesh] || users[plan->mesh] != ours[plan->mesh];
             taken[plan->mesh] = true;
         }
     }
@@ -231,15 +296,20 @@ static alp_result plan_whole(alpi_gltf_patcher *p, alpi_gltf_plan *plan)
     return ALP_OK;
 }
 
-/// One piece for each page that the plan's triangles lie on, in ascending order.
+/// One piece for each page that the plan's triangles lie on, in ascending order; where the map is
+/// packed into an image, just one.
 static alp_result plan_pieces(alpi_gltf_patcher *p, alpi_gltf_plan *plan, bool *used)
 {
     const alpi_surface *surface = &p->scene->surfaces[plan->surface];
+    plan->piece_first = p->piece_count;
+    plan->piece_count = 1;
+    if (plan->packed) {
+        return add_piece(p, ALPI_NONE);
+    }
     memset(used, 0, p->patch->page_count * sizeof *used);
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         used[p->triangle_pages[surface->first_triangle + i]] = true;
     }
-    plan->piece_first = p->piece_count;
     for (uint32_t page = 0; page < p->patch->page_count; page++) {
         if (used[page]) {
             ALP_TRY(add_piece(p, page));
@@ -266,6 +336,7 @@ alp_result alpi_patcher_plan(alpi_gltf_patcher *p)
     if (p->plan_count > 0) {
         qsort(p->plans, p->plan_count, sizeof *p->plans, compare_plans);
     }
+    ALP_TRY(list_showings(p));
     drop_repeated(p);
     ALP_TRY(plan_copies(p));
     bool *used = ALPI_NEW(p->context, bool, p->patch->page_count);

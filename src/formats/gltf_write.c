@@ -251,6 +251,13 @@ static alp_result add_side_files(writing *w)
                                   w->patch->page_png_sizes[i]));
         }
     }
+    for (uint32_t i = 0; i < w->patch->packed_count; i++) {
+        if (w->patcher.packed_images[i] != ALPI_GLTF_NONE) {
+            const alpi_packed_image *packed = &w->patch->packed_images[i];
+            ALP_TRY(add_side_file(w, w->names.pages[w->patch->page_count + i], packed->png,
+                                  packed->png_size));
+        }
+    }
     return ALP_OK;
 }
 
@@ -293,7 +300,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite
 {
     if (!w->to_glb) {
         ALP_TRY(alpi_gltf_names_create(scene->context, w->document, w->path, w->patch->page_count,
-                                       &w->names));
+                                       w->patch->packed_count, &w->names));
     }
     ALP_TRY(alpi_patcher_create(scene, w->patch, w->document, &w->patcher));
     alpi_gltf_home home = alpi_gltf_choose_home(w->document, w->to_glb);
@@ -382,6 +389,12 @@ static alp_result check_references(const alpi_gltf_document *document, const cha
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite)
 {
+    return alpi_gltf_check_packed_output(scene, page_count, 0, path, overwrite);
+}
+
+alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
+                                         uint32_t packed_count, const char *path, bool overwrite)
+{
     alp_context *context = scene->context;
     const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
     bool to_glb;
@@ -394,12 +407,12 @@ alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, c
         return ALP_OK;
     }
     alpi_gltf_names names;
-    ALP_TRY(alpi_gltf_names_create(context, document, path, page_count, &names));
+    ALP_TRY(alpi_gltf_names_create(context, document, path, page_count, packed_count, &names));
     alp_result result = alpi_file_check_writable(context, names.data, overwrite);
     if (result == ALP_OK && (document == NULL || document->is_glb)) {
         result = alpi_file_check_writable(context, names.bin, overwrite);
     }
-    for (uint32_t i = 0; result == ALP_OK && i < page_count; i++) {
+    for (uint32_t i = 0; result == ALP_OK && i < page_count + packed_count; i++) {
         result = alpi_file_check_writable(context, names.pages[i], overwrite);
     }
     alpi_gltf_names_destroy(context, &names);

@@ -104,14 +104,9 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 
 uint32_t alpi_lattice_pass(const uint16_t pixel[2])
 {
-    for (uint32_t pass = 0, spacing = ALPI_LATTICE_SPACING; spacing > 1; spacing /= 2, pass += 2) {
-        const uint32_t half = spacing / 2, x = pixel[0] % spacing, y = pixel[1] % spacing;
-        if (x % half != 0 || y % half != 0) {
-            continue; // of a finer spacing
-        }
-        return x == 0 && y == 0 ? pass : pass + (x == half && y == half ? 2 : 1);
-    }
-    return 0; // not reached: with spacing 2 every pixel has its place
+    static const uint8_t passes[ALPI_LATTICE_SPACING][ALPI_LATTICE_SPACING] = {
+        {0, 3, 1, 3}, {3, 4, 3, 4}, {1, 3, 2, 3}, {3, 4, 3, 4}};
+    return passes[pixel[1] % ALPI_LATTICE_SPACING][pixel[0] % ALPI_LATTICE_SPACING];
 }
 
 uint32_t alpi_lattice_reach(uint32_t pass)

@@ -121,6 +121,12 @@ alp_result alpi_lightmap_store_vectors(alp_lightmap *lightmap, const float (*val
     return fill_pages(lightmap, (const float *)values, 3, *pages);
 }
 
+bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle)
+{
+    return lightmap->vertex_values != NULL ||
+           lightmap->atlas->triangle_pages[triangle] != ALPI_NONE;
+}
+
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3])
 {

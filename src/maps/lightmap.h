@@ -47,9 +47,26 @@ alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page
 alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t page,
                                         alp_image **image);
 
-/// Bilinear look-up at a point of a triangle, or linear between the values at its vertices.
+/// Whether the surface of a triangle has values: not those that a bake left out.
+bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
+
+/// Bilinear look-up at a point of a triangle that the lightmap holds, or linear between the values
+/// at its vertices.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
+
+/// What a value, in [0, 1], is multiplied by at a cell of texel (x, y) of the layout it goes to.
+typedef struct alpi_lightmap_weight {
+    float (*at)(void *user, const alpi_uv_cell *cell, uint32_t x, uint32_t y); // NULL: 1
+    void *user;
+} alpi_lightmap_weight;
+/// The map in another layout of the same triangles: page [height][width][4] of the layout's size
+/// gets the weighted mean over the surface inside each texel in R = G = B and 1 in A; texels
+/// without surface get the nearest value and 0 in A. The mean is taken over up to 8 × 8 points of a
+/// texel, each read from the map bilinearly: a map that is more than 8 times as fine is read with
+/// gaps, and one that is coarser is only interpolated.
+alp_result alpi_lightmap_resample(const alp_lightmap *lightmap, const alp_atlas *layout,
+                                  const alpi_lightmap_weight *weight, float *page);
 
 /// A page as image: float RGBA as it is, or 8-bit grey (R rounded), dilated texels included.
 alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,

@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8, RING = 2 };
+enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 8 };
 
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
-static const double NEAR_DISTANCE = 3.0;
+static const double NEAR_DISTANCE = 2.5;
 
 typedef struct validity_job {
     const alpi_occlusion_setup *setup;
@@ -20,6 +20,7 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
+    uint8_t *scouts;  // [texels] 0: not one, 1: nothing near it, 2: something
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry
 } validity_job;
 
@@ -31,8 +32,14 @@ static float texel_side(const alpi_texels *t, uint32_t texel)
 
 // --- what is near --------------------------------------------------------------------------------
 
-/// A few short rays from each texel, by the occlusion kernel: cheap enough for all.
-static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
+/// Texels that are asked for all around them: every second of every second row.
+static bool is_scout(const alpi_texels *t, uint32_t texel)
+{
+    return t->pixels[texel][0] % 2 == 0 && t->pixels[texel][1] % 2 == 0;
+}
+
+/// Occlusion over a short distance: of the bake's rays the first few.
+static alpi_occlusion_setup short_setup(const validity_job *job)
 {
     alpi_occlusion_setup near = *job->setup;
     double area = 0.0, coverage = 0.0;
@@ -40,23 +47,64 @@ static alp_result find_near(validity_job *job, const alpi_task_progress *progres
         area += (double)job->texels->areas[job->order[i]];
         coverage += (double)job->texels->coverages[job->order[i]];
     }
-    const uint32_t most = near.samples;
-    const uint32_t count = most < NEAR_SAMPLES ? most : NEAR_SAMPLES;
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
     near.bent = false;
     near.filter = (alpi_trace_filter){0};
+    return near;
+}
+
+/// A texel is near something when one of the scouts around it in its chart is, or there is none.
+static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const validity_job *job = user;
+    const alpi_texels *t = job->texels;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = job->order[i];
+        const uint16_t *p = t->pixels[texel];
+        bool any = false, near = false;
+        for (int k = 0; k < 9; k++) {
+            const uint32_t n =
+                alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + k % 3 - 1,
+                                   (int64_t)p[1] + k / 3 - 1);
+            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->scouts[n] > 0) {
+                any = true;
+                near = near || job->scouts[n] > 1;
+            }
+        }
+        job->out->near[texel] = near || !any;
+    }
+    return ALP_OK;
+}
+
+/// A few short rays from a quarter of the texels, by the occlusion kernel.
+static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
+{
+    const alpi_occlusion_setup near = short_setup(job);
+    const uint32_t rays = near.samples < NEAR_SAMPLES ? near.samples : NEAR_SAMPLES;
     alpi_occlusion_sums sums;
     ALP_TRY(alpi_occlusion_sums_create(near.context, job->texels->count, false, &sums));
-    alp_result result = alpi_occlusion_add(&near, job->receivers, job->order, job->order_count, 0,
-                                           count, count, progress, &sums);
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        job->out->near[t] = alpi_occlusion_value(&sums, t) < 1.0f;
+    uint32_t *list = ALPI_NEW(near.context, uint32_t, job->order_count), count = 0;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (list != NULL) {
+        for (uint32_t i = 0; i < job->order_count; i++) {
+            if (is_scout(job->texels, job->order[i])) {
+                list[count++] = job->order[i];
+            }
+        }
+        result =
+            alpi_occlusion_add(&near, job->receivers, list, count, 0, rays, rays, progress, &sums);
+        for (uint32_t i = 0; i < count; i++) { // 1: nothing near, 2: something
+            job->scouts[list[i]] = alpi_occlusion_value(&sums, list[i]) < 1.0f ? 2 : 1;
+        }
+        job->out->rays += (uint64_t)count * rays;
     }
-    job->out->rays += (uint64_t)job->order_count * count;
+    alpi_release(near.context, list);
     alpi_occlusion_sums_destroy(near.context, &sums);
-    return result;
+    ALP_TRY(result);
+    return alpi_parallel_for(near.context, job->order_count, TEXELS_PER_RANGE, spread_range, job,
+                             NULL);
 }
 
 // --- rays ----------------------------------------------------------------------------------------
@@ -73,21 +121,23 @@ static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, floa
     rays->maximum[lane] = reach;
 }
 
-/// Lanes 0 to 3: tangent rays of a texel's length; 4 to 7: upwards at 55°, without end.
-static void look_around(const validity_job *job, const alpi_receiver_point *p, float side,
-                        alpi_rays *rays, alpi_hits *hits)
+/// Sends eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
+/// all_tangent, 4 more tangent ones between the first.
+static void look_around(const validity_job *job, const alpi_receiver_point *p, float length,
+                        bool all_tangent, alpi_rays *rays, alpi_hits *hits)
 {
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
     // Higher than rays usually start: a tangent ray must not graze its own, slightly bent surface.
-    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * side, n);
+    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * length, n);
     for (int i = 0; i < 4; i++) {
-        const vec3 axis = vec3_scale(i % 2 == 0 ? t : b, i < 2 ? 1.0f : -1.0f);
-        const vec3 other = vec3_scale(i % 2 == 0 ? b : t, i < 2 ? 1.0f : -1.0f);
+        const vec3 axes[4] = {t, b, vec3_scale(t, -1.0f), vec3_scale(b, -1.0f)};
+        const vec3 axis = axes[i], other = axes[(i + 1) % 4];
         const vec3 diagonal = vec3_add(axis, other);
-        const vec3 upward = vec3_normalize_or(vec3_add(diagonal, n), n);
-        set_ray(rays, i, origin, axis, side);
-        set_ray(rays, i + 4, origin, upward, INFINITY);
+        const vec3 between = all_tangent ? diagonal : vec3_add(diagonal, n);
+        set_ray(rays, i, origin, axis, length);
+        set_ray(rays, i + 4, origin, vec3_normalize_or(between, n),
+                all_tangent ? length : INFINITY);
     }
     memset(rays->time, 0, sizeof rays->time);
     memset(rays->id, 0, sizeof rays->id);
@@ -125,77 +175,93 @@ static void place_strata(const validity_job *job, uint32_t texel,
     job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
 }
 
-/// Whether the lift of any point of a texel passes through something.
-static bool lift_is_blocked(const validity_job *job, uint32_t texel)
+/// Lifts of eight points, as rays from where they lie to where they are lifted.
+static bool any_is_blocked(const validity_job *job, const alpi_receiver_point *lying,
+                           const alpi_receiver_point *lifted)
+{
+    alpi_rays rays;
+    uint32_t active = 0;
+    memset(&rays, 0, sizeof rays);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const vec3 origin = vec3_mad(lying[i].position, lying[i].offset, lying[i].geometric_normal);
+        const vec3 lift = vec3_sub(lifted[i].position, lying[i].position);
+        const float length = vec3_length(lift);
+        set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f), length);
+        active |= (length > lying[i].offset ? 1u : 0u) << i;
+    }
+    if (active != 0) {
+        alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
+    }
+    bool blocked = false;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
+    }
+    return blocked;
+}
+
+/// Leaves the points of a texel on their triangles where the lift of any passes through something.
+static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     alpi_receiver_point lifted[STRATA], lying[STRATA];
     place_strata(job, texel, lifted);
     job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     place_strata(job, texel, lying);
-    bool blocked = false, any = false;
-    for (int half = 0; half < STRATA && !blocked; half += ALPI_PACKET) {
-        alpi_rays rays;
-        uint32_t active = 0;
-        memset(&rays, 0, sizeof rays);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            const alpi_receiver_point *p = &lying[half + i];
-            const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
-            const vec3 lift = vec3_sub(lifted[half + i].position, p->position);
-            const float length = vec3_length(lift);
-            set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f),
-                    length);
-            active |= (length > p->offset ? 1u : 0u) << i;
-        }
-        any = any || active != 0;
-        if (active != 0) {
-            alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
-        }
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
-        }
-    }
-    if (!blocked) {
+    if (!any_is_blocked(job, lying, lifted) &&
+        !any_is_blocked(job, lying + ALPI_PACKET, lifted + ALPI_PACKET)) {
         job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
     }
-    return blocked && any;
 }
 
-/// Which strata of a texel lie inside other geometry.
-static uint16_t find_inside(const validity_job *job, uint32_t texel)
+/// Whether a point lies inside other geometry: a back face is the first thing beside it within a
+/// texel, or above it in three of four directions.
+static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
 {
     const alp_scene *scene = job->texels->atlas->scene;
-    const float side = texel_side(job->texels, texel);
-    alpi_receiver_point points[STRATA];
     alpi_rays rays;
     alpi_hits hits;
+    look_around(job, point, side, false, &rays, &hits);
+    int tangent = 0, upward = 0;
+    for (int k = 0; k < 4; k++) {
+        tangent += met_back_face(scene, &rays, &hits, k);
+        upward += met_back_face(scene, &rays, &hits, k + 4);
+    }
+    return tangent > 0 || upward >= 3;
+}
+
+/// Which strata of a texel lie inside other geometry: all are asked where its middle or one of its
+/// corners is inside.
+static uint16_t find_inside(const validity_job *job, uint32_t texel)
+{
+    static const int corners[4] = {0, 3, 12, 15};
+    const float side = texel_side(job->texels, texel);
+    alpi_receiver_point points[STRATA], middle;
+    alpi_texels_point(job->texels, texel, &middle);
     place_strata(job, texel, points);
+    // In a cut texel the corners of the square may lie anywhere.
+    bool any = job->texels->piece_first[texel] < job->texels->piece_first[texel + 1] ||
+               is_inside(job, &middle, side);
+    for (int i = 0; i < 4 && !any; i++) {
+        any = is_inside(job, &points[corners[i]], side);
+    }
     uint16_t inside = 0;
-    for (int i = 0; i < STRATA; i++) {
-        look_around(job, &points[i], side, &rays, &hits);
-        int tangent = 0, upward = 0;
-        for (int k = 0; k < 4; k++) {
-            tangent += met_back_face(scene, &rays, &hits, k);
-            upward += met_back_face(scene, &rays, &hits, k + 4);
-        }
-        inside |= (uint16_t)((tangent > 0 || upward >= 3 ? 1u : 0u) << i);
+    for (int i = 0; i < STRATA && any; i++) {
+        inside |= (uint16_t)((is_inside(job, &points[i], side) ? 1u : 0u) << i);
     }
     return inside;
 }
 
-/// Whether a texel near a surface can have strata inside: anything within a texel, or back faces
-/// above.
+/// Whether anything is within a texel of a texel's middle: else it is wholly outside, or so far
+/// inside that no filter reads it with one that is seen.
 static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
-    const alp_scene *scene = job->texels->atlas->scene;
     alpi_receiver_point point;
     alpi_rays rays;
     alpi_hits hits;
     alpi_texels_point(job->texels, texel, &point);
-    look_around(job, &point, texel_side(job->texels, texel), &rays, &hits);
+    look_around(job, &point, texel_side(job->texels, texel), true, &rays, &hits);
     bool suspicious = false;
-    for (int k = 0; k < 8; k++) {
-        suspicious = suspicious || (k < 4 && hits.triangle[k] != ALPI_NONE) ||
-                     met_back_face(scene, &rays, &hits, k);
+    for (int k = 0; k < ALPI_PACKET; k++) {
+        suspicious = suspicious || hits.triangle[k] != ALPI_NONE;
     }
     return suspicious;
 }
@@ -204,9 +270,18 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
 {
     (void)worker;
     const validity_job *job = user;
+    const alpi_texels *texels = job->texels;
+    uint32_t last = ALPI_NONE; // most texels lie in the triangle of the one before
+    bool lifted = false;
     for (uint32_t i = begin; i < end; i++) {
-        if (alpi_texels_are_lifted(job->texels, job->order[i])) {
-            (void)lift_is_blocked(job, job->order[i]);
+        const uint32_t t = job->order[i];
+        const bool whole = texels->piece_first[t] == texels->piece_first[t + 1];
+        if (!whole || texels->triangles[t] != last) {
+            lifted = alpi_texels_are_lifted(texels, t);
+            last = whole ? texels->triangles[t] : ALPI_NONE;
+        }
+        if (lifted) {
+            keep_low_if_blocked(job, t);
         }
     }
     return ALP_OK;
@@ -225,19 +300,16 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-/// Whether a texel that is not wholly inside is within RING texels, in its chart.
-static bool is_beside_valid(const validity_job *job, uint32_t texel)
+/// Whether a texel that is not wholly inside is beside it in its chart.
+static bool is_beside_seen(const validity_job *job, uint32_t texel)
 {
     const alpi_texels *t = job->texels;
     const uint16_t *p = t->pixels[texel];
-    for (int dy = -RING; dy <= RING; dy++) {
-        for (int dx = -RING; dx <= RING; dx++) {
-            const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + dx,
-                                                  (int64_t)p[1] + dy);
-            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
-                job->inside[n] != UINT16_MAX) {
-                return true;
-            }
+    for (int k = 0; k < 9; k++) {
+        const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel],
+                                              (int64_t)p[0] + k % 3 - 1, (int64_t)p[1] + k / 3 - 1);
+        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX) {
+            return true;
         }
     }
     return false;
@@ -251,7 +323,7 @@ static alp_result settle(validity_job *job)
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (job->inside[t] == UINT16_MAX) {
-            job->out->dropped[t] = is_beside_valid(job, t);
+            job->out->dropped[t] = is_beside_seen(job, t);
             job->out->dropped_count += job->out->dropped[t];
         } else if (job->inside[t] != 0) {
             if (texels->valid == NULL) {
@@ -270,7 +342,11 @@ static alp_result run(validity_job *job, const alpi_task_progress *progress)
     alp_context *context = job->setup->context;
     ALPI_TRY_NEW(context, job->out->near, job->texels->count);
     ALPI_TRY_NEW(context, job->out->dropped, job->texels->count);
+    ALPI_TRY_NEW(context, job->scouts, job->texels->count);
     ALPI_TRY_NEW(context, job->inside, job->texels->count);
+    alpi_release(context, job->texels->valid); // of an earlier look, through which places would go
+    job->texels->valid = NULL;
+    memset(job->texels->flags, 0, job->texels->count);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
         alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &told));
@@ -294,6 +370,7 @@ alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_re
                         .order_count = order_count,
                         .out = validity};
     alp_result result = run(&job, progress);
+    alpi_release(setup->context, job.scouts);
     alpi_release(setup->context, job.inside);
     if (result != ALP_OK) {
         alpi_validity_destroy(validity);

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
+#include "scene/select.h"
 #include "transport/occlusion.h"
 
 #include <math.h>
@@ -21,6 +22,7 @@ typedef struct render_job {
     const alp_scene *scene;
     alp_render_options options;
     const alpi_tracer *tracer;
+    alpi_tracer *occluders; // of the chosen ones, NULL = `tracer`
     alpi_occlusion_setup occlusion;
     alp_image *image;
     vec3 origin, forward, right, up; // right and up span half the picture's height at distance 1
@@ -121,7 +123,7 @@ static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int la
         vec3_store(rgb, alpi_surface_albedo(job->scene, triangle, b1, b2));
         return true;
     }
-    if (job->options.lightmap != NULL) {
+    if (job->options.lightmap != NULL && alpi_lightmap_holds(job->options.lightmap, triangle)) {
         alpi_lightmap_sample(job->options.lightmap, triangle, b1, b2, rgb);
         return true;
     }
@@ -231,6 +233,19 @@ static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_
     return ALP_OK;
 }
 
+/// The tracer of what occludes, where that is not everything.
+static alp_result choose_occluders(render_job *job)
+{
+    const alp_render_options *o = &job->options;
+    bool *surfaces = NULL;
+    ALP_TRY(alpi_scene_select(job->scene, o->occluders, &surfaces));
+    alp_result result = surfaces == NULL ? ALP_OK
+                                         : alpi_tracer_create(job->scene, surfaces, o->progress,
+                                                              o->progress_user, &job->occluders);
+    alpi_release(job->scene->context, surfaces);
+    return result;
+}
+
 static alp_result run(render_job *job)
 {
     const alp_render_options *o = &job->options;
@@ -241,7 +256,9 @@ static alp_result run(render_job *job)
     alp_occlusion_options occlusion = o->occlusion;
     occlusion.samples =
         o->occlusion.samples / o->samples + (o->occlusion.samples % o->samples != 0);
-    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &occlusion, &job->occlusion));
+    ALP_TRY(choose_occluders(job));
+    ALP_TRY(alpi_occlusion_prepare(job->scene, job->occluders ? job->occluders : tracer, &occlusion,
+                                   &job->occlusion));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
     alpi_task_progress progress = {.callback = o->progress,
@@ -267,6 +284,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     ALP_TRY(check_options(scene, &job.options));
     alp_result result = run(&job);
     alpi_occlusion_release(&job.occlusion);
+    alpi_tracer_destroy(job.occluders);
     if (result != ALP_OK) {
         alp_image_destroy(job.image);
         return result;

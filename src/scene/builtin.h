@@ -23,4 +23,26 @@ void alpi_builtin_torus_plane(alpi_builder *builder);
 /// Newell's teapot on a table, in a furnished room of 4 m × 2.8 m × 4 m.
 void alpi_builtin_teapot_room(alpi_builder *builder);
 
+/// A room of 8 m × 4 m × 6 m with three windows, pillars and alcoves, and a small bright sun
+/// outside.
+void alpi_builtin_windows(alpi_builder *builder);
+
+// Scenes of any size. `values` are the parameters in the order of the table in builtin.c.
+
+/// Triangles a scene can be asked for, and has unless asked.
+enum {
+    ALPI_ATRIUM_LOW = 20000,
+    ALPI_ATRIUM_STANDARD = 50000,
+    ALPI_TERRAIN_LOW = 5000,
+    ALPI_TERRAIN_STANDARD = 60000,
+    ALPI_SIZED_HIGH = 4000000,
+    ALPI_TREES_HIGH = 20000
+};
+
+/// A court of 16 m × 10 m between two storeys of arcades, open to the sky. values: triangles.
+void alpi_builtin_atrium(alpi_builder *builder, const uint32_t *values);
+/// Hills of 240 m × 240 m round a lake, with houses and trees. values: triangles; trees, ALPI_NONE
+/// = as many as suit the triangles.
+void alpi_builtin_terrain(alpi_builder *builder, const uint32_t *values);
+
 #endif

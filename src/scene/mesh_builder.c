@@ -186,8 +186,7 @@ void alpi_builder_panel(alpi_builder *builder, const alpi_panel *panel)
 
 // --- round shapes --------------------------------------------------------------------------------
 
-/// (cos, sin) of 2π i/n, exact at the quarters, so that symmetric shapes are symmetric.
-static void turn(uint32_t i, uint32_t n, double *cosine, double *sine)
+void alpi_builder_turn(uint32_t i, uint32_t n, double *cosine, double *sine)
 {
     double angle = 2.0 * ALPI_PI * i / n;
     bool quarter = 4 * (uint64_t)i % n == 0;
@@ -225,7 +224,7 @@ void alpi_builder_ball(alpi_builder *builder, const alpi_ball *ball)
         double polar = end * j / ball->stacks; // from −y
         for (uint32_t i = 0; i < ball->slices; i++) {
             double c, s;
-            turn(i, ball->slices, &c, &s);
+            alpi_builder_turn(i, ball->slices, &c, &s);
             ball_vertex(builder, ball, sin(polar) * c, -cos(polar), sin(polar) * s);
         }
     }
@@ -250,10 +249,10 @@ void alpi_builder_ring(alpi_builder *builder, const alpi_ring *ring)
     uint32_t first = builder->result == ALP_OK ? builder->scene->vertex_count : 0;
     for (uint32_t i = 0; i < ring->slices; i++) {
         double c, s;
-        turn(i, ring->slices, &c, &s);
+        alpi_builder_turn(i, ring->slices, &c, &s);
         for (uint32_t j = 0; j < ring->sides; j++) {
             double out, up;
-            turn(j, ring->sides, &out, &up);
+            alpi_builder_turn(j, ring->sides, &out, &up);
             double away = (double)ring->major_radius + (double)ring->minor_radius * out;
             vec3 position = {(float)((double)ring->center.x + away * c),
                              (float)((double)ring->center.y + (double)ring->minor_radius * up),
@@ -280,7 +279,7 @@ static uint32_t lathe_ring(alpi_builder *builder, const alpi_lathe *lathe, const
     uint32_t first = 0;
     for (uint32_t i = 0; i < lathe->slices; i++) {
         double c, s;
-        turn(i, lathe->slices, &c, &s);
+        alpi_builder_turn(i, lathe->slices, &c, &s);
         vec3 position = {(float)((double)lathe->foot.x + (double)p[0] * c), lathe->foot.y + p[1],
                          (float)((double)lathe->foot.z + (double)p[0] * s)};
         uint32_t vertex = alpi_builder_vertex(

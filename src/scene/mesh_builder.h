@@ -83,6 +83,9 @@ typedef struct alpi_lathe {
 } alpi_lathe;
 void alpi_builder_lathe(alpi_builder *builder, const alpi_lathe *lathe);
 
+/// (cos, sin) of 2π i/n, exact at the quarters, so that symmetric shapes are symmetric.
+void alpi_builder_turn(uint32_t i, uint32_t n, double *cosine, double *sine);
+
 /// @param vertical_fov radians; up is +y
 void alpi_builder_camera(alpi_builder *builder, vec3 position, vec3 target, float vertical_fov);
 

@@ -11,6 +11,12 @@ typedef enum alpi_existing_ao {
     ALPI_EXISTING_AO_KEEP,        // a material that has one keeps it; ours goes to the others
 } alpi_existing_ao; // "multiply" is done in the map before it gets here, then it is REPLACE
 
+/// A new version of an image of the scene, with occlusion in its red channel.
+typedef struct alpi_packed_image {
+    uint32_t image;     // index into scene.images
+    const uint8_t *png; // ready to embed
+    size_t png_size;
+} alpi_packed_image;
 typedef enum alpi_vertex_attribute {
     ALPI_VERTEX_COLOR = 0, // the first colour set: times what is there
     ALPI_VERTEX_OCCLUSION, // an attribute of its own
@@ -26,12 +32,25 @@ typedef struct alpi_mesh_patch {
     /// NULL: the meshes' own set `kept_uv_set` is used and no vertex changes.
     const float (*corner_uvs)[3][2]; // [triangle_count]
     uint32_t kept_uv_set;
-    const uint32_t *triangle_pages; // [triangle_count] page of each; NULL = all on page 0
+    /// [triangle_count] page of each; NULL = all on page 0. A surface whose triangles have
+    /// ALPI_NONE gets no map and stays as it is.
+    const uint32_t *triangle_pages;
+    /// [surface_count] the surface whose coordinates and pages each one has too, itself where it
+    /// has its own (see alpi_scene_instances); NULL = all their own. Such surfaces go on sharing a
+    /// mesh.
+    const uint32_t *originals;
     /// Occlusion map of each page, ready to embed.
     const uint8_t *const *page_pngs; // [page_count]
     const size_t *page_png_sizes;    // [page_count]
     alpi_existing_ao existing_ao;
-    float occlusion_strength; // 1
+    /// Images that stand for maps: a material with material_packed[m] = i < packed_count reads its
+    /// occlusion, and its roughness and metalness if they came from that image, from
+    /// packed_images[i] at the coordinates it read the old image at (of metallic_texture, where it
+    /// has that image, else of occlusion_texture). Its primitives gain no coordinates and no map.
+    uint32_t packed_count;
+    const alpi_packed_image *packed_images; // [packed_count]
+    const uint32_t *material_packed;        // [scene.material_count] ALPI_NONE = not; NULL = none
+    float occlusion_strength;               // 1
     /// A JSON object (text) that becomes asset.extras.alpenglow.
     const char *extras_json;
 } alpi_mesh_patch;

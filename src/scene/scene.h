@@ -171,8 +171,10 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
 bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
                             float *accessibility);
 
-/// Built-in scenes (scene/builtin_*.c). `name` without "builtin:".
-/// @return ALP_OK; INVALID_ARGUMENT (no such scene: the message lists them); OUT_OF_MEMORY
+/// Built-in scenes (scene/builtin_*.c). `name` without "builtin:", settings after commas as
+/// alp_scene_load tells.
+/// @return ALP_OK; INVALID_ARGUMENT (no such scene or setting: the message lists them);
+///         OUT_OF_MEMORY; CANCELLED
 alp_result alpi_builtin_create(alp_context *context, const char *name, alp_scene **scene);
 
 #endif

@@ -27,6 +27,7 @@ struct alpi_tracer {
     RTCScene embree_scene;
     uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
     uint32_t count[GEOMETRY_COUNT];
+    uint32_t first_vertex, end_vertex; // of the scene: all that the triangles use are between
 };
 
 /// Our data behind Embree's context, which the filters get.
@@ -118,9 +119,11 @@ static bool report_build(void *user, double done)
     return !p->cancelled;
 }
 
-static void destroy_tracer(alp_context *context, void *data)
+void alpi_tracer_destroy(alpi_tracer *tracer)
 {
-    alpi_tracer *tracer = data;
+    if (tracer == NULL) {
+        return;
+    }
     if (tracer->embree_scene != NULL) {
         rtcReleaseScene(tracer->embree_scene);
     }
@@ -128,9 +131,9 @@ static void destroy_tracer(alp_context *context, void *data)
         rtcReleaseDevice(tracer->device);
     }
     for (int g = 0; g < GEOMETRY_COUNT; g++) {
-        alpi_release(context, tracer->triangles[g]);
+        alpi_release(tracer->scene->context, tracer->triangles[g]);
     }
-    alpi_release(context, tracer);
+    alpi_release(tracer->scene->context, tracer);
 }
 
 static alp_result fail_embree(const alp_scene *scene, RTCDevice device, const char *what)
@@ -143,17 +146,56 @@ static alp_result fail_embree(const alp_scene *scene, RTCDevice device, const ch
                      scene->name, what, (int)error);
 }
 
-static alp_result sort_triangles(alpi_tracer *tracer)
+static bool is_chosen(const bool *surfaces, uint32_t surface)
+{
+    return surfaces == NULL || surfaces[surface];
+}
+
+/// The geometry that a triangle goes to, GEOMETRY_COUNT for none.
+static geometry_kind kind_of(const alp_scene *scene, const bool *surfaces, uint32_t triangle)
+{
+    const uint32_t surface = scene->triangle_surface[triangle];
+    if (!scene->triangle_usable[triangle] || !is_chosen(surfaces, surface)) {
+        return GEOMETRY_COUNT;
+    }
+    return alpi_surface_has_cuts(scene, surface) ? GEOMETRY_CUT : GEOMETRY_SOLID;
+}
+
+static void add_triangle(alpi_tracer *tracer, geometry_kind kind, uint32_t triangle)
+{
+    tracer->triangles[kind][tracer->count[kind]++] = triangle;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t vertex = tracer->scene->triangles[triangle][k];
+        tracer->first_vertex = vertex < tracer->first_vertex ? vertex : tracer->first_vertex;
+        tracer->end_vertex = vertex >= tracer->end_vertex ? vertex + 1 : tracer->end_vertex;
+    }
+}
+
+/// Lists the usable triangles of the surfaces by geometry.
+static alp_result sort_triangles(alpi_tracer *tracer, const bool *surfaces)
 {
     const alp_scene *scene = tracer->scene;
-    for (int g = 0; g < GEOMETRY_COUNT; g++) {
-        ALPI_TRY_NEW(scene->context, tracer->triangles[g], scene->usable_count);
+    uint32_t first = scene->triangle_count, end = 0; // where they are, so that a few are found fast
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        const alpi_surface *surface = &scene->surfaces[s];
+        const uint32_t surface_end = surface->first_triangle + surface->triangle_count;
+        if (is_chosen(surfaces, s)) {
+            first = surface->first_triangle < first ? surface->first_triangle : first;
+            end = surface_end > end ? surface_end : end;
+        }
     }
-    for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        if (scene->triangle_usable[t]) {
-            bool cut = alpi_surface_has_cuts(scene, scene->triangle_surface[t]);
-            geometry_kind g = cut ? GEOMETRY_CUT : GEOMETRY_SOLID;
-            tracer->triangles[g][tracer->count[g]++] = t;
+    size_t room[GEOMETRY_COUNT + 1] = {0};
+    for (uint32_t t = first; t < end; t++) {
+        room[kind_of(scene, surfaces, t)]++;
+    }
+    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+        ALPI_TRY_NEW(scene->context, tracer->triangles[g], room[g]);
+    }
+    tracer->first_vertex = scene->vertex_count;
+    for (uint32_t t = first; t < end; t++) {
+        const geometry_kind kind = kind_of(scene, surfaces, t);
+        if (kind != GEOMETRY_COUNT) {
+            add_triangle(tracer, kind, t);
         }
     }
     return ALP_OK;
@@ -170,7 +212,7 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
     RTCGeometry geometry = rtcNewGeometry(tracer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), scene->vertex_count);
+                                3 * sizeof(float), tracer->end_vertex - tracer->first_vertex);
     uint32_t(*indices)[3] = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                     RTC_FORMAT_UINT3, sizeof *indices, count);
     if (geometry == NULL || vertices == NULL || indices == NULL) {
@@ -179,9 +221,13 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
         }
         return fail_embree(scene, tracer->device, "making a geometry");
     }
-    memcpy(vertices, scene->positions, sizeof *scene->positions * scene->vertex_count);
+    memcpy(vertices, scene->positions + tracer->first_vertex,
+           sizeof *scene->positions * (tracer->end_vertex - tracer->first_vertex));
     for (uint32_t i = 0; i < count; i++) {
-        memcpy(indices[i], scene->triangles[tracer->triangles[kind][i]], sizeof indices[i]);
+        const uint32_t *corners = scene->triangles[tracer->triangles[kind][i]];
+        for (int k = 0; k < 3; k++) {
+            indices[i][k] = corners[k] - tracer->first_vertex;
+        }
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
     if (kind == GEOMETRY_CUT) {
@@ -194,7 +240,7 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
     return ALP_OK;
 }
 
-static alp_result build(alpi_tracer *tracer, build_progress *progress)
+static alp_result build(alpi_tracer *tracer, const bool *surfaces, build_progress *progress)
 {
     const alp_scene *scene = tracer->scene;
     char config[96];
@@ -215,7 +261,7 @@ static alp_result build(alpi_tracer *tracer, build_progress *progress)
                      RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(tracer->embree_scene, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetSceneProgressMonitorFunction(tracer->embree_scene, report_build, progress);
-    ALP_TRY(sort_triangles(tracer));
+    ALP_TRY(sort_triangles(tracer, surfaces));
     for (int g = 0; g < GEOMETRY_COUNT; g++) {
         ALP_TRY(attach_geometry(tracer, (geometry_kind)g));
     }
@@ -229,25 +275,41 @@ static alp_result build(alpi_tracer *tracer, build_progress *progress)
     return ALP_OK;
 }
 
+alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
+                              alp_progress_fn *progress, void *progress_user, alpi_tracer **tracer)
+{
+    *tracer = NULL;
+    alpi_tracer *made = ALPI_NEW(scene->context, alpi_tracer, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    made->scene = scene;
+    build_progress report = {progress, progress_user, alpi_seconds(), false};
+    alp_result result = build(made, surfaces, &report);
+    if (result != ALP_OK) {
+        alpi_tracer_destroy(made);
+        return result;
+    }
+    rtcSetSceneProgressMonitorFunction(made->embree_scene, NULL, NULL);
+    *tracer = made;
+    return ALP_OK;
+}
+
+static void destroy_attachment(alp_context *context, void *data)
+{
+    (void)context; // the tracer knows it
+    alpi_tracer_destroy(data);
+}
+
 alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
                                  void *progress_user, alpi_tracer **tracer, double *seconds)
 {
     alpi_attachment *attachment = &scene->attachments[ALPI_ATTACHMENT_TRACER];
     double started = alpi_seconds();
     if (attachment->data == NULL) {
-        alpi_tracer *made = ALPI_NEW(scene->context, alpi_tracer, 1);
-        if (made == NULL) {
-            return ALP_ERROR_OUT_OF_MEMORY;
-        }
-        made->scene = scene;
-        build_progress report = {progress, progress_user, started, false};
-        alp_result result = build(made, &report);
-        if (result != ALP_OK) {
-            destroy_tracer(scene->context, made);
-            return result;
-        }
-        rtcSetSceneProgressMonitorFunction(made->embree_scene, NULL, NULL);
-        *attachment = (alpi_attachment){made, destroy_tracer};
+        alpi_tracer *made = NULL;
+        ALP_TRY(alpi_tracer_create(scene, NULL, progress, progress_user, &made));
+        *attachment = (alpi_attachment){made, destroy_attachment};
     }
     *tracer = attachment->data;
     if (seconds != NULL) {

@@ -37,6 +37,15 @@ typedef struct alpi_trace_filter {
 alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
                                  void *progress_user, alpi_tracer **tracer, double *seconds);
 
+/// A tracer over some surfaces of a scene; it belongs to the caller and must be destroyed before
+/// the scene. Hits tell triangles of the scene. Memory and time grow with those surfaces and with
+/// what lies between the first and the last of them, not with the scene.
+/// @param surfaces [surface_count], NULL = all; read by this call only
+/// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails); CANCELLED
+alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
+                              alp_progress_fn *progress, void *progress_user, alpi_tracer **tracer);
+void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
+
 /// Traces lane i of `active` (bit i); a lane that hits anything gets maximum = −∞, others are left
 /// alone.
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *rays, uint32_t active,

@@ -14,8 +14,6 @@
 
 enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 
-static const float DISTANCE_AUTO_SHARE = 0.2f; // of the bounding box's diagonal
-
 alp_occlusion_options alp_occlusion_options_default(void)
 {
     return (alp_occlusion_options){.struct_size = sizeof(alp_occlusion_options),
@@ -29,7 +27,7 @@ float alp_occlusion_distance(const alp_scene *scene, const alp_occlusion_options
     if (scene == NULL || options == NULL || options->distance != 0.0f) {
         return options ? options->distance : 0.0f;
     }
-    return DISTANCE_AUTO_SHARE * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
+    return ALPI_OCCLUSION_AUTO_SHARE * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
 }
 
 alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_options *o)
@@ -88,6 +86,35 @@ static void fill_samples(uint64_t seed, uint32_t count, uint32_t (*samples)[3])
     }
 }
 
+/// Places in a receiver, block by block of the sequence: Sobol' in two dimensions with its index
+/// shuffled (Owen), or they would depend on the directions of their block.
+static void fill_places(uint64_t seed, uint32_t count, uint32_t (*places)[2])
+{
+    const uint32_t key = alpi_random_key(seed, 1, STREAM_SEQUENCE);
+    const uint32_t keys[3] = {alpi_hash32(key ^ 0x02e5be93u), alpi_hash32(key ^ 0x967a889bu),
+                              alpi_hash32(key ^ 0x68bc21ebu)};
+    for (uint32_t s = 0; s < count; s++) {
+        const uint32_t index = alpi_owen_scramble(s, keys[2]);
+        places[s][0] = alpi_reverse_bits(alpi_owen_hash(index, keys[0]));
+        places[s][1] = alpi_reverse_bits(alpi_owen_hash(alpi_sobol_1_reversed(index), keys[1]));
+    }
+}
+
+/// The sequences of a setup of so many samples.
+static alp_result make_sequences(alpi_occlusion_setup *setup)
+{
+    const uint32_t places = setup->samples / ALPI_SAMPLES_PER_POINT + 1;
+    setup->sequence = alpi_allocate(setup->context, setup->samples, sizeof *setup->sequence);
+    setup->places = alpi_allocate(setup->context, places, sizeof *setup->places);
+    if (setup->sequence == NULL || setup->places == NULL) {
+        alpi_occlusion_release(setup);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    fill_samples(setup->options.seed, setup->samples, setup->sequence);
+    fill_places(setup->options.seed, places, setup->places);
+    return ALP_OK;
+}
+
 /// Leading bits of a direction's coordinates that all receivers share, so that the rays of a packet
 /// leave in nearly the same direction: those that number the cells of the square with one sample
 /// each, at most 4. Sharing more would leave the receivers the same error; sharing none would
@@ -118,12 +145,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
     };
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     setup->shift_mask = UINT32_MAX >> shared_bits(setup->samples);
-    setup->sequence = alpi_allocate(scene->context, setup->samples, sizeof *setup->sequence);
-    if (setup->sequence == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    fill_samples(options->seed, setup->samples, setup->sequence);
-    return ALP_OK;
+    return make_sequences(setup);
 }
 
 alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,
@@ -131,16 +153,13 @@ alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint6
 {
     *other = *setup;
     other->options.seed = seed;
-    other->sequence = alpi_allocate(setup->context, setup->samples, sizeof *other->sequence);
-    if (other->sequence == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    fill_samples(seed, setup->samples, other->sequence);
-    return ALP_OK;
+    return make_sequences(other);
 }
 
 void alpi_occlusion_release(alpi_occlusion_setup *setup)
 {
     alpi_release(setup->context, setup->sequence);
+    alpi_release(setup->context, setup->places);
     setup->sequence = NULL;
+    setup->places = NULL;
 }

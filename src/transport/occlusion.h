@@ -13,6 +13,14 @@
 /// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
 enum { ALPI_QUARTERS = 4 };
 
+/// Directions that leave from one point of a receiver with extent. With more, texels that many
+/// small triangles share err by the choice of their points: 16 doubled the error of torus-plane at
+/// 64². With fewer, placing them takes longer than it gains.
+enum { ALPI_SAMPLES_PER_POINT = 4 };
+
+/// The automatic distance limit over the diagonal of a bounding box.
+#define ALPI_OCCLUSION_AUTO_SHARE 0.2f
+
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
     alp_context *context;
@@ -28,6 +36,7 @@ typedef struct alpi_occlusion_setup {
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
+    uint32_t (*places)[2];   // [samples / ALPI_SAMPLES_PER_POINT + 1] the same for their points
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named

@@ -18,9 +18,6 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    // Directions that leave from one point of a receiver with extent. They are a block of the
-    // sequence and so well spread by themselves; more points would cost set-up and gain little.
-    SAMPLES_PER_POINT = 16,
     POINTS_PER_CHUNK = 32,
     // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
     RAYS_PER_RANGE = 1 << 15,
@@ -53,19 +50,26 @@ static alpi_occlusion_kernel *choose_kernel(const alpi_occlusion_setup *setup)
     return alpi_occlusion_kernel_baseline;
 }
 
+static void set_column(float column[3][ALPI_PACKET], int lane, vec3 v)
+{
+    column[0][lane] = v.x;
+    column[1][lane] = v.y;
+    column[2][lane] = v.z;
+}
+
 static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_point *p)
 {
-    vec3 t, b, n = p->shading_normal;
-    vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
-    vec3_frame(n, &t, &b);
-    const vec3 columns[4] = {origin, t, b, n};
-    float(*const targets[4])[ALPI_PACKET] = {lanes->origin, lanes->tangent, lanes->bitangent,
-                                             lanes->normal};
-    for (int k = 0; k < 4; k++) {
-        targets[k][0][lane] = columns[k].x;
-        targets[k][1][lane] = columns[k].y;
-        targets[k][2][lane] = columns[k].z;
+    const vec3 n = p->shading_normal;
+    set_column(lanes->origin, lane, vec3_mad(p->position, p->offset, p->geometric_normal));
+    if (n.x == lanes->normal[0][lane] && n.y == lanes->normal[1][lane] &&
+        n.z == lanes->normal[2][lane]) {
+        return; // the frame is the last point's
     }
+    vec3 t, b;
+    vec3_frame(n, &t, &b);
+    set_column(lanes->tangent, lane, t);
+    set_column(lanes->bitangent, lane, b);
+    set_column(lanes->normal, lane, n);
 }
 
 static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes, int lane,
@@ -77,17 +81,19 @@ static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *
     lanes->shift[2][lane] = alpi_hash32(key ^ 0x967a889bu);
 }
 
-/// Points [first, first + count) of one receiver.
+/// Points [first, first + count) of one receiver: of the places that all share, shifted for it.
 static void place_points(const gather_job *job, uint32_t receiver, uint32_t first, uint32_t count,
                          alpi_receiver_point *points)
 {
     const alpi_receivers *r = job->receivers;
+    const uint32_t(*places)[2] = (const uint32_t(*)[2])job->setup->places + first;
     float square[POINTS_PER_CHUNK][2];
     const uint32_t key = alpi_random_key(job->setup->options.seed, receiver, STREAM_PLACE);
+    const uint32_t shift_x = alpi_hash32(key ^ 0x68bc21ebu),
+                   shift_y = alpi_hash32(key ^ 0x02e5be93u);
     for (uint32_t k = 0; k < count; k++) {
-        vec2 u = alpi_sample_2d(key, first + k);
-        square[k][0] = u.x;
-        square[k][1] = u.y;
+        square[k][0] = alpi_unit_float(places[k][0] ^ shift_x);
+        square[k][1] = alpi_unit_float(places[k][1] ^ shift_y);
     }
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
 }
@@ -98,7 +104,7 @@ static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
 {
     alpi_receiver_point points[ALPI_PACKET][POINTS_PER_CHUNK];
     const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
-    const uint32_t block = job->receivers->extended ? SAMPLES_PER_POINT : UINT32_MAX;
+    const uint32_t block = job->receivers->extended ? ALPI_SAMPLES_PER_POINT : UINT32_MAX;
     const uint32_t first_point = first / block, point_count = (end - 1) / block - first_point + 1;
     for (int i = 0; i < ALPI_PACKET; i++) {
         place_points(job, ids[i], first_point, point_count, points[i]);
@@ -129,12 +135,12 @@ static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
 
 static void run_packet(const gather_job *job, uint32_t first_item)
 {
-    alpi_occlusion_lanes lanes;
+    alpi_occlusion_lanes lanes = {.active = 0}; // no normal yet
     uint32_t ids[ALPI_PACKET];
     const uint32_t items = job->list_count - first_item;
     const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
     const uint32_t chunk =
-        SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may begin in the middle
+        ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may begin in the middle
     lanes.active = (1u << used) - 1u;
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t k = first_item + (i < used ? i : used - 1);

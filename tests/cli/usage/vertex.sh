@@ -14,6 +14,10 @@ try bake scene.glb -o out.glb --atlas vertex --quality high
 try bake scene.glb -o out.glb --atlas vertex --time-limit 5
 try bake scene.glb -o out.glb --atlas vertex --keep-partial
 try bake scene.glb -o out.glb --atlas vertex --adaptive off
+try bake scene.glb -o out.glb --atlas vertex --only 'a*'
+try bake scene.glb -o out.glb --atlas vertex --ao-self
+try bake scene.glb -o out.glb --ao-self --occluders 'a*'
+try bake scene.glb -o out.glb --only ''
 try bake scene.glb --atlas vertex
 try bake scene.glb -o out.glb --vertex-attribute color
 try bake scene.glb -o out.glb --atlas charts --vertex-attribute occlusion

@@ -132,6 +132,24 @@ alp_scene *scene_confetti(alp_context *context, uint32_t count)
     return scene;
 }
 
+alp_atlas *charts_of_size(alp_context *context, const alp_scene *scene, uint32_t size)
+{
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_CHARTS;
+    options.size = size;
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    return atlas;
+}
+
+void fill_point_grid(float (*square)[2])
+{
+    for (int i = 0; i < GRID_POINTS; i++) {
+        square[i][0] = ((float)(i % POINT_GRID) + 0.5f) / POINT_GRID;
+        square[i][1] = ((float)(i / POINT_GRID) + 0.5f) / POINT_GRID;
+    }
+}
+
 double texel_area(const alp_atlas *atlas, uint32_t triangle)
 {
     const float(*p)[2] = (const float(*)[2])atlas->corner_uvs[triangle];

@@ -21,6 +21,12 @@ alp_scene *scene_spiral(alp_context *context, uint32_t turns);
 /// `count` loose triangles of keyed random shape, place and size (10^-4 … 1 m).
 alp_scene *scene_confetti(alp_context *context, uint32_t count);
 
+/// New charts on pages of this size, as dense as one page allows.
+alp_atlas *charts_of_size(alp_context *context, const alp_scene *scene, uint32_t size);
+enum { POINT_GRID = 32, GRID_POINTS = POINT_GRID * POINT_GRID };
+/// The middles of POINT_GRID × POINT_GRID cells of the unit square, [GRID_POINTS][2].
+void fill_point_grid(float (*square)[2]);
+
 /// Signed area of a triangle of an atlas in its page, in texels.
 double texel_area(const alp_atlas *atlas, uint32_t triangle);
 /// How many texels hold more than one triangle at one place.

@@ -7,27 +7,6 @@
 
 #include <stdlib.h>
 
-enum { GRID = 32, POINTS = GRID * GRID };
-
-/// A grid of square points, the middles of GRID × GRID cells.
-static void fill_grid(float (*square)[2])
-{
-    for (int i = 0; i < POINTS; i++) {
-        square[i][0] = ((float)(i % GRID) + 0.5f) / GRID;
-        square[i][1] = ((float)(i / GRID) + 0.5f) / GRID;
-    }
-}
-
-static alp_atlas *atlas_of_size(alp_context *context, const alp_scene *scene, uint32_t size)
-{
-    alp_atlas_options options = alp_atlas_options_default();
-    options.mode = ALP_ATLAS_CHARTS;
-    options.size = size;
-    alp_atlas *atlas = NULL;
-    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
-    return atlas;
-}
-
 /// Barycentrics of a place of the page in a triangle, by the cross products of its edges; whether
 /// it lies inside.
 static bool find_in_page(const alp_atlas *atlas, uint32_t triangle, const double at[2], double b[3])
@@ -82,12 +61,16 @@ static double exact_centroid(const alp_atlas *atlas, const alpi_texels *texels, 
         alpi_polygon polygon;
         double middle[2], b[3], place[3];
         if (!scene->triangle_usable[t] || atlas->triangle_pages[t] != texels->pages[texel] ||
-            !alpi_page_triangle_load(atlas, t, &shape) ||
-            alpi_page_triangle_cut(&shape, texels->pixels[texel][0], texels->pixels[texel][1],
-                                   &polygon) <= 0.0) {
+            !alpi_page_triangle_load(atlas, t, &shape)) {
             continue;
         }
-        double part = alpi_polygon_measure(&polygon, middle) * world_per_texel(atlas, t);
+        const uint16_t *pixel = texels->pixels[texel];
+        alpi_page_triangle_cut(&shape, pixel[0], pixel[1], &polygon);
+        double part = polygon.count > 2 ? alpi_polygon_measure(&polygon, middle) : 0.0;
+        if (part <= 0.0) {
+            continue;
+        }
+        part *= world_per_texel(atlas, t);
         find_in_page(atlas, t, middle, b);
         place_on_triangle(scene, t, b, place);
         area += part;
@@ -103,22 +86,22 @@ static double exact_centroid(const alp_atlas *atlas, const alpi_texels *texels, 
 
 static void mean_of_points(const alpi_texels *texels, uint32_t texel, double mean[3])
 {
-    static float square[POINTS][2];
-    static alpi_receiver_point points[POINTS];
-    fill_grid(square);
+    static float square[GRID_POINTS][2];
+    static alpi_receiver_point points[GRID_POINTS];
+    fill_point_grid(square);
     alpi_receivers r = alpi_texels_receivers(texels);
-    r.place(r.user, texel, POINTS, (const float(*)[2])square, points);
+    r.place(r.user, texel, GRID_POINTS, (const float(*)[2])square, points);
     memset(mean, 0, 3 * sizeof *mean);
-    for (int i = 0; i < POINTS; i++) {
-        mean[0] += (double)points[i].position.x / POINTS;
-        mean[1] += (double)points[i].position.y / POINTS;
-        mean[2] += (double)points[i].position.z / POINTS;
+    for (int i = 0; i < GRID_POINTS; i++) {
+        mean[0] += (double)points[i].position.x / GRID_POINTS;
+        mean[1] += (double)points[i].position.y / GRID_POINTS;
+        mean[2] += (double)points[i].position.z / GRID_POINTS;
     }
 }
 
 static void check_means(alp_context *context, alp_scene *scene, uint32_t size)
 {
-    alp_atlas *atlas = atlas_of_size(context, scene, size);
+    alp_atlas *atlas = charts_of_size(context, scene, size);
     alpi_texels texels;
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     uint32_t step = texels.count / 200 + 1;
@@ -127,8 +110,8 @@ static void check_means(alp_context *context, alp_scene *scene, uint32_t size)
         double area = exact_centroid(atlas, &texels, i, expected);
         ASSERT_NEAR(texels.areas[i], area, 1e-4 * area);
         mean_of_points(&texels, i, mean);
-        // The midpoint rule over GRID strata: an edge between pieces may cross each of them.
-        double reach = 2.0 / (double)GRID / atlas->info.texels_per_metre;
+        // The midpoint rule over POINT_GRID strata: an edge between pieces may cross each of them.
+        double reach = 2.0 / (double)POINT_GRID / atlas->info.texels_per_metre;
         for (int axis = 0; axis < 3; axis++) {
             ASSERT_NEAR(mean[axis], expected[axis], reach);
         }
@@ -170,9 +153,39 @@ static void a_known_piece_has_its_known_mean(void **state)
     assert_int_equal(texels.count, 1);
     double mean[3];
     mean_of_points(&texels, 0, mean);
-    ASSERT_NEAR(mean[0], 1.0 + 2.0 / 3.0, 2e-3); // midpoint rule over √v: 1/(24 GRID^1.5) of 2 m
+    ASSERT_NEAR(mean[0], 1.0 + 2.0 / 3.0,
+                2e-3); // midpoint rule over √v: 1/(24 POINT_GRID^1.5) of 2 m
     ASSERT_NEAR(mean[1], 0.0, 0.0);
     ASSERT_NEAR(mean[2], 1.0 + 2.0 / 3.0, 2e-3);
+    alpi_texels_destroy(context, &texels);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void pieces_count_by_their_area_in_the_world(void **state)
+{
+    (void)state;
+    // Two halves of the only texel; one has three times the legs of the other.
+    alp_context *context = test_context(1);
+    static const float p[6][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0},
+                                  {9, 0, 0}, {9, 0, 3}, {12, 0, 0}};
+    static const float uvs[6][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {1, 0}, {0, 1}};
+    static const uint32_t indices[2][3] = {{0, 1, 2}, {3, 4, 5}};
+    alp_scene *scene = scene_of(context, p, uvs, 6, indices, 2);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_KEEP;
+    options.size = 1;
+    alp_atlas *atlas = NULL;
+    alpi_texels texels;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+    assert_int_equal(texels.piece_first[1], 2);
+    ASSERT_NEAR(texels.areas[0], 5.0, 1e-5);
+    ASSERT_NEAR(texels.piece_ends[0], texels.piece_triangles[0] == 0 ? 0.1 : 0.9, 1e-6);
+    double mean[3];
+    mean_of_points(&texels, 0, mean); // the midpoint rule puts 3 or 4 of 32 columns into a tenth
+    ASSERT_NEAR(mean[0], 0.1 * (1.0 / 3.0) + 0.9 * 10.0, 0.03 * 10.0);
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
@@ -215,21 +228,21 @@ static uint32_t triangle_of_point(const alp_atlas *atlas, const alpi_texels *tex
 /// points by their areas.
 static void check_points(alp_context *context, alp_scene *scene, uint32_t size)
 {
-    alp_atlas *atlas = atlas_of_size(context, scene, size);
+    alp_atlas *atlas = charts_of_size(context, scene, size);
     alpi_texels texels;
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     alpi_receivers r = alpi_texels_receivers(&texels);
     assert_true(r.extended && r.count == texels.count);
-    static float square[POINTS][2];
-    static alpi_receiver_point points[POINTS];
-    fill_grid(square);
+    static float square[GRID_POINTS][2];
+    static alpi_receiver_point points[GRID_POINTS];
+    fill_point_grid(square);
     uint32_t *hits = calloc((size_t)texels.piece_first[texels.count] + 1, sizeof *hits);
     assert_non_null(hits);
     for (uint32_t i = 0; i < texels.count; i += texels.count / 100 + 1) {
         texels.flags[i] = ALPI_TEXEL_NO_LIFT;
-        r.place(r.user, i, POINTS, (const float(*)[2])square, points);
+        r.place(r.user, i, GRID_POINTS, (const float(*)[2])square, points);
         uint32_t first = texels.piece_first[i], end = texels.piece_first[i + 1];
-        for (int k = 0; k < POINTS; k++) {
+        for (int k = 0; k < GRID_POINTS; k++) {
             double at[2];
             uint32_t piece = triangle_of_point(atlas, &texels, i, points[k].position, at);
             hits[piece] += first != end;
@@ -238,8 +251,8 @@ static void check_points(alp_context *context, alp_scene *scene, uint32_t size)
         }
         float begin = 0.0f;
         for (uint32_t p = first; p < end; p++) { // columns of the grid that fall into the piece
-            double expected = (double)(texels.piece_ends[p] - begin) * POINTS;
-            ASSERT_NEAR(hits[p], expected, GRID + 0.02 * expected);
+            double expected = (double)(texels.piece_ends[p] - begin) * GRID_POINTS;
+            ASSERT_NEAR(hits[p], expected, POINT_GRID + 0.02 * expected);
             begin = texels.piece_ends[p];
         }
         assert_true(first == end || texels.piece_ends[end - 1] == 1.0f);
@@ -311,7 +324,7 @@ static void brute_mean(const alp_atlas *atlas, const alpi_texels *texels, uint32
 
 static void check_brute_force(alp_context *context, alp_scene *scene, uint32_t size)
 {
-    alp_atlas *atlas = atlas_of_size(context, scene, size);
+    alp_atlas *atlas = charts_of_size(context, scene, size);
     alpi_texels texels;
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     uint32_t cut = 0;
@@ -349,133 +362,60 @@ static void points_agree_with_brute_force(void **state)
     alp_context_destroy(context);
 }
 
-// --- lift ----------------------------------------------------------------------------------------
-
-/// A cube of side 2 whose corners' normals are given by `normal`, and the texels it has.
-static alp_scene *normal_cube(alp_context *context, void (*normal)(const float at[3], float out[3]))
+/// Mean square of the distance (texels) by which the mean of 16 points misses the texel's, over
+/// many sets of points.
+static double scatter(const alpi_texels *texels, const alpi_receivers *r, bool stratified)
 {
-    alp_scene *flat = scene_cube(context);
-    float positions[36][3], normals[36][3];
-    uint32_t indices[12][3];
-    for (uint32_t i = 0; i < 36; i++) {
-        memcpy(positions[i], flat->positions[flat->triangles[i / 3][i % 3]], sizeof *positions);
-        normal(positions[i], normals[i]);
-        indices[i / 3][i % 3] = i;
-    }
-    alp_scene_destroy(flat);
-    const alp_mesh mesh = {.vertex_count = 36,
-                           .positions = positions[0],
-                           .normals = normals[0],
-                           .triangle_count = 12,
-                           .indices = indices[0]};
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
-    return scene;
-}
-
-static void out_of_the_middle(const float at[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = at[k] / sqrtf(3.0f);
-    }
-}
-
-static void into_the_middle(const float at[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = -at[k] / sqrtf(3.0f);
-    }
-}
-
-/// Largest distance by which points of a scene's texels are lifted, m.
-static double largest_lift(alp_context *context, alp_scene *scene, bool below_is_fault)
-{
-    alp_atlas *atlas = atlas_of_size(context, scene, 64);
-    alpi_texels texels;
-    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
-    const alpi_receivers r = alpi_texels_receivers(&texels);
-    static float square[POINTS][2];
-    alpi_receiver_point lifted[64], plain[64];
-    fill_grid(square);
-    double largest = 0.0;
-    for (uint32_t i = 0; i < texels.count; i++) {
-        const float(*part)[2] = (const float(*)[2])(square + i % 8 * 64);
-        texels.flags[i] = 0;
-        r.place(r.user, i, 64, part, lifted);
-        texels.flags[i] = ALPI_TEXEL_NO_LIFT;
-        r.place(r.user, i, 64, part, plain);
-        for (int k = 0; k < 64; k++) {
-            const vec3 lift = vec3_sub(lifted[k].position, plain[k].position);
-            largest = fmax(largest, (double)vec3_length(lift));
-            assert_true(!below_is_fault || vec3_dot(lift, plain[k].geometric_normal) >= 0.0f);
-            assert_memory_equal(&lifted[k].shading_normal, &plain[k].shading_normal, sizeof(vec3));
-            assert_true(vec3_dot(plain[k].shading_normal, plain[k].geometric_normal) > 0.0f);
+    double sum = 0.0;
+    uint32_t sets = 0;
+    for (uint32_t i = 0; i < texels->count; i++) {
+        double center[3];
+        mean_of_points(texels, i, center);
+        for (uint32_t set = 0; set < 8; set++, sets++) {
+            const uint32_t key = alpi_random_key(5, i, set);
+            float square[16][2];
+            alpi_receiver_point points[16];
+            double mean[3] = {0.0, 0.0, 0.0};
+            for (uint32_t k = 0; k < 16; k++) {
+                const uint32_t other = alpi_random_key(k, i, set);
+                const vec2 u = alpi_sample_2d(stratified ? key : other, stratified ? k : 0);
+                square[k][0] = u.x;
+                square[k][1] = u.y;
+            }
+            r->place(r->user, i, 16, (const float(*)[2])square, points);
+            for (int k = 0; k < 16; k++) {
+                mean[0] += (double)points[k].position.x / 16.0;
+                mean[2] += (double)points[k].position.z / 16.0;
+            }
+            sum += (mean[0] - center[0]) * (mean[0] - center[0]) +
+                   (mean[2] - center[2]) * (mean[2] - center[2]);
         }
     }
-    alpi_texels_destroy(context, &texels);
-    alp_atlas_destroy(atlas);
-    alp_scene_destroy(scene);
-    return largest;
+    return sum / sets * texels->atlas->info.texels_per_metre * texels->atlas->info.texels_per_metre;
 }
 
-static void lifts_have_a_limit(void **state)
+static void stratified_squares_stay_stratified(void **state)
 {
     (void)state;
+    // 16 random points miss the mean by 1/√96 of a texel; a 4 × 4 net of a square by a 16th of its
+    // variance. Whole texels keep the net; pieces keep the order of its first coordinate, along a
+    // curve that fills the texel.
     alp_context *context = test_context(1);
-    // Flat triangles stay where they are, to the bit.
-    assert_true(largest_lift(context, scene_sphere(context, 12, 24), true) == 0.0);
-    // Normals averaged over creases ask for .67 m: they get an eighth of the diagonal.
-    const double most = largest_lift(context, normal_cube(context, out_of_the_middle), true);
-    ASSERT_NEAR(most, 0.125 * sqrt(8.0), 1e-5);
-    // Normals that point inside describe no surface.
-    assert_true(largest_lift(context, normal_cube(context, into_the_middle), true) == 0.0);
-    alp_context_destroy(context);
-}
-
-static void a_lift_follows_its_formula(void **state)
-{
-    (void)state;
-    // Middle of an edge between corners on a circle, normals outwards, span 2a: both corners lift
-    // it by sin² a along their normals: by sin² a · cos a along their mean.
-    alp_context *context = test_context(1);
-    const double a = 0.3;
-    const float s = (float)sin(a), c = (float)cos(a);
-    const float p[4][3] = {{-s, c, 0}, {-s, c, 4}, {s, c, 4}, {s, c, 0}};
-    const float n[4][3] = {{-s, c, 0}, {-s, c, 0}, {s, c, 0}, {s, c, 0}};
-    const float uvs[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-    const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    const alp_mesh mesh = {.vertex_count = 4,
-                           .positions = p[0],
-                           .normals = n[0],
-                           .uvs = uvs[0],
-                           .triangle_count = 2,
-                           .indices = indices[0]};
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
-    alp_atlas_options options = alp_atlas_options_default();
-    options.mode = ALP_ATLAS_KEEP;
-    options.size = 8;
-    alp_atlas *atlas = NULL;
-    alpi_texels texels;
-    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
-    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
-    const alpi_receivers r = alpi_texels_receivers(&texels);
-    const float origin[1][2] = {{0.0f, 0.0f}};
-    alpi_receiver_point point;
-    for (uint32_t i = 0; i < texels.count; i++) {
-        if (texels.piece_first[i] == texels.piece_first[i + 1]) { // at its corner of low u and v
-            r.place(r.user, i, 1, origin, &point);
-            const double u = texels.pixels[i][0] / 8.0; // the weight of the right side
-            // Heights over the tangent planes: −2 u sin² a and −2 (1 − u) sin² a. Both times the
-            // other weight: 2 u (1 − u) sin² a along each normal.
-            const double lift = 2.0 * u * (1.0 - u) * sin(a) * sin(a);
-            ASSERT_NEAR(point.position.x, (2.0 * u - 1.0) * sin(a), 1e-6);
-            ASSERT_NEAR(point.position.y, cos(a) + 2.0 * lift * cos(a), 1e-6);
-        }
+    const uint32_t squares[] = {1, 8, 60}; // of 8 texels a side: whole, two triangles, dozens
+    const double shares[] = {0.05, 0.05, 0.2};
+    for (int i = 0; i < 3; i++) {
+        alp_scene *scene = scene_plane(context, squares[i]);
+        alp_atlas *atlas = charts_of_size(context, scene, 8);
+        alpi_texels texels;
+        ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+        const alpi_receivers r = alpi_texels_receivers(&texels);
+        const double random = scatter(&texels, &r, false), net = scatter(&texels, &r, true);
+        ASSERT_NEAR(random, 1.0 / 96.0, 0.2 / 96.0); // 512 sets: four standard errors
+        assert_true(net < shares[i] * random);
+        alpi_texels_destroy(context, &texels);
+        alp_atlas_destroy(atlas);
+        alp_scene_destroy(scene);
     }
-    alpi_texels_destroy(context, &texels);
-    alp_atlas_destroy(atlas);
-    alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
 
@@ -488,15 +428,15 @@ static void invalid_strata_get_no_points(void **state)
     // and the valid strata get equally many.
     alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 12, 24);
-    alp_atlas *atlas = atlas_of_size(context, scene, 64);
+    alp_atlas *atlas = charts_of_size(context, scene, 64);
     alpi_texels texels;
     ASSERT_OK(context, alpi_texels_create(atlas, &texels));
     alpi_receivers r = alpi_texels_receivers(&texels);
     texels.valid = ALPI_NEW(context, uint16_t, texels.count);
     assert_non_null(texels.valid);
-    static float square[POINTS][2];
+    static float square[GRID_POINTS][2];
     alpi_receiver_point masked[64], whole[64];
-    fill_grid(square);
+    fill_point_grid(square);
     const uint16_t masks[] = {0x0001, 0x8000, 0x0f0f, 0x7fff, 0x1240};
     for (uint32_t i = 0; i < texels.count; i += 37) {
         for (int m = 0; m < 5; m++) {
@@ -506,7 +446,7 @@ static void invalid_strata_get_no_points(void **state)
                     order[k++] = s;
                 }
             }
-            for (int first = 0; first < POINTS; first += 64) {
+            for (int first = 0; first < GRID_POINTS; first += 64) {
                 float moved[64][2];
                 for (int k = 0; k < 64; k++) {
                     double u = (double)square[first + k][0] * bits;
@@ -525,7 +465,7 @@ static void invalid_strata_get_no_points(void **state)
                 }
             }
             for (uint32_t k = 0; k < bits; k++) {
-                ASSERT_NEAR(counts[order[k]], (double)POINTS / bits, GRID);
+                ASSERT_NEAR(counts[order[k]], (double)GRID_POINTS / bits, POINT_GRID);
             }
         }
     }
@@ -566,7 +506,7 @@ static void any_number_of_workers_gives_the_same(void **state)
     for (int i = 0; i < 4; i++) {
         contexts[i] = test_context(workers[i]);
         scenes[i] = scene_sphere(contexts[i], 30, 60);
-        atlases[i] = atlas_of_size(contexts[i], scenes[i], 400);
+        atlases[i] = charts_of_size(contexts[i], scenes[i], 400);
         ASSERT_OK(contexts[i], alpi_texels_create(atlases[i], &texels[i]));
         check_same(&texels[0], &texels[i], atlases[0]->info.pages);
         assert_memory_equal(&atlases[0]->info, &atlases[i]->info, sizeof atlases[0]->info);
@@ -621,10 +561,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_the_centroid),
         cmocka_unit_test(a_known_piece_has_its_known_mean),
+        cmocka_unit_test(pieces_count_by_their_area_in_the_world),
         cmocka_unit_test(points_lie_in_their_texel),
         cmocka_unit_test(points_agree_with_brute_force),
-        cmocka_unit_test(lifts_have_a_limit),
-        cmocka_unit_test(a_lift_follows_its_formula),
+        cmocka_unit_test(stratified_squares_stay_stratified),
         cmocka_unit_test(invalid_strata_get_no_points),
         cmocka_unit_test(any_number_of_workers_gives_the_same),
         cmocka_unit_test(every_allocation_may_fail),

@@ -291,6 +291,33 @@ static void what_has_no_meaning_is_refused(void **state)
     alp_context_destroy(context);
 }
 
+static void chosen_occluders_alone_occlude(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_bake_options options = vertex_options(64);
+    alp_bake_report report;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+    assert_true(report.ao_mean < 0.999);
+    options.occluders = "ground"; // a plane, which nothing of the sphere is behind
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+    const double ground = report.ao_mean;
+    options.occluders = "sphere";
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+    assert_true(report.ao_mean != ground);
+    options.occluders = "cube";
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    options.occluders = NULL;
+    options.only = "sphere";
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    options.only = NULL;
+    options.ao_self = true;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
@@ -353,6 +380,7 @@ int main(void)
         cmocka_unit_test(the_written_file_reads_back),
         cmocka_unit_test(large_triangles_are_told),
         cmocka_unit_test(what_has_no_meaning_is_refused),
+        cmocka_unit_test(chosen_occluders_alone_occlude),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(cancelling_leaves_nothing),
     };

@@ -4,6 +4,7 @@
 #include "base/tasks.h"
 #include "maps/occlusion_map.h"
 #include "maps/stated_error.h"
+#include "maps/validity.h"
 #include "test_scenes.h"
 
 #include <math.h>
@@ -41,18 +42,6 @@ static void set_up(map_setup *setup, uint32_t workers, const char *scene)
     setup->receivers = alpi_texels_receivers(&setup->texels);
 }
 
-static void find_truth(map_setup *s)
-{
-    alp_occlusion_options options = s->options;
-    alpi_occlusion_setup setup;
-    options.samples = TRUTH_SAMPLES;
-    options.seed = 99;
-    ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &options, &setup));
-    ASSERT_OK(s->context,
-              alpi_occlusion_gather(&setup, &s->receivers, NULL, s->texels.count, s->truth));
-    alpi_occlusion_release(&setup);
-}
-
 static void tear_down(map_setup *s)
 {
     free(s->errors);
@@ -69,10 +58,33 @@ static alp_result run(map_setup *s, const alpi_occlusion_map_options *options,
     alpi_occlusion_setup setup;
     ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, lattice));
     ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &s->options, &setup));
+    alpi_validity validity;
+    ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, lattice,
+                                               lattice->order, s->texels.count, NULL, &validity));
+    alpi_occlusion_map_options near_too = *options;
+    near_too.near = validity.near;
     alp_result result = alpi_occlusion_map(&setup, &s->receivers, lattice->order, s->texels.count,
-                                           options, lattice, s->errors, report);
+                                           &near_too, lattice, s->errors, report);
+    alpi_validity_destroy(&validity);
     alpi_occlusion_release(&setup);
     return result;
+}
+
+static void find_truth(map_setup *s)
+{
+    alp_occlusion_options options = s->options;
+    alpi_occlusion_setup setup;
+    alpi_lattice lattice; // a first run finds which strata are valid
+    alpi_occlusion_map_report report;
+    const alpi_occlusion_map_options once = {.accuracy = ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
+    ASSERT_OK(s->context, run(s, &once, &lattice, &report));
+    alpi_lattice_destroy(&lattice);
+    options.samples = TRUTH_SAMPLES;
+    options.seed = 99;
+    ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &options, &setup));
+    ASSERT_OK(s->context,
+              alpi_occlusion_gather(&setup, &s->receivers, NULL, s->texels.count, s->truth));
+    alpi_occlusion_release(&setup);
 }
 
 static double true_rmse(const map_setup *s, const alpi_lattice *l)

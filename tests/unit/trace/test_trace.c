@@ -169,6 +169,51 @@ static void alpha_cuts_let_rays_through(void **state)
     alp_context_destroy(context);
 }
 
+static void chosen_surfaces_alone_are_hit(void **state)
+{
+    (void)state;
+    // Three squares one above the other; rays go down through all of them.
+    alp_context *context = test_context(1);
+    const float squares[3][4][3] = {
+        {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}},
+        {{-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}},
+        {{-1, 2, 1}, {1, 2, 1}, {1, 2, -1}, {-1, 2, -1}},
+    };
+    const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    alp_mesh meshes[3];
+    for (int i = 0; i < 3; i++) {
+        meshes[i] = (alp_mesh){.vertex_count = 4,
+                               .positions = squares[i][0],
+                               .triangle_count = 2,
+                               .indices = indices[0]};
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 3, &scene));
+    for (uint32_t set = 0; set < 8; set++) {
+        const bool surfaces[3] = {(set & 1) != 0, (set & 2) != 0, (set & 4) != 0};
+        alpi_tracer *tracer = NULL;
+        ASSERT_OK(context, alpi_tracer_create(scene, surfaces, NULL, NULL, &tracer));
+        alpi_rays rays = {.maximum = {INFINITY}};
+        rays.origin_x[0] = 0.25f;
+        rays.origin_y[0] = 3.0f;
+        rays.direction_y[0] = -1.0f;
+        alpi_hits hits;
+        alpi_trace_nearest(tracer, &rays, 1, (alpi_trace_filter){0}, &hits);
+        const uint32_t top = set >= 4 ? 2 : set >= 2 ? 1 : 0;
+        if (set == 0) {
+            assert_int_equal(hits.triangle[0], ALPI_NONE);
+        } else { // the number is that of the scene
+            assert_int_equal(hits.triangle[0] / 2, top);
+            ASSERT_NEAR(hits.distance[0], 3.0 - top, 1e-6);
+        }
+        alpi_tracer_destroy(tracer);
+    }
+    alpi_tracer_destroy(NULL);
+    assert_null(scene->attachments[ALPI_ATTACHMENT_TRACER].data); // none of these stays
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void an_empty_scene_is_never_hit(void **state)
 {
     (void)state;
@@ -212,6 +257,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_rays_hit_what_brute_force_hits),
         cmocka_unit_test(alpha_cuts_let_rays_through),
+        cmocka_unit_test(chosen_surfaces_alone_are_hit),
         cmocka_unit_test(an_empty_scene_is_never_hit),
         cmocka_unit_test(building_can_be_cancelled),
     };

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Points of a texel are lifted to the smooth surface: by the formula, not too far, and where there
+// is one.
+#include "atlas_scenes.h"
+
+/// A cube of side 2 whose corners' normals are given by `normal`, and the texels it has.
+static alp_scene *normal_cube(alp_context *context, void (*normal)(const float at[3], float out[3]))
+{
+    alp_scene *flat = scene_cube(context);
+    float positions[36][3], normals[36][3];
+    uint32_t indices[12][3];
+    for (uint32_t i = 0; i < 36; i++) {
+        memcpy(positions[i], flat->positions[flat->triangles[i / 3][i % 3]], sizeof *positions);
+        normal(positions[i], normals[i]);
+        indices[i / 3][i % 3] = i;
+    }
+    alp_scene_destroy(flat);
+    const alp_mesh mesh = {.vertex_count = 36,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .triangle_count = 12,
+                           .indices = indices[0]};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    return scene;
+}
+
+static void out_of_the_middle(const float at[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = at[k] / sqrtf(3.0f);
+    }
+}
+
+static void into_the_middle(const float at[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = -at[k] / sqrtf(3.0f);
+    }
+}
+
+static void out_but_upside_down(const float at[3], float out[3])
+{
+    out_of_the_middle(at, out);
+    out[1] = -out[1];
+}
+
+/// Largest distance by which points of a scene's texels are lifted, m.
+static double largest_lift(alp_context *context, alp_scene *scene, bool below_is_fault)
+{
+    alp_atlas *atlas = charts_of_size(context, scene, 64);
+    alpi_texels texels;
+    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+    const alpi_receivers r = alpi_texels_receivers(&texels);
+    static float square[GRID_POINTS][2];
+    alpi_receiver_point lifted[64], plain[64];
+    fill_point_grid(square);
+    double largest = 0.0;
+    for (uint32_t i = 0; i < texels.count; i++) {
+        const float(*part)[2] = (const float(*)[2])(square + i % 8 * 64);
+        texels.flags[i] = 0;
+        r.place(r.user, i, 64, part, lifted);
+        texels.flags[i] = ALPI_TEXEL_NO_LIFT;
+        r.place(r.user, i, 64, part, plain);
+        for (int k = 0; k < 64; k++) {
+            const vec3 lift = vec3_sub(lifted[k].position, plain[k].position);
+            largest = fmax(largest, (double)vec3_length(lift));
+            assert_true(!below_is_fault || vec3_dot(lift, plain[k].geometric_normal) >= 0.0f);
+            assert_memory_equal(&lifted[k].shading_normal, &plain[k].shading_normal, sizeof(vec3));
+            assert_true(vec3_dot(plain[k].shading_normal, plain[k].geometric_normal) > 0.0f);
+        }
+    }
+    alpi_texels_destroy(context, &texels);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    return largest;
+}
+
+static void lifts_have_a_limit(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    // Flat triangles stay where they are, to the bit.
+    assert_true(largest_lift(context, scene_sphere(context, 12, 24), true) == 0.0);
+    // Normals averaged over creases ask for .44 m: they get an eighth of the diagonal.
+    const double most = largest_lift(context, normal_cube(context, out_of_the_middle), true);
+    ASSERT_NEAR(most, 0.125 * sqrt(8.0), 1e-5);
+    // Normals that point inside describe no surface.
+    assert_true(largest_lift(context, normal_cube(context, into_the_middle), true) == 0.0);
+    // Nor do those of top and bottom here: along them points would sink.
+    assert_true(largest_lift(context, normal_cube(context, out_but_upside_down), true) > 0.1);
+    alp_context_destroy(context);
+}
+
+static void a_lift_follows_its_formula(void **state)
+{
+    (void)state;
+    // Middle of an edge between corners on a circle, normals outwards, span 2a: both corners lift
+    // it by sin² a along their normals: by sin² a · cos a along their mean.
+    alp_context *context = test_context(1);
+    const double a = 0.3;
+    const float s = (float)sin(a), c = (float)cos(a);
+    const float p[4][3] = {{-s, c, 0}, {-s, c, 4}, {s, c, 4}, {s, c, 0}};
+    const float n[4][3] = {{-s, c, 0}, {-s, c, 0}, {s, c, 0}, {s, c, 0}};
+    const float uvs[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+    const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const alp_mesh mesh = {.vertex_count = 4,
+                           .positions = p[0],
+                           .normals = n[0],
+                           .uvs = uvs[0],
+                           .triangle_count = 2,
+                           .indices = indices[0]};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_KEEP;
+    options.size = 8;
+    alp_atlas *atlas = NULL;
+    alpi_texels texels;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+    const alpi_receivers r = alpi_texels_receivers(&texels);
+    const float origin[1][2] = {{0.0f, 0.0f}};
+    alpi_receiver_point point;
+    for (uint32_t i = 0; i < texels.count; i++) {
+        if (texels.piece_first[i] == texels.piece_first[i + 1]) { // at its corner of low u and v
+            r.place(r.user, i, 1, origin, &point);
+            const double u = texels.pixels[i][0] / 8.0; // the weight of the right side
+            // Heights over the tangent planes: −2 u sin² a and −2 (1 − u) sin² a. Both times the
+            // other weight: 2 u (1 − u) sin² a along each normal, and two thirds of that is done.
+            const double lift = 2.0 * u * (1.0 - u) * sin(a) * sin(a);
+            ASSERT_NEAR(point.position.x, (2.0 * u - 1.0) * sin(a), 1e-6);
+            ASSERT_NEAR(point.position.y, cos(a) + 2.0 / 3.0 * 2.0 * lift * cos(a), 2e-6);
+        }
+    }
+    alpi_texels_destroy(context, &texels);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lifts_have_a_limit),
+        cmocka_unit_test(a_lift_follows_its_formula),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
