@@ -255,7 +255,8 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     const double started = alpi_seconds();
     alpi_lattice lattice;
     ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
-    alp_result result = gather(job, &lattice);
+    alp_result result = alpi_bake_begin_side_maps(job);
+    result = result == ALP_OK ? gather(job, &lattice) : result;
     job->report.seconds_bake = alpi_seconds() - started - job->report.seconds_build;
     if (result == ALP_OK && job->report.cut_off) {
         job->options.progress = NULL; // asked again it would cancel what it wanted kept

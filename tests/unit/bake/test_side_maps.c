@@ -158,6 +158,27 @@ static void side_maps_leave_occlusion_as_it_is(void **state)
     alp_context_destroy(context);
 }
 
+static void objects_alone_see_no_other(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_bake_options options = small_options(ALL);
+    options.ao_self = true;
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
+    const float *bent = alp_lightmap_map_page(lightmap, ALP_MAP_BENT, 0, NULL, NULL);
+    const float *color = alp_lightmap_map_page(lightmap, ALP_MAP_OBSCURANCE, 0, NULL, NULL);
+    for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) { // convex: nothing bleeds, all is bent
+        const float *b = bent + 4 * i, *c = color + 4 * i;
+        ASSERT_NEAR(sqrt((double)(b[0] * b[0] + b[1] * b[1] + b[2] * b[2])), 1.0, 1e-5);
+        ASSERT_NEAR(c[0] + c[1] + c[2], 3.0, 1e-5);
+    }
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void only_what_is_asked_for_is_written(void **state)
 {
     (void)state;
@@ -278,6 +299,7 @@ int main(void)
         cmocka_unit_test(channels_are_x_y_z),
         cmocka_unit_test(memory_is_known_beforehand),
         cmocka_unit_test(side_maps_leave_occlusion_as_it_is),
+        cmocka_unit_test(objects_alone_see_no_other),
         cmocka_unit_test(only_what_is_asked_for_is_written),
         cmocka_unit_test(a_map_cut_off_has_bent_normals_where_it_has_values),
         cmocka_unit_test(senseless_combinations_are_refused),
