@@ -35,6 +35,7 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_ADAPTIVE, "--adaptive"},
                    {OPTION_TIME_LIMIT, "--time-limit"},
                    {OPTION_KEEP_PARTIAL, "--keep-partial"},
+                   {OPTION_AO_BLEED, "--ao-bleed"},
                    {OPTION_MAPS_FOLDER, "--maps-dir"}};
     bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
@@ -50,6 +51,36 @@ static int check_vertex_options(const option_value *values)
     }
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
+    }
+    return EXIT_DONE;
+}
+
+/// --maps and --ao-bleed, and what cannot stand beside them.
+static int read_maps(const option_value *values, alp_bake_options *o)
+{
+    const bool bleed = values[OPTION_AO_BLEED].given;
+    o->maps = (unsigned)values[OPTION_MAPS].whole | (bleed ? ALP_MAP_OBSCURANCE : 0u);
+    const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && bent) {
+        return usage_error(COMMAND_BAKE, "--maps bent: has no meaning with --atlas vertex");
+    }
+    if (o->maps_folder == NULL && (bent || bleed)) {
+        return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR",
+                           bent ? "--maps bent" : "--ao-bleed");
+    }
+    if (o->output != NULL && !ao) {
+        return usage_error(COMMAND_BAKE,
+                           "-o %s: glTF has no place for bent normals; bake --maps "
+                           "ao,bent, or give --maps-dir alone",
+                           o->output);
+    }
+    if (values[OPTION_EXISTING_AO].given && !ao) {
+        return usage_error(COMMAND_BAKE, "--existing-ao: has no meaning without --maps ao");
+    }
+    if (bleed && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
+        return usage_error(COMMAND_BAKE,
+                           "--ao-bleed: is baked in one go; leave out --time-limit and "
+                           "--keep-partial");
     }
     return EXIT_DONE;
 }
@@ -131,6 +162,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE) {
         code = check_output_name(o->output);
     }
+    code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
@@ -142,6 +174,25 @@ static void print_atlas(const alp_atlas_info *atlas)
            atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
            atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+}
+
+static void print_maps(const alp_bake_options *o, uint32_t pages)
+{
+    static const struct {
+        alp_map map;
+        const char *files;
+    } of_maps[] = {{ALP_MAP_AO, "ao.exr, ao.png, ao.error.exr, ao.sampling.png"},
+                   {ALP_MAP_BENT, "bent.exr, bent.png"},
+                   {ALP_MAP_OBSCURANCE, "obscurance.exr, obscurance.png"}};
+    const char *separator = "";
+    printf("maps       %s/", o->maps_folder);
+    for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++) {
+        if ((o->maps & (unsigned)of_maps[i].map) != 0) {
+            printf("%s%s", separator, of_maps[i].files);
+            separator = ", ";
+        }
+    }
+    printf("%s\n", pages > 1 ? " and further pages" : "");
 }
 
 static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
@@ -183,8 +234,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
-        printf("maps       %s/ao.exr, ao.png, ao.error.exr, ao.sampling.png%s\n", o->maps_folder,
-               r->atlas.pages > 1 ? " and further pages" : "");
+        print_maps(o, r->atlas.pages);
     }
     if (o->only != NULL) {
         printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);

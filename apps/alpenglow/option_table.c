@@ -74,10 +74,12 @@ static const option options[] = {
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
-     .choices = "ao",
-     .later_choices = "bent|light|direction|sh|probes",
+     .choices = "ao|bent",
+     .later_choices = "light|direction|sh|probes",
      .initial = "ao",
-     .help = "What to bake: ao, the ambient occlusion map (1 open, 0 closed)."},
+     .help = "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
+             "the mean open direction in world space, from the same rays; glTF has no place for "
+             "them, so they go to --maps-dir alone, and -o needs ao."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -85,7 +87,8 @@ static const option options[] = {
      .name = "--maps-dir",
      .value = "DIR",
      .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0) and "
-             "ao.png; further pages ao.1.exr and so on. DIR is made if missing."},
+             "ao.png; bent.exr (unit vectors) and bent.png (n / 2 + 1/2); obscurance.exr and "
+             "obscurance.png; further pages ao.1.exr and so on. DIR is made if missing."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -409,6 +412,15 @@ static const option options[] = {
      .name = "--one-sided",
      .help = "Rays pass single-sided materials from behind. Without it every surface occludes "
              "from both sides."},
+    {.id = OPTION_AO_BLEED,
+     .commands = IN_BAKE,
+     .group = GROUP_AO,
+     .kind = KIND_FLAG,
+     .name = "--ao-bleed",
+     .help = "Also bake coloured obscurance to --maps-dir: occlusion in which a surface that "
+             "occludes counts with its colour instead of as black. Linear RGB, obscurance.exr and "
+             "obscurance.png; the map in OUT stays without colour, as glTF wants it. Every texel "
+             "gets as many rays of its own as a traced texel of ao, two to four times as slow."},
     {.id = OPTION_EXISTING_AO,
      .commands = IN_BAKE,
      .group = GROUP_AO,
@@ -490,7 +502,6 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--ao-bleed", NULL, "open is 1 and closed is 0, without colour"),
     LATER(RAY_COMMANDS, "--bounces", "N|converge", no_light),
     LATER(IN_BAKE, "--direct", "on|off|only", no_light),
     LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),

@@ -214,12 +214,14 @@ static int parse_choice(command_id command, const option *o, const char *text, s
 
 static int parse_list(command_id command, const option *o, const char *text, option_value *value)
 {
+    value->whole = 0;
     for (const char *at = text; at != NULL;) {
         size_t length = strcspn(at, ",");
         int code = parse_choice(command, o, at, length, value);
         if (code != EXIT_DONE) {
             return code;
         }
+        value->whole |= UINT64_C(1) << value->choice;
         at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return EXIT_DONE;

@@ -51,6 +51,7 @@ typedef enum option_id {
     OPTION_AO_DISTRIBUTION,
     OPTION_AO_SELF,
     OPTION_ONE_SIDED,
+    OPTION_AO_BLEED,
     OPTION_EXISTING_AO,
     OPTION_AO_INTO,
     OPTION_QUALITY,
@@ -115,7 +116,7 @@ typedef struct option {
     const char *help;    // for options not built yet: what exists instead
 } option;
 
-/// What an option was given. A number has choice −1.
+/// What an option was given. A number has choice −1; a list has bit i of `whole` for its choice i.
 typedef struct option_value {
     bool given;
     const char *text;

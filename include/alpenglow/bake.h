@@ -39,6 +39,13 @@ typedef enum alp_vertex_attribute {
     ALP_VERTEX_OCCLUSION = 1 ///< _OCCLUSION, a scalar for shaders that know it; COLOR_0 stays
 } alp_vertex_attribute;
 
+/// What a bake makes: bits of alp_bake_options.maps. See alp_lightmap_map_page for their values.
+typedef enum alp_map {
+    ALP_MAP_AO = 1,        ///< accessibility: what an asset carries
+    ALP_MAP_BENT = 2,      ///< bent normals, from the rays of ALP_MAP_AO
+    ALP_MAP_OBSCURANCE = 4 ///< coloured obscurance, every texel with rays of its own
+} alp_map;
+
 /// Values of alp_sampling_options.accuracy that are no accuracy.
 #define ALP_ADAPTIVE_OFF 0.0f
 #define ALP_ADAPTIVE_AUTO (-1.0f)
@@ -65,6 +72,11 @@ typedef struct alp_bake_options {
     alp_atlas_options atlas;         ///< its progress is ignored
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_sampling_options sampling;
+    /// Bits of alp_map, at least one; default ALP_MAP_AO. An asset needs ALP_MAP_AO: glTF has no
+    /// place for the others. Occlusion is gathered and reported in any case, and without
+    /// ALP_MAP_AO not written. ALP_ATLAS_VERTEX: ALP_MAP_AO alone. ALP_MAP_OBSCURANCE takes no
+    /// time_limit and no keep_partial; existing_ao changes ALP_MAP_AO alone.
+    unsigned maps;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
@@ -82,12 +94,14 @@ typedef struct alp_bake_options {
     bool ao_self;
     const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
-    /// (red traced, green interpolated), or NULL; made if missing. ALP_ATLAS_VERTEX: NULL.
+    /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
+    /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_ATLAS_VERTEX:
+    /// NULL.
     const char *maps_folder;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "dilation"; "write". With ALP_ATLAS_VERTEX "vertices",
-    /// "build", "occlusion", "detail", "write". Parts of short work may stay unheard.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "dilation"; "write". With ALP_ATLAS_VERTEX
+    /// "vertices", "build", "occlusion", "detail", "write". Parts of short work may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
@@ -138,6 +152,21 @@ ALP_API uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap);
 /// lightmap.
 ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
                                        uint32_t *height);
+/// A page of one of the maps that were asked for, laid out like alp_lightmap_page (which is that of
+/// ALP_MAP_AO), or NULL.
+///
+/// ALP_MAP_BENT: RGB = the mean open direction, world space, unit length,
+///
+///     normalised ∫ (1 − w) ω (n·ω) dω
+///
+/// with the directions of the occlusion options (uniform ones: without n·ω); the shading normal
+/// where nothing is open. With ao_self, directions are those of the instance that was baked.
+///
+/// ALP_MAP_OBSCURANCE: RGB = (1/π) ∫ [ (1 − w) + w · albedo of the hit ] (n·ω) dω per channel,
+/// linear, 0 to 1. Open is 1; single-sided surfaces are black from behind.
+/// Based on: A. Méndez, M. Sbert, J. Catà. Real-time Obscurances with Color Bleeding. SCCG 2003.
+ALP_API const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, uint32_t page,
+                                           uint32_t *width, uint32_t *height);
 /// The atlas the maps are laid out on, NULL with ALP_ATLAS_VERTEX. Owned by the lightmap.
 ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
 

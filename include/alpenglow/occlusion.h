@@ -62,6 +62,32 @@ ALP_API ALP_NODISCARD alp_result alp_occlusion_at_points(
     const alp_scene *scene, uint32_t count, const float *positions, const float *geometric_normals,
     const float *shading_normals, const alp_occlusion_options *options, float *accessibility);
 
+/// Bent normals: the mean open direction at points, from the rays of alp_occlusion_at_points.
+///
+///     normalised ∫ (1 − w) ω (n·ω) dω,   uniform distribution: without (n·ω)
+///
+/// @param bent_normals [count][3] out: world space, unit length; the shading normal where nothing
+/// is
+///                     open; written only on ALP_OK
+/// Other parameters and results: as alp_occlusion_at_points.
+/// Based on: H. Landis. Production-Ready Global Illumination. SIGGRAPH 2002 course 16.
+ALP_API ALP_NODISCARD alp_result alp_bent_normals_at_points(
+    const alp_scene *scene, uint32_t count, const float *positions, const float *geometric_normals,
+    const float *shading_normals, const alp_occlusion_options *options, float *bent_normals);
+
+/// Coloured obscurance at points: occlusion through which the colour of near surfaces bleeds.
+///
+///     W = (1/π) ∫ [ (1 − w) + w · albedo of the hit ] (n·ω) dω     per channel
+///
+/// The directions of alp_occlusion_at_points, asked for what they hit: about two to four times the
+/// time. A single-sided surface is black from behind. Unbiased.
+/// @param obscurance [count][3] out: linear RGB, [0, 1], 1 is open; written only on ALP_OK
+/// Other parameters and results: as alp_occlusion_at_points.
+/// Based on: A. Méndez, M. Sbert, J. Catà. Real-time Obscurances with Color Bleeding. SCCG 2003.
+ALP_API ALP_NODISCARD alp_result alp_obscurance_at_points(
+    const alp_scene *scene, uint32_t count, const float *positions, const float *geometric_normals,
+    const float *shading_normals, const alp_occlusion_options *options, float *obscurance);
+
 ALP_END_DECLS
 
 #endif

@@ -15,6 +15,7 @@ alp_bake_options alp_bake_options_default(void)
     return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
                               .atlas = alp_atlas_options_default(),
                               .occlusion = alp_occlusion_options_default(),
+                              .maps = ALP_MAP_AO,
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }
 
@@ -47,6 +48,7 @@ static alp_result check_options(const alpi_bake_job *job)
                          (double)s->accuracy, (double)s->error, s->time_limit);
     }
     ALP_TRY(alpi_bake_check_vertex_options(job));
+    ALP_TRY(alpi_bake_check_maps(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(

@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "maps/lightmap.h"
+#include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
 
@@ -29,6 +30,7 @@ typedef struct alpi_bake_job {
     bool *only, *occluders; // [surface_count] those of the patterns, NULL = all
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
+    float (*bent)[3], (*obscurance)[3]; // [texels] while sampling; NULL: not asked for
     alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
@@ -43,8 +45,23 @@ alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
 /// Occlusion at the texels of the lightmap, stored in it; fills the report.
 alp_result alpi_bake_occlusion(alpi_bake_job *job);
 
-/// Bytes of ours that a bake on this atlas holds at its peak, the scene and the tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas);
+/// Refuses maps that have no meaning together with the other options.
+alp_result alpi_bake_check_maps(const alpi_bake_job *job);
+/// Room for what the maps besides occlusion need while they are gathered, and its end.
+alp_result alpi_bake_begin_side_maps(alpi_bake_job *job);
+void alpi_bake_end_side_maps(alpi_bake_job *job);
+/// Coloured obscurance of the texels in `order`, if it was asked for; `samples` rays each. The
+/// stage of `progress` is set here.
+alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *setup,
+                                const alpi_receivers *receivers, const uint32_t *order,
+                                uint32_t order_count, uint32_t samples,
+                                const alpi_task_progress *progress);
+/// Stores them in the lightmap, whose states are known.
+alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
+
+/// Bytes of ours that a bake of these maps on this atlas holds at its peak, the scene and the
+/// tracer apart.
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps);
 /// LIMIT when that is more than nine tenths of the machine's memory.
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 

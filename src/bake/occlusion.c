@@ -79,6 +79,7 @@ static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
         .error = s->error,
         .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
         .keep_partial = s->keep_partial,
+        .bent = job->bent,
         .progress = job->options.progress,
         .progress_user = job->options.progress_user,
     };
@@ -120,6 +121,10 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
         const uint32_t count = drop(object, validity.dropped, order);
         result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
                                     job->lightmap->errors, report);
+        if (result == ALP_OK) {
+            result = alpi_bake_obscurance(job, setup, &receivers, order, count, report->samples,
+                                          &progress);
+        }
     }
     alpi_release(job->context, order);
     alpi_validity_destroy(&validity);
@@ -142,6 +147,7 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alpi_occlusion_setup setup;
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
     if (result == ALP_OK) {
+        setup.bent = job->bent != NULL;
         job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
         result = gather_valid(job, object, &setup, *options, lattice, report);
     }
@@ -239,7 +245,8 @@ static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
     if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
         alpi_bake_multiply_existing(job, lattice->values);
     }
-    return alpi_lightmap_store(l, lattice->values);
+    ALP_TRY(alpi_lightmap_store(l, lattice->values));
+    return alpi_bake_store_side_maps(job);
 }
 
 alp_result alpi_bake_occlusion(alpi_bake_job *job)
@@ -248,7 +255,8 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     const double started = alpi_seconds();
     alpi_lattice lattice;
     ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
-    alp_result result = gather(job, &lattice);
+    alp_result result = alpi_bake_begin_side_maps(job);
+    result = result == ALP_OK ? gather(job, &lattice) : result;
     job->report.seconds_bake = alpi_seconds() - started - job->report.seconds_build;
     if (result == ALP_OK && job->report.cut_off) {
         job->options.progress = NULL; // asked again it would cancel what it wanted kept
@@ -257,6 +265,7 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     if (result == ALP_OK) {
         result = store(job, &lattice);
     }
+    alpi_bake_end_side_maps(job);
     alpi_lattice_destroy(&lattice);
     return result;
 }

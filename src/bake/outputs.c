@@ -11,21 +11,44 @@
 #include <string.h>
 
 /// What a page leaves in the maps folder.
-typedef enum map_kind { MAP_AO_PNG, MAP_AO, MAP_ERROR, MAP_SAMPLING, MAP_COUNT } map_kind;
+typedef enum map_kind {
+    MAP_AO_PNG,
+    MAP_AO,
+    MAP_ERROR,
+    MAP_SAMPLING,
+    MAP_BENT_PNG,
+    MAP_BENT,
+    MAP_OBSCURANCE_PNG,
+    MAP_OBSCURANCE,
+    MAP_COUNT
+} map_kind;
 
-static const char *const map_names[MAP_COUNT][2] = {[MAP_AO_PNG] = {"ao", ".png"},
-                                                    [MAP_AO] = {"ao", ".exr"},
-                                                    [MAP_ERROR] = {"ao.error", ".exr"},
-                                                    [MAP_SAMPLING] = {"ao.sampling", ".png"}};
+static const struct {
+    alp_map map; // that must be asked for
+    const char *name, *ending;
+} map_files[MAP_COUNT] = {[MAP_AO_PNG] = {ALP_MAP_AO, "ao", ".png"},
+                          [MAP_AO] = {ALP_MAP_AO, "ao", ".exr"},
+                          [MAP_ERROR] = {ALP_MAP_AO, "ao.error", ".exr"},
+                          [MAP_SAMPLING] = {ALP_MAP_AO, "ao.sampling", ".png"},
+                          [MAP_BENT_PNG] = {ALP_MAP_BENT, "bent", ".png"},
+                          [MAP_BENT] = {ALP_MAP_BENT, "bent", ".exr"},
+                          [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
+                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"}};
+
+/// Whether a file of this kind goes to the maps folder.
+static bool is_written(const alp_bake_options *options, int kind)
+{
+    return options->maps_folder != NULL && (options->maps & (unsigned)map_files[kind].map) != 0;
+}
 
 /// "ao.exr", "ao.1.exr" …
 static char *map_path(alp_context *context, const char *folder, uint32_t page, map_kind kind)
 {
-    const char *const *name = map_names[kind];
+    const char *name = map_files[kind].name, *ending = map_files[kind].ending;
     if (page == 0) {
-        return alpi_format(context, "%s/%s%s", folder, name[0], name[1]);
+        return alpi_format(context, "%s/%s%s", folder, name, ending);
     }
-    return alpi_format(context, "%s/%s.%u%s", folder, name[0], page, name[1]);
+    return alpi_format(context, "%s/%s.%u%s", folder, name, page, ending);
 }
 
 static bool is_gltf_path(const char *path)
@@ -60,7 +83,10 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
         for (uint32_t p = 0; p < pages; p++) {
             for (int kind = 0; kind < MAP_COUNT; kind++) {
-                ALP_TRY(check_map(job->context, o->maps_folder, p, (map_kind)kind, o->overwrite));
+                if (is_written(o, kind)) {
+                    ALP_TRY(
+                        check_map(job->context, o->maps_folder, p, (map_kind)kind, o->overwrite));
+                }
             }
         }
     }
@@ -175,13 +201,18 @@ typedef struct encoded_page {
 static alp_result make_image(const alpi_bake_job *job, uint32_t page, map_kind kind,
                              alp_image **image)
 {
+    const alp_lightmap *l = job->lightmap;
     switch (kind) {
+    case MAP_BENT_PNG:
+        return alpi_lightmap_rgb_image(l, l->bent_pages[page], 0.5f, 0.5f, image);
+    case MAP_OBSCURANCE_PNG:
+        return alpi_lightmap_rgb_image(l, l->obscurance_pages[page], 1.0f, 0.0f, image);
     case MAP_ERROR:
-        return alpi_lightmap_error_image(job->lightmap, page, image);
+        return alpi_lightmap_error_image(l, page, image);
     case MAP_SAMPLING:
-        return alpi_lightmap_sampling_image(job->lightmap, page, image);
+        return alpi_lightmap_sampling_image(l, page, image);
     default:
-        return alpi_lightmap_page_image(job->lightmap, page, ALP_COMPONENT_U8, image);
+        return alpi_lightmap_page_image(l, page, ALP_COMPONENT_U8, image);
     }
 }
 
@@ -189,10 +220,14 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                              encoded_page *out)
 {
     const alp_lightmap *l = job->lightmap;
-    if (kind == MAP_AO) { // encoded where it lies: a copy of it may be gigabytes
+    float *const *pages = kind == MAP_AO           ? l->pages
+                          : kind == MAP_BENT       ? l->bent_pages
+                          : kind == MAP_OBSCURANCE ? l->obscurance_pages
+                                                   : NULL;
+    if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,
                                 .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
-                                .pixels = l->pages[page]};
+                                .pixels = pages[page]};
         return alpi_exr_encode(&view, &out->bytes[kind], &out->sizes[kind]);
     }
     alp_image *image = NULL;
@@ -206,9 +241,11 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
 
 static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_page *out)
 {
-    const int count = job->options.maps_folder != NULL ? MAP_COUNT : MAP_AO_PNG + 1;
-    for (int kind = 0; kind < count; kind++) {
-        ALP_TRY(encode_map(job, page, (map_kind)kind, out));
+    for (int kind = 0; kind < MAP_COUNT; kind++) {
+        const bool attached = kind == MAP_AO_PNG && job->options.output != NULL;
+        if (attached || is_written(&job->options, kind)) {
+            ALP_TRY(encode_map(job, page, (map_kind)kind, out));
+        }
     }
     return ALP_OK;
 }
@@ -234,8 +271,10 @@ static alp_result append_maps(const alpi_bake_job *job, const encoded_page *page
 {
     for (uint32_t p = 0; p < job->lightmap->page_count; p++) {
         for (int kind = 0; kind < MAP_COUNT; kind++) {
-            ALP_TRY(append_map(job, p, (map_kind)kind, &pages[p],
-                               &writers[MAP_COUNT * p + (uint32_t)kind]));
+            if (is_written(&job->options, kind)) {
+                ALP_TRY(append_map(job, p, (map_kind)kind, &pages[p],
+                                   &writers[MAP_COUNT * p + (uint32_t)kind]));
+            }
         }
     }
     return ALP_OK;
@@ -304,7 +343,7 @@ static alp_result write_files(const alpi_bake_job *job, const encoded_page *page
         result = write_asset(job, pages);
     }
     for (uint32_t i = 0; i < count; i++) {
-        if (result == ALP_OK) {
+        if (result == ALP_OK && writers[i].path != NULL) { // one that was opened
             result = alpi_file_commit(&writers[i]);
         }
         alpi_file_abandon(&writers[i]);

@@ -6,16 +6,23 @@
 #include <math.h>
 #include <string.h>
 
+static void release_pages(const alp_lightmap *lightmap, float **pages)
+{
+    for (uint32_t p = 0; pages != NULL && p < lightmap->page_count; p++) {
+        alpi_release(lightmap->context, pages[p]);
+    }
+    alpi_release(lightmap->context, pages);
+}
+
 void alp_lightmap_destroy(alp_lightmap *lightmap)
 {
     if (lightmap == NULL) {
         return;
     }
     alp_context *context = lightmap->context;
-    for (uint32_t p = 0; lightmap->pages != NULL && p < lightmap->page_count; p++) {
-        alpi_release(context, lightmap->pages[p]);
-    }
-    alpi_release(context, lightmap->pages);
+    release_pages(lightmap, lightmap->pages);
+    release_pages(lightmap, lightmap->bent_pages);
+    release_pages(lightmap, lightmap->obscurance_pages);
     alpi_release(context, lightmap->vertex_values);
     alpi_release(context, lightmap->errors);
     alpi_release(context, lightmap->states);
@@ -24,19 +31,22 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
     alpi_release(context, lightmap);
 }
 
-static alp_result allocate_pages(alp_lightmap *l)
+/// What there is already after a failure goes with the lightmap.
+static alp_result allocate_pages(const alp_lightmap *l, float ***pages)
 {
-    l->pages = ALPI_NEW(l->context, float *, l->page_count);
-    if (l->pages == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+    ALPI_TRY_NEW(l->context, *pages, l->page_count);
+    for (uint32_t p = 0; p < l->page_count; p++) {
+        ALPI_TRY_NEW(l->context, (*pages)[p], 4 * (size_t)l->width * l->height);
     }
+    return ALP_OK;
+}
+
+static alp_result allocate(alp_lightmap *l)
+{
     ALPI_TRY_NEW(l->context, l->errors, l->texels.count);
     ALPI_TRY_NEW(l->context, l->states, l->texels.count);
     memset(l->states, ALPI_TEXEL_TRACED, l->texels.count); // until somebody knows better
-    for (uint32_t p = 0; p < l->page_count; p++) {
-        ALPI_TRY_NEW(l->context, l->pages[p], 4 * (size_t)l->width * l->height);
-    }
-    return ALP_OK;
+    return allocate_pages(l, &l->pages);
 }
 
 alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
@@ -55,7 +65,7 @@ alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
     l->height = atlas->info.height;
     alp_result result = alpi_texels_create(atlas, &l->texels);
     if (result == ALP_OK) {
-        result = allocate_pages(l);
+        result = allocate(l);
     }
     if (result != ALP_OK) {
         alp_lightmap_destroy(l);
@@ -80,20 +90,35 @@ alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
     return ALP_OK;
 }
 
-alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
+/// Writes texels of `channels` values each, one or three, and dilates.
+static alp_result fill_pages(alp_lightmap *lightmap, const float *values, size_t channels,
+                             float **pages)
 {
     const alpi_texels *texels = &lightmap->texels;
     for (uint32_t i = 0; i < texels->count; i++) {
         size_t at = (size_t)texels->pixels[i][1] * lightmap->width + texels->pixels[i][0];
-        float *pixel = lightmap->pages[texels->pages[i]] + 4 * at;
-        pixel[0] = pixel[1] = pixel[2] = values[i];
+        float *pixel = pages[texels->pages[i]] + 4 * at;
+        for (size_t k = 0; k < 3; k++) {
+            pixel[k] = values[channels * i + (channels == 3 ? k : 0)];
+        }
         pixel[3] = lightmap->states[i] != ALPI_TEXEL_OPEN ? 1.0f : 0.0f;
     }
     for (uint32_t p = 0; p < lightmap->page_count; p++) {
-        ALP_TRY(
-            alpi_dilate(lightmap->context, lightmap->pages[p], lightmap->width, lightmap->height));
+        ALP_TRY(alpi_dilate(lightmap->context, pages[p], lightmap->width, lightmap->height));
     }
     return ALP_OK;
+}
+
+alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
+{
+    return fill_pages(lightmap, values, 1, lightmap->pages);
+}
+
+alp_result alpi_lightmap_store_vectors(alp_lightmap *lightmap, const float (*values)[3],
+                                       float ***pages)
+{
+    ALP_TRY(allocate_pages(lightmap, pages));
+    return fill_pages(lightmap, (const float *)values, 3, *pages);
 }
 
 bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle)
@@ -140,6 +165,20 @@ alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
     for (size_t i = 0; i < count; i++) {
         float value = fminf(fmaxf(source[4 * i], 0.0f), 1.0f);
         target[i] = (uint8_t)(value * 255.0f + 0.5f);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lightmap_rgb_image(const alp_lightmap *lightmap, const float *page, float scale,
+                                   float offset, alp_image **image)
+{
+    alp_image_info info = {lightmap->width, lightmap->height, 3, ALP_COMPONENT_U8};
+    ALP_TRY(alp_image_create(lightmap->context, info, image));
+    uint8_t *target = (*image)->pixels;
+    const size_t count = (size_t)info.width * info.height;
+    for (size_t i = 0; i < 3 * count; i++) {
+        float value = scale * page[i / 3 * 4 + i % 3] + offset;
+        target[i] = (uint8_t)(fminf(fmaxf(value, 0.0f), 1.0f) * 255.0f + 0.5f);
     }
     return ALP_OK;
 }
@@ -194,6 +233,19 @@ const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint
         *height = lightmap->height;
     }
     return lightmap->pages[page];
+}
+
+const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, uint32_t page,
+                                   uint32_t *width, uint32_t *height)
+{
+    const float *ao = alp_lightmap_page(lightmap, page, width, height);
+    if (ao == NULL || map == ALP_MAP_AO) {
+        return ao;
+    }
+    float *const *pages = map == ALP_MAP_BENT         ? lightmap->bent_pages
+                          : map == ALP_MAP_OBSCURANCE ? lightmap->obscurance_pages
+                                                      : NULL;
+    return pages != NULL ? pages[page] : NULL;
 }
 
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)

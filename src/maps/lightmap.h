@@ -19,6 +19,9 @@ struct alp_lightmap {
     float *errors;   // [texels] standard error of each
     uint8_t *states; // [texels] alpi_texel_state: how its value was found
     float **pages;   // [page_count] → [height][width][4]: value in RGB, coverage in A
+    // Laid out like `pages`; NULL where the bake made none.
+    float **bent_pages;       // bent normals: unit, world space
+    float **obscurance_pages; // coloured obscurance
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.
@@ -32,6 +35,10 @@ alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
 /// from the nearest covered texel, so that no filter or mip level ever reads something that is no
 /// surface. Texels of unknown value (OPEN in lightmap->states) are filled like those of no surface.
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values);
+
+/// The same for three values per texel, into pages of their own, which are allocated here.
+alp_result alpi_lightmap_store_vectors(alp_lightmap *lightmap, const float (*values)[3],
+                                       float ***pages);
 
 /// Standard errors of a page: float RGBA, A = 1 where the texel has a value.
 alp_result alpi_lightmap_error_image(const alp_lightmap *lightmap, uint32_t page,
@@ -64,6 +71,10 @@ alp_result alpi_lightmap_resample(const alp_lightmap *lightmap, const alp_atlas 
 /// A page as image: float RGBA as it is, or 8-bit grey (R rounded), dilated texels included.
 alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,
                                     alp_component component, alp_image **image);
+
+/// RGB of a page as 8-bit RGB: scale · value + offset, rounded, outside [0, 1] cut off.
+alp_result alpi_lightmap_rgb_image(const alp_lightmap *lightmap, const float *page, float scale,
+                                   float offset, alp_image **image);
 
 /// Fills pixels with A = 0 of an RGBA page from the nearest (4-connected steps) with A > 0; A stays
 /// 0. A page without any covered pixel is left alone.

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/bent.h"
 #include "maps/stated_error.h"
 
 #include <math.h>
@@ -341,6 +342,10 @@ static alp_result run(map_job *job)
         job->report->traced += state == ALPI_TEXEL_TRACED;
         job->report->interpolated += state == ALPI_TEXEL_INTERPOLATED;
         job->report->unknown += state == ALPI_TEXEL_OPEN;
+    }
+    if (result == ALP_OK && job->options->bent != NULL) {
+        result = alpi_bent_normals(job->lattice, &job->sums, job->order, job->order_count,
+                                   job->options->bent);
     }
     return result;
 }

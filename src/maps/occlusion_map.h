@@ -16,6 +16,7 @@ typedef struct alpi_occlusion_map_options {
     float error;         // wanted relative error; 0: all samples of the setup, in one round
     double deadline;     // in alpi_seconds(), HUGE_VAL = none
     bool keep_partial;   // cancelled by the user: ends with what there is
+    float (*bent)[3];    // [texels] out: bent normals of those in `order`; or NULL
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_map_options;
@@ -29,7 +30,7 @@ typedef struct alpi_occlusion_map_report {
 
 /// Gathers the texels in `order` (some of lattice->order, in its order) into lattice->values and
 /// ->states. With `error`, rounds of more and more samples until the stated error is reached, or
-/// the setup's samples are spent.
+/// the setup's samples are spent. Bent normals need setup->bent.
 /// @param errors [texels] out: standard error of each
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,

@@ -134,6 +134,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
     const bool hemisphere = options->cone >= (float)(ALPI_PI / 2.0) * 0.999999f;
     *setup = (alpi_occlusion_setup){
         .context = scene->context,
+        .scene = scene,
         .tracer = tracer,
         .options = *options,
         .distance = alp_occlusion_distance(scene, options),

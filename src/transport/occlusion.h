@@ -24,6 +24,7 @@ enum { ALPI_SAMPLES_PER_POINT = 4 };
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
     alp_context *context;
+    const alp_scene *scene;
     const alpi_tracer *tracer;
     alp_occlusion_options options;
     float distance;      // metres, INFINITY = no limit
@@ -31,6 +32,7 @@ typedef struct alpi_occlusion_setup {
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
+    bool bleed;              // sum colours instead of testing for occlusion: see obscurance.h
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
@@ -62,13 +64,15 @@ void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
 typedef struct alpi_occlusion_sums {
     uint32_t (*open)[ALPI_QUARTERS]; // [receivers] free rays of each quarter
     uint32_t *done;                  // [receivers] rays sent
-    float (*bent)[3];                // [receivers] Σ of the free directions, or NULL
+    float (*vectors)[3];             // [receivers] Σ of the free directions or of colours, or NULL
 } alpi_occlusion_sums;
-alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool bent,
+alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool vectors,
                                       alpi_occlusion_sums *sums);
 void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums);
 /// Free rays over rays sent; 1 where none was sent.
 float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver);
+/// Σ of the vectors over rays sent; 0 where none was sent.
+vec3 alpi_occlusion_mean_vector(const alpi_occlusion_sums *sums, uint32_t receiver);
 
 /// Makes the quarters of `before` samples those of `after`, a multiple: the old ones become a part
 /// of the first.

@@ -35,16 +35,18 @@ typedef struct gather_job {
 } gather_job;
 
 /// The kernel for this machine, unless the context asks for less.
-static alpi_occlusion_kernel *choose_kernel(alp_context *context)
+static alpi_occlusion_kernel *choose_kernel(const alpi_occlusion_setup *setup)
 {
+    if (setup->bleed) {
+        return alpi_obscurance_kernel;
+    }
 #ifdef ALPI_HAS_V3_KERNEL
-    const char *isa = alpi_context_options(context)->max_isa;
+    const char *isa = alpi_context_options(setup->context)->max_isa;
     if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
         __builtin_cpu_supports("bmi2")) {
         return alpi_occlusion_kernel_v3;
     }
 #endif
-    (void)context;
     return alpi_occlusion_kernel_baseline;
 }
 
@@ -125,8 +127,8 @@ static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
 {
     for (uint32_t i = 0; i < used; i++) {
         job->sums->open[ids[i]][quarter] += tally->open[i];
-        for (int k = 0; k < 3 && job->setup->bent; k++) {
-            job->sums->bent[ids[i]][k] += tally->bent[k][i];
+        for (int k = 0; k < 3 && job->sums->vectors != NULL; k++) {
+            job->sums->vectors[ids[i]][k] += tally->sum[k][i];
         }
     }
 }
@@ -176,7 +178,7 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
 {
     assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
     gather_job job = {.setup = setup,
-                      .kernel = choose_kernel(setup->context),
+                      .kernel = choose_kernel(setup),
                       .receivers = receivers,
                       .list = list,
                       .list_count = list_count,
@@ -201,14 +203,14 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
     return ALP_OK;
 }
 
-alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool bent,
+alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool vectors,
                                       alpi_occlusion_sums *sums)
 {
     *sums = (alpi_occlusion_sums){0};
     sums->open = alpi_allocate(context, receivers, sizeof *sums->open);
     sums->done = ALPI_NEW(context, uint32_t, receivers);
-    sums->bent = bent ? alpi_allocate(context, receivers, sizeof *sums->bent) : NULL;
-    if (sums->open == NULL || sums->done == NULL || (bent && sums->bent == NULL)) {
+    sums->vectors = vectors ? alpi_allocate(context, receivers, sizeof *sums->vectors) : NULL;
+    if (sums->open == NULL || sums->done == NULL || (vectors && sums->vectors == NULL)) {
         alpi_occlusion_sums_destroy(context, sums);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -219,7 +221,7 @@ void alpi_occlusion_sums_destroy(alp_context *context, alpi_occlusion_sums *sums
 {
     alpi_release(context, sums->open);
     alpi_release(context, sums->done);
-    alpi_release(context, sums->bent);
+    alpi_release(context, sums->vectors);
     *sums = (alpi_occlusion_sums){0};
 }
 
@@ -239,6 +241,12 @@ float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver)
     const uint32_t *open = sums->open[receiver];
     const double free_rays = (double)open[0] + (double)open[1] + (double)open[2] + (double)open[3];
     return sums->done[receiver] > 0 ? (float)(free_rays / (double)sums->done[receiver]) : 1.0f;
+}
+
+vec3 alpi_occlusion_mean_vector(const alpi_occlusion_sums *sums, uint32_t receiver)
+{
+    const uint32_t done = sums->done[receiver];
+    return vec3_scale(vec3_load(sums->vectors[receiver]), done > 0 ? 1.0f / (float)done : 0.0f);
 }
 
 alp_result alpi_occlusion_gather(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
@@ -270,8 +278,8 @@ void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
         set_lane(&lanes, i, &points[i]);
         set_shifts(setup, &lanes, i, keys[i]);
     }
-    choose_kernel(setup->context)(setup, &lanes, (const uint32_t(*)[3])setup->sequence,
-                                  setup->samples, &tally);
+    choose_kernel(setup)(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples,
+                         &tally);
     for (int i = 0; i < ALPI_PACKET; i++) {
         accessibility[i] = (float)((double)tally.open[i] / setup->samples);
     }

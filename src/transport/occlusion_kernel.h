@@ -17,7 +17,7 @@ typedef struct alpi_occlusion_lanes {
 /// What the rays of eight points met.
 typedef struct alpi_occlusion_tally {
     _Alignas(32) uint32_t open[ALPI_PACKET]; // rays that were free
-    float bent[3][ALPI_PACKET];              // Σ of their directions
+    float sum[3][ALPI_PACKET];               // Σ of their directions, or of colours
 } alpi_occlusion_tally;
 
 /// Sends `count` samples of a sequence from each of the lanes and adds to the tally.
@@ -29,5 +29,9 @@ typedef void alpi_occlusion_kernel(const alpi_occlusion_setup *setup,
 /// The same code compiled for any machine, and for x86-64-v3. No fused operations in either: the
 /// same bits.
 alpi_occlusion_kernel alpi_occlusion_kernel_baseline, alpi_occlusion_kernel_v3;
+
+/// Coloured obscurance instead: adds (1 − w) + w · albedo of what each ray hits to tally->sum, and
+/// counts rays that hit nothing as open.
+alpi_occlusion_kernel alpi_obscurance_kernel;
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ambient occlusion at any array of points.
-#include "transport/occlusion.h"
+// Ambient occlusion, bent normals and coloured obscurance at any array of points.
+#include "transport/obscurance.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -81,25 +81,76 @@ static alp_result copy_points(alp_context *context, const float *positions,
     return ALP_OK;
 }
 
-static alp_result gather_points(const alp_scene *scene, const alpi_tracer *tracer,
-                                const alp_occlusion_options *options,
-                                const alpi_point_array *points, float *accessibility)
+// --- what is asked for ---------------------------------------------------------------------------
+
+/// Gathers one quantity at all points; `values` holds one or three floats for each.
+typedef alp_result gather_fn(const alpi_occlusion_setup *setup, const alpi_point_array *points,
+                             float *values);
+
+static alp_result gather_accessibility(const alpi_occlusion_setup *setup,
+                                       const alpi_point_array *points, float *values)
+{
+    const alpi_receivers receivers = alpi_point_array_receivers(points);
+    return alpi_occlusion_gather(setup, &receivers, NULL, points->count, values);
+}
+
+static alp_result gather_obscurance(const alpi_occlusion_setup *setup,
+                                    const alpi_point_array *points, float *values)
+{
+    const alpi_receivers receivers = alpi_point_array_receivers(points);
+    const alpi_task_progress progress = {.callback = setup->options.progress,
+                                         .user = setup->options.progress_user,
+                                         .stage = "obscurance"};
+    return alpi_obscurance_gather(setup, &receivers, NULL, points->count, setup->samples, &progress,
+                                  (float(*)[3])values);
+}
+
+static alp_result gather_bent(const alpi_occlusion_setup *setup, const alpi_point_array *points,
+                              float *values)
+{
+    const alpi_receivers receivers = alpi_point_array_receivers(points);
+    const alpi_task_progress progress = {.callback = setup->options.progress,
+                                         .user = setup->options.progress_user,
+                                         .stage = "occlusion"};
+    alpi_occlusion_setup bent = *setup;
+    bent.bent = true;
+    alpi_occlusion_sums sums;
+    ALP_TRY(alpi_occlusion_sums_create(setup->context, points->count, true, &sums));
+    alp_result result = alpi_occlusion_add(&bent, &receivers, NULL, points->count, 0,
+                                           setup->samples, setup->samples, &progress, &sums);
+    for (uint32_t i = 0; i < points->count && result == ALP_OK; i++) {
+        vec3_store(values + 3 * (size_t)i,
+                   vec3_normalize_or(alpi_occlusion_mean_vector(&sums, i),
+                                     vec3_load(points->shading_normals[i])));
+    }
+    alpi_occlusion_sums_destroy(setup->context, &sums);
+    return result;
+}
+
+static alp_result prepare_and_gather(const alp_scene *scene, const alpi_tracer *tracer,
+                                     const alp_occlusion_options *options,
+                                     const alpi_point_array *points, gather_fn *gather,
+                                     float *values)
 {
     alpi_occlusion_setup setup;
     ALP_TRY(alpi_occlusion_prepare(scene, tracer, options, &setup));
-    const alpi_receivers receivers = alpi_point_array_receivers(points);
-    alp_result result =
-        alpi_occlusion_gather(&setup, &receivers, NULL, points->count, accessibility);
+    alp_result result = gather(&setup, points, values);
     alpi_occlusion_release(&setup);
     return result;
 }
 
-alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const float *positions,
-                                   const float *geometric_normals, const float *shading_normals,
-                                   const alp_occlusion_options *options, float *accessibility)
+/// The points as callers give them.
+typedef struct given_points {
+    uint32_t count;
+    const float *positions, *geometric_normals, *shading_normals;
+} given_points;
+
+static alp_result gather_at(const alp_scene *scene, given_points given,
+                            const alp_occlusion_options *options, gather_fn *gather, float *values)
 {
-    if (scene == NULL ||
-        (count > 0 && (positions == NULL || shading_normals == NULL || accessibility == NULL))) {
+    const uint32_t count = given.count;
+    if (scene == NULL || (count > 0 && (given.positions == NULL || given.shading_normals == NULL ||
+                                        values == NULL))) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     alp_occlusion_options o = options ? *options : alp_occlusion_options_default();
@@ -108,8 +159,8 @@ alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const
     ALP_TRY(alpi_tracer_for_scene(scene, o.progress, o.progress_user, &tracer, NULL));
     alpi_point_array points;
     ALP_TRY(alpi_point_array_create(scene->context, count, &points));
-    alp_result result =
-        copy_points(scene->context, positions, geometric_normals, shading_normals, &points);
+    alp_result result = copy_points(scene->context, given.positions, given.geometric_normals,
+                                    given.shading_normals, &points);
     if (result == ALP_OK) {
         offset_job job = {scene, tracer, &points};
         const alpi_task_progress progress = {
@@ -118,8 +169,33 @@ alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const
                                    &progress);
     }
     if (result == ALP_OK) {
-        result = gather_points(scene, tracer, &o, &points, accessibility);
+        result = prepare_and_gather(scene, tracer, &o, &points, gather, values);
     }
     alpi_point_array_destroy(scene->context, &points);
     return result;
+}
+
+alp_result alp_occlusion_at_points(const alp_scene *scene, uint32_t count, const float *positions,
+                                   const float *geometric_normals, const float *shading_normals,
+                                   const alp_occlusion_options *options, float *accessibility)
+{
+    const given_points given = {count, positions, geometric_normals, shading_normals};
+    return gather_at(scene, given, options, gather_accessibility, accessibility);
+}
+
+alp_result alp_bent_normals_at_points(const alp_scene *scene, uint32_t count,
+                                      const float *positions, const float *geometric_normals,
+                                      const float *shading_normals,
+                                      const alp_occlusion_options *options, float *bent_normals)
+{
+    const given_points given = {count, positions, geometric_normals, shading_normals};
+    return gather_at(scene, given, options, gather_bent, bent_normals);
+}
+
+alp_result alp_obscurance_at_points(const alp_scene *scene, uint32_t count, const float *positions,
+                                    const float *geometric_normals, const float *shading_normals,
+                                    const alp_occlusion_options *options, float *obscurance)
+{
+    const given_points given = {count, positions, geometric_normals, shading_normals};
+    return gather_at(scene, given, options, gather_obscurance, obscurance);
 }

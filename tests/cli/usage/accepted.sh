@@ -17,7 +17,7 @@ right bake --ao-falloff "none --ao-distance inf"
 right bake --ao-cone 0.001 90
 right bake --seed 0 9007199254740992
 right bake --threads 1 1024 auto
-right bake --maps ao ao,ao
+right bake --maps ao ao,ao "ao,bent --maps-dir maps"
 right bake --existing-ao replace multiply keep
 right render --samples 1 4096
 right render --resolution 1x1 16384x16384

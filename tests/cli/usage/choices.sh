@@ -4,7 +4,7 @@
 for option in --maps --atlas --ao-falloff --ao-distribution --existing-ao --progress; do
     try bake scene.glb -o out.glb $option wrong
 done
-for map in bent light direction sh probes ao,bent ao, ,ao AO; do
+for map in light direction sh probes ao,light bent,sh ao, ,ao AO; do
     try bake scene.glb -o out.glb --maps $map
 done
 for mode in blend; do

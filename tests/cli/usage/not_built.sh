@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # every option and command of the contract that is not built yet is refused by name
 . "$(dirname "$0")/helpers.bash"
-for option in --ao-bleed --bounces --direct --gather --samples --units \
+for option in --bounces --direct --gather --samples --units \
     --layers --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as \
     --denoise --stitch --checkpoint --resume --report; do
     try bake scene.glb -o out.glb $option

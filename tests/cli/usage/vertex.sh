@@ -7,6 +7,8 @@ try bake scene.glb -o out.glb --atlas vertex --padding 2
 try bake scene.glb -o out.glb --atlas vertex --existing-ao multiply
 try bake scene.glb -o out.glb --atlas vertex --maps-dir maps
 try bake scene.glb --atlas vertex --maps-dir maps
+try bake scene.glb -o out.glb --atlas vertex --maps ao,bent
+try bake scene.glb -o out.glb --atlas vertex --ao-bleed
 try bake scene.glb -o out.glb --atlas vertex --error 1
 try bake scene.glb -o out.glb --atlas vertex --quality high
 try bake scene.glb -o out.glb --atlas vertex --time-limit 5

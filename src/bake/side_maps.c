@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Maps beside occlusion: bent normals, which its rays give, and coloured obscurance, which has rays
+// of its own.
+#include "bake/job.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "transport/obscurance.h"
+
+enum { ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE };
+
+alp_result alpi_bake_check_maps(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    if (o->maps == 0 || (o->maps & ~(unsigned)ALL_MAPS) != 0) {
+        return alpi_fail(job->context, code, "bake: unknown maps 0x%x, need bits of alp_map",
+                         o->maps);
+    }
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && o->maps != ALP_MAP_AO) {
+        return alpi_fail(job->context, code, "bake: only occlusion is baked at vertices");
+    }
+    if (o->output != NULL && (o->maps & ALP_MAP_AO) == 0) {
+        return alpi_fail(job->context, code,
+                         "%s: glTF has a place for occlusion alone; bake it too, or give no output",
+                         o->output);
+    }
+    if ((o->maps & ALP_MAP_OBSCURANCE) != 0 &&
+        (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
+        return alpi_fail(job->context, code,
+                         "bake: coloured obscurance is gathered in one go: no time limit, no "
+                         "partial result");
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
+{
+    const uint32_t count = job->lightmap->texels.count;
+    if ((job->options.maps & ALP_MAP_BENT) != 0) {
+        ALPI_TRY_NEW(job->context, job->bent, count);
+    }
+    if ((job->options.maps & ALP_MAP_OBSCURANCE) != 0) {
+        ALPI_TRY_NEW(job->context, job->obscurance, count);
+    }
+    return ALP_OK;
+}
+
+void alpi_bake_end_side_maps(alpi_bake_job *job)
+{
+    alpi_release(job->context, job->bent);
+    alpi_release(job->context, job->obscurance);
+    job->bent = NULL;
+    job->obscurance = NULL;
+}
+
+alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *setup,
+                                const alpi_receivers *receivers, const uint32_t *order,
+                                uint32_t order_count, uint32_t samples,
+                                const alpi_task_progress *progress)
+{
+    if (job->obscurance == NULL) {
+        return ALP_OK;
+    }
+    alpi_task_progress told = *progress;
+    told.stage = "obscurance";
+    job->report.rays += (uint64_t)order_count * samples;
+    return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &told,
+                                  job->obscurance);
+}
+
+alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
+{
+    alp_lightmap *l = job->lightmap;
+    if (job->bent != NULL) {
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bent, &l->bent_pages));
+    }
+    if (job->obscurance != NULL) {
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->obscurance,
+                                            &l->obscurance_pages));
+    }
+    return ALP_OK;
+}
