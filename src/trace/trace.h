@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-enum { ALPI_PACKET = 8 };
+enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 16 };
 
 /// Eight rays, structure of arrays, laid out as the ray tracer wants them: nothing is copied.
 typedef struct alpi_rays {
@@ -16,7 +16,8 @@ typedef struct alpi_rays {
     float direction_x[ALPI_PACKET], direction_y[ALPI_PACKET], direction_z[ALPI_PACKET];
     float time[ALPI_PACKET]; // the tracer's, 0
     float maximum[ALPI_PACKET];
-    uint32_t mask[ALPI_PACKET], id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
+    uint32_t mask[ALPI_PACKET]; // all ones
+    uint32_t id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
 } alpi_rays;
 
 typedef struct alpi_hits {
@@ -37,10 +38,10 @@ typedef struct alpi_trace_filter {
 alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
                                  void *progress_user, alpi_tracer **tracer, double *seconds);
 
-/// Traces lane i of `active` (bit i); a lane that hits anything gets maximum = −∞, others are left
-/// alone.
-void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *rays, uint32_t active,
-                         alpi_trace_filter filter);
+/// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
+/// all ones. A lane that hits anything gets maximum = −∞, others are left alone.
+void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
+                         uint32_t active, alpi_trace_filter filter);
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
+enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2, STREAM_PLACES = 4 };
 
 static const float DISTANCE_AUTO_SHARE = 0.2f; // of the bounding box's diagonal
 
@@ -88,6 +88,33 @@ static void fill_samples(uint64_t seed, uint32_t count, uint32_t (*samples)[3])
     }
 }
 
+/// Points of the unit square, one for each block of samples.
+static void fill_places(uint64_t seed, uint32_t count, uint32_t (*places)[2])
+{
+    const uint32_t key = alpi_random_key(seed, 0, STREAM_PLACES);
+    for (uint32_t k = 0; k < count; k++) {
+        const vec2 u = alpi_sample_2d(key, k);
+        places[k][0] = (uint32_t)(u.x * 0x1p32f);
+        places[k][1] = (uint32_t)(u.y * 0x1p32f);
+    }
+}
+
+/// The sequences of setup->options.seed; releases both when there is no memory.
+static alp_result make_sequences(alpi_occlusion_setup *setup)
+{
+    const uint32_t place_count =
+        (setup->samples + ALPI_SAMPLES_PER_POINT - 1) / ALPI_SAMPLES_PER_POINT;
+    setup->sequence = alpi_allocate(setup->context, setup->samples, sizeof *setup->sequence);
+    setup->places = alpi_allocate(setup->context, place_count, sizeof *setup->places);
+    if (setup->sequence == NULL || setup->places == NULL) {
+        alpi_occlusion_release(setup);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    fill_samples(setup->options.seed, setup->samples, setup->sequence);
+    fill_places(setup->options.seed, place_count, setup->places);
+    return ALP_OK;
+}
+
 /// Leading bits of a direction's coordinates that all receivers share, so that the rays of a packet
 /// leave in nearly the same direction: those that number the cells of the square with one sample
 /// each, at most 4. Sharing more would leave the receivers the same error; sharing none would
@@ -101,6 +128,20 @@ static uint32_t shared_bits(uint32_t samples)
     return bits;
 }
 
+/// The kernel for this machine, unless the context asks for less.
+static alpi_occlusion_kernel *choose_kernel(alp_context *context)
+{
+#ifdef ALPI_HAS_V3_KERNEL
+    const char *isa = alpi_context_options(context)->max_isa;
+    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
+        __builtin_cpu_supports("bmi2")) {
+        return alpi_occlusion_kernel_v3;
+    }
+#endif
+    (void)context;
+    return alpi_occlusion_kernel_baseline;
+}
+
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options, alpi_occlusion_setup *setup)
 {
@@ -108,6 +149,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
     *setup = (alpi_occlusion_setup){
         .context = scene->context,
         .tracer = tracer,
+        .kernel = choose_kernel(scene->context),
         .options = *options,
         .distance = alp_occlusion_distance(scene, options),
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),
@@ -117,12 +159,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
     };
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     setup->shift_mask = UINT32_MAX >> shared_bits(setup->samples);
-    setup->sequence = alpi_allocate(scene->context, setup->samples, sizeof *setup->sequence);
-    if (setup->sequence == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    fill_samples(options->seed, setup->samples, setup->sequence);
-    return ALP_OK;
+    return make_sequences(setup);
 }
 
 alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,
@@ -130,16 +167,13 @@ alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint6
 {
     *other = *setup;
     other->options.seed = seed;
-    other->sequence = alpi_allocate(setup->context, setup->samples, sizeof *other->sequence);
-    if (other->sequence == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    fill_samples(seed, setup->samples, other->sequence);
-    return ALP_OK;
+    return make_sequences(other);
 }
 
 void alpi_occlusion_release(alpi_occlusion_setup *setup)
 {
     alpi_release(setup->context, setup->sequence);
+    alpi_release(setup->context, setup->places);
     setup->sequence = NULL;
+    setup->places = NULL;
 }

@@ -13,10 +13,24 @@
 /// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
 enum { ALPI_QUARTERS = 4 };
 
+/// The innermost loop, see occlusion_kernel.h.
+struct alpi_occlusion_setup;
+struct alpi_occlusion_lanes;
+struct alpi_occlusion_tally;
+typedef void alpi_occlusion_kernel(const struct alpi_occlusion_setup *setup,
+                                   struct alpi_occlusion_lanes *lanes,
+                                   const uint32_t (*samples)[3], uint32_t count,
+                                   struct alpi_occlusion_tally *tally);
+
+/// Directions that leave from one point of a receiver with extent. They are a block of the sequence
+/// and so well spread by themselves; more points would cost set-up and gain little.
+enum { ALPI_SAMPLES_PER_POINT = 16 };
+
 /// Options with everything resolved that is the same for all receivers.
 typedef struct alpi_occlusion_setup {
     alp_context *context;
     const alpi_tracer *tracer;
+    alpi_occlusion_kernel *kernel; // the one for this machine
     alp_occlusion_options options;
     float distance;      // metres, INFINITY = no limit
     alp_falloff falloff; // NONE where there is no limit
@@ -25,7 +39,9 @@ typedef struct alpi_occlusion_setup {
     bool bent;               // sum the open directions too
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
-    uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
+    // Shared by all receivers, which shift them: 32-bit fractions.
+    uint32_t (*sequence)[3]; // [samples] directions and distances
+    uint32_t (*places)[2];   // [samples / ALPI_SAMPLES_PER_POINT, rounded up] points of a receiver
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named

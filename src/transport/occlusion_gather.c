@@ -18,9 +18,6 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    // Directions that leave from one point of a receiver with extent. They are a block of the
-    // sequence and so well spread by themselves; more points would cost set-up and gain little.
-    SAMPLES_PER_POINT = 16,
     POINTS_PER_CHUNK = 32,
     // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
     RAYS_PER_RANGE = 1 << 15,
@@ -29,7 +26,6 @@ enum {
 
 typedef struct gather_job {
     const alpi_occlusion_setup *setup;
-    alpi_occlusion_kernel *kernel;
     const alpi_receivers *receivers;
     const uint32_t *list;
     uint32_t list_count;
@@ -37,41 +33,37 @@ typedef struct gather_job {
     alpi_occlusion_sums *sums;
 } gather_job;
 
-/// The kernel for this machine, unless the context asks for less.
-static alpi_occlusion_kernel *choose_kernel(alp_context *context)
+void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes, uint32_t active)
 {
-#ifdef ALPI_HAS_V3_KERNEL
-    const char *isa = alpi_context_options(context)->max_isa;
-    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
-        __builtin_cpu_supports("bmi2")) {
-        return alpi_occlusion_kernel_v3;
+    lanes->active = active;
+    for (int k = 0; k < ALPI_TRACE_BATCH; k++) {
+        alpi_rays *rays = &lanes->rays[k];
+        memset(rays->minimum, 0, sizeof rays->minimum);
+        memset(rays->time, 0, sizeof rays->time);
+        memset(rays->mask, 0xff, sizeof rays->mask);
+        memset(rays->id, 0, sizeof rays->id);
+        memset(rays->flags, 0, sizeof rays->flags);
     }
-#endif
-    (void)context;
-    return alpi_occlusion_kernel_baseline;
 }
 
 static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_point *p)
 {
-    vec3 t, b, n = p->shading_normal;
-    vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
-    vec3_frame(n, &t, &b);
-    const vec3 columns[4] = {origin, t, b, n};
-    float(*const targets[4])[ALPI_PACKET] = {lanes->origin, lanes->tangent, lanes->bitangent,
-                                             lanes->normal};
-    for (int k = 0; k < 4; k++) {
-        targets[k][0][lane] = columns[k].x;
-        targets[k][1][lane] = columns[k].y;
-        targets[k][2][lane] = columns[k].z;
-    }
+    const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
+    lanes->origin[0][lane] = origin.x;
+    lanes->origin[1][lane] = origin.y;
+    lanes->origin[2][lane] = origin.z;
+    lanes->normal[0][lane] = p->shading_normal.x;
+    lanes->normal[1][lane] = p->shading_normal.y;
+    lanes->normal[2][lane] = p->shading_normal.z;
 }
 
 static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes, int lane,
                        uint64_t receiver)
 {
     const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
-    lanes->shift[0][lane] = alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask;
-    lanes->shift[1][lane] = alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask;
+    const uint32_t turned = 1u << 31;
+    lanes->shift[0][lane] = (alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask) ^ turned;
+    lanes->shift[1][lane] = (alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask) ^ turned;
     lanes->shift[2][lane] = alpi_hash32(key ^ 0x967a889bu);
 }
 
@@ -80,12 +72,13 @@ static void place_points(const gather_job *job, uint32_t receiver, uint32_t firs
                          alpi_receiver_point *points)
 {
     const alpi_receivers *r = job->receivers;
+    const uint32_t(*places)[2] = (const uint32_t(*)[2])job->setup->places + first;
     float square[POINTS_PER_CHUNK][2];
     const uint32_t key = alpi_random_key(job->setup->options.seed, receiver, STREAM_PLACE);
+    const uint32_t shift[2] = {alpi_hash32(key ^ 0x68bc21ebu), alpi_hash32(key ^ 0x02e5be93u)};
     for (uint32_t k = 0; k < count; k++) {
-        vec2 u = alpi_sample_2d(key, first + k);
-        square[k][0] = u.x;
-        square[k][1] = u.y;
+        square[k][0] = alpi_unit_float(places[k][0] ^ shift[0]);
+        square[k][1] = alpi_unit_float(places[k][1] ^ shift[1]);
     }
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
 }
@@ -96,7 +89,7 @@ static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
 {
     alpi_receiver_point points[ALPI_PACKET][POINTS_PER_CHUNK];
     const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
-    const uint32_t block = job->receivers->extended ? SAMPLES_PER_POINT : UINT32_MAX;
+    const uint32_t block = job->receivers->extended ? ALPI_SAMPLES_PER_POINT : UINT32_MAX;
     const uint32_t first_point = first / block, point_count = (end - 1) / block - first_point + 1;
     for (int i = 0; i < ALPI_PACKET; i++) {
         place_points(job, ids[i], first_point, point_count, points[i]);
@@ -108,7 +101,7 @@ static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
         }
         const uint32_t left = block - at % block; // of the point's samples
         const uint32_t count = end - at < left ? end - at : left;
-        job->kernel(job->setup, lanes, samples + at, count, tally);
+        job->setup->kernel(job->setup, lanes, samples + at, count, tally);
         at += count;
     }
 }
@@ -131,9 +124,8 @@ static void run_packet(const gather_job *job, uint32_t first_item)
     uint32_t ids[ALPI_PACKET];
     const uint32_t items = job->list_count - first_item;
     const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
-    const uint32_t chunk =
-        SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may begin in the middle
-    lanes.active = (1u << used) - 1u;
+    const uint32_t chunk = ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may be in use
+    alpi_occlusion_lanes_start(&lanes, (1u << used) - 1u);
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t k = first_item + (i < used ? i : used - 1);
         ids[i] = job->list != NULL ? job->list[k] : k;
@@ -170,7 +162,6 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
 {
     assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
     gather_job job = {.setup = setup,
-                      .kernel = choose_kernel(setup->context),
                       .receivers = receivers,
                       .list = list,
                       .list_count = list_count,
@@ -258,14 +249,14 @@ void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
                               const uint64_t keys[ALPI_PACKET], uint32_t active,
                               float accessibility[ALPI_PACKET])
 {
-    alpi_occlusion_lanes lanes = {.active = active};
+    alpi_occlusion_lanes lanes;
     alpi_occlusion_tally tally = {{0}, {{0}}};
+    alpi_occlusion_lanes_start(&lanes, active);
     for (int i = 0; i < ALPI_PACKET; i++) {
         set_lane(&lanes, i, &points[i]);
         set_shifts(setup, &lanes, i, keys[i]);
     }
-    choose_kernel(setup->context)(setup, &lanes, (const uint32_t(*)[3])setup->sequence,
-                                  setup->samples, &tally);
+    setup->kernel(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples, &tally);
     for (int i = 0; i < ALPI_PACKET; i++) {
         accessibility[i] = (float)((double)tally.open[i] / setup->samples);
     }

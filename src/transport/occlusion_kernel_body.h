@@ -24,78 +24,99 @@ static inline float to_unit(uint32_t bits)
     return (float)(int32_t)(bits >> 8) * 0x1p-24f; // 24 bits: exact, and below 1
 }
 
-/// Concentric map of the shifted sample to the unit disk (see alpi_warp_disk), with polynomials for
-/// sine and cosine on [−π/4, π/4], right to 4e-7.
-static inline void disk_points(const alpi_occlusion_lanes *lanes, const uint32_t sample[3],
-                               float x[ALPI_PACKET], float y[ALPI_PACKET])
+/// A frame about each lane's normal, as vec3_frame makes it.
+typedef struct lane_frames {
+    _Alignas(32) float tangent[3][ALPI_PACKET];
+    float bitangent[3][ALPI_PACKET];
+} lane_frames;
+
+static inline void find_frames(const alpi_occlusion_lanes *lanes, lane_frames *frames)
 {
-    const uint32_t u = sample[0], v = sample[1];
     EACH_LANE
     {
-        float a = 2.0f * to_unit(u ^ lanes->shift[0][i]) - 1.0f;
-        float b = 2.0f * to_unit(v ^ lanes->shift[1][i]) - 1.0f;
-        int wide = fabsf(a) > fabsf(b);
-        float radius = wide ? a : b;
-        float across = wide ? b : a;
-        float safe = radius != 0.0f ? radius : 1.0f;
-        float p = (float)(ALPI_PI / 4.0) * (across / safe), q = p * p;
-        float sine = p * (1.0f + q * (-1.0f / 6.0f + q * (1.0f / 120.0f + q * (-1.0f / 5040.0f))));
-        float cosine =
-            1.0f + q * (-0.5f + q * (1.0f / 24.0f + q * (-1.0f / 720.0f + q * (1.0f / 40320.0f))));
-        x[i] = radius * (wide ? cosine : sine);
-        y[i] = radius * (wide ? sine : cosine);
+        const float x = lanes->normal[0][i], y = lanes->normal[1][i], z = lanes->normal[2][i];
+        const float sign = z < -0.5f ? -1.0f : 1.0f;
+        const float a = -1.0f / (sign + z);
+        const float c = x * y * a;
+        frames->tangent[0][i] = 1.0f + sign * x * x * a;
+        frames->tangent[1][i] = sign * c;
+        frames->tangent[2][i] = -sign * x;
+        frames->bitangent[0][i] = c;
+        frames->bitangent[1][i] = sign + y * y * a;
+        frames->bitangent[2][i] = -y;
+    }
+}
+
+/// Concentric map of the shifted sample to a disk of radius `scale` (see alpi_warp_disk). The
+/// coordinates are odd numbers of 25 bits with sign, in units of 2^-24: exact, and never 0. Sine
+/// and cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
+/// @param radius out: of the point, with sign
+static inline void disk_points(const alpi_occlusion_lanes *lanes, const uint32_t sample[3],
+                               float scale, float x[ALPI_PACKET], float y[ALPI_PACKET],
+                               float radius[ALPI_PACKET])
+{
+    const uint32_t u = sample[0], v = sample[1];
+    const float unit = scale * 0x1p-24f;
+    EACH_LANE
+    {
+        const float a = (float)((int32_t)(u ^ lanes->shift[0][i]) >> 7 | 1);
+        const float b = (float)((int32_t)(v ^ lanes->shift[1][i]) >> 7 | 1);
+        const int wide = fabsf(a) > fabsf(b);
+        const float longer = wide ? a : b, shorter = wide ? b : a;
+        const float p = shorter / longer, q = p * p;
+        const float r = unit * longer;
+        const float sine = r * p * (0.78539423f + q * (-0.080714f + q * 0.0024271060f));
+        const float cosine =
+            r * (0.99999997f + q * (-0.30842425f + q * (0.015849915f + q * -0.00031888049f)));
+        x[i] = wide ? cosine : sine;
+        y[i] = wide ? sine : cosine;
+        radius[i] = r;
     }
 }
 
 /// Directions in the lanes' frames: cosine-distributed (Malley) or uniform in the cone.
 static inline void aim(const alpi_occlusion_setup *setup, const alpi_occlusion_lanes *lanes,
-                       const uint32_t sample[3], alpi_rays *rays)
+                       const lane_frames *frames, const uint32_t sample[3], alpi_rays *rays)
 {
     _Alignas(32) float x[ALPI_PACKET], y[ALPI_PACKET], z[ALPI_PACKET];
-    disk_points(lanes, sample, x, y);
     if (setup->options.distribution == ALP_DISTRIBUTION_UNIFORM) {
         const float h = 1.0f - setup->cone_cos; // z = 1 − h r², uniform in [cosθmax, 1]
+        disk_points(lanes, sample, 1.0f, x, y, z);
         EACH_LANE
         {
-            float r2 = x[i] * x[i] + y[i] * y[i];
-            float scale = sqrtf(fmaxf(h * (2.0f - h * r2), 0.0f));
+            const float r2 = z[i] * z[i];
+            const float scale = sqrtf(h * (2.0f - h * r2));
             x[i] *= scale;
             y[i] *= scale;
             z[i] = 1.0f - h * r2;
         }
     } else {
-        const float scale = setup->cone_sin;
+        disk_points(lanes, sample, setup->cone_sin, x, y, z);
         EACH_LANE
         {
-            x[i] *= scale;
-            y[i] *= scale;
-            float z2 = 1.0f - x[i] * x[i] - y[i] * y[i];
-            z[i] = sqrtf(z2 > 0.0f ? z2 : 0.0f);
+            z[i] = sqrtf(1.0f - z[i] * z[i]); // |radius| < 1
         }
     }
     EACH_LANE
     {
-        rays->direction_x[i] = x[i] * lanes->tangent[0][i] + y[i] * lanes->bitangent[0][i] +
+        rays->direction_x[i] = x[i] * frames->tangent[0][i] + y[i] * frames->bitangent[0][i] +
                                z[i] * lanes->normal[0][i];
-        rays->direction_y[i] = x[i] * lanes->tangent[1][i] + y[i] * lanes->bitangent[1][i] +
+        rays->direction_y[i] = x[i] * frames->tangent[1][i] + y[i] * frames->bitangent[1][i] +
                                z[i] * lanes->normal[1][i];
-        rays->direction_z[i] = x[i] * lanes->tangent[2][i] + y[i] * lanes->bitangent[2][i] +
+        rays->direction_z[i] = x[i] * frames->tangent[2][i] + y[i] * frames->bitangent[2][i] +
                                z[i] * lanes->normal[2][i];
     }
 }
 
-/// t with 3t² − 2t³ = u, the inverse of smoothstep, to 9e-7: symmetric about ½, and analytic in √u
-/// below. (Coefficients: Chebyshev fit of ½ − sin(asin(1 − 2u) / 3) over √u.)
+/// t with 3t² − 2t³ = u, the inverse of smoothstep, to 5e-6: symmetric about ½, and analytic in √u
+/// below (a polynomial of least largest error for ½ − sin(asin(1 − 2u) / 3) over √u).
 static inline float inverse_smoothstep(float u)
 {
-    float s = sqrtf(u < 0.5f ? u : 1.0f - u);
-    float t =
-        s * (0.5773496f +
-             s * (0.11123088f +
-                  s * (0.05011027f +
-                       s * (0.0678495f +
-                            s * (-0.15111879f +
-                                 s * (0.46672475f + s * (-0.57647908f + s * 0.33255363f)))))));
+    const float s = sqrtf(u < 0.5f ? u : 1.0f - u);
+    const float t = s * (0.57698999f +
+                         s * (0.11991628f +
+                              s * (-0.016986352f +
+                                   s * (0.28287674f + s * (-0.39250040f + s * 0.29372040f)))));
     return u < 0.5f ? t : 1.0f - t;
 }
 
@@ -136,40 +157,72 @@ static inline void limit(const alpi_occlusion_setup *setup, const alpi_occlusion
     }
 }
 
-static inline void count_open(const alpi_rays *rays, bool bent, alpi_occlusion_tally *tally)
+/// Adds up four packets at a time: the sums go through memory.
+static inline void count_open(const alpi_rays *rays, uint32_t count, alpi_occlusion_tally *tally)
 {
-    EACH_LANE
-    {
-        tally->open[i] += rays->maximum[i] >= 0.0f ? 1u : 0u;
-    }
-    if (bent) {
+    uint32_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+        const alpi_rays *r = rays + k;
         EACH_LANE
         {
-            float open = rays->maximum[i] >= 0.0f ? 1.0f : 0.0f;
-            tally->bent[0][i] += open * rays->direction_x[i];
-            tally->bent[1][i] += open * rays->direction_y[i];
-            tally->bent[2][i] += open * rays->direction_z[i];
+            const uint32_t open =
+                (r[0].maximum[i] >= 0.0f ? 1u : 0u) + (r[1].maximum[i] >= 0.0f ? 1u : 0u) +
+                (r[2].maximum[i] >= 0.0f ? 1u : 0u) + (r[3].maximum[i] >= 0.0f ? 1u : 0u);
+            tally->open[i] += open;
+        }
+    }
+    for (; k < count; k++) {
+        EACH_LANE
+        {
+            tally->open[i] += rays[k].maximum[i] >= 0.0f ? 1u : 0u;
         }
     }
 }
 
-void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_occlusion_lanes *lanes,
-                 const uint32_t (*samples)[3], uint32_t count, alpi_occlusion_tally *tally)
+static inline void bend(const alpi_rays *rays, alpi_occlusion_tally *tally)
 {
-    alpi_rays rays;
     EACH_LANE
     {
-        rays.origin_x[i] = lanes->origin[0][i];
-        rays.origin_y[i] = lanes->origin[1][i];
-        rays.origin_z[i] = lanes->origin[2][i];
-        rays.minimum[i] = 0.0f;
-        rays.time[i] = 0.0f;
-        rays.id[i] = rays.flags[i] = 0;
+        float open = rays->maximum[i] >= 0.0f ? 1.0f : 0.0f;
+        tally->bent[0][i] += open * rays->direction_x[i];
+        tally->bent[1][i] += open * rays->direction_y[i];
+        tally->bent[2][i] += open * rays->direction_z[i];
     }
-    for (uint32_t s = 0; s < count; s++) {
-        aim(setup, lanes, samples[s], &rays);
-        limit(setup, lanes, samples[s], &rays);
-        alpi_trace_occluded(setup->tracer, &rays, lanes->active, setup->filter);
-        count_open(&rays, setup->bent, tally);
+}
+
+static inline void start_rays(const alpi_occlusion_lanes *lanes, alpi_rays *rays)
+{
+    EACH_LANE
+    {
+        rays->origin_x[i] = lanes->origin[0][i];
+        rays->origin_y[i] = lanes->origin[1][i];
+        rays->origin_z[i] = lanes->origin[2][i];
+    }
+}
+
+/// A batch of packets is made before the first of it is traced: one packet after the other would
+/// wait for its own divisions and roots.
+void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
+                 const uint32_t (*samples)[3], uint32_t count, alpi_occlusion_tally *tally)
+{
+    alpi_rays *rays = lanes->rays;
+    lane_frames frames;
+    find_frames(lanes, &frames);
+    for (uint32_t k = 0; k < count && k < ALPI_TRACE_BATCH; k++) {
+        start_rays(lanes, &rays[k]);
+    }
+    for (uint32_t s = 0; s < count; s += ALPI_TRACE_BATCH) {
+        const uint32_t batch = count - s < ALPI_TRACE_BATCH ? count - s : ALPI_TRACE_BATCH;
+        for (uint32_t k = 0; k < batch; k++) {
+            aim(setup, lanes, &frames, samples[s + k], &rays[k]);
+        }
+        for (uint32_t k = 0; k < batch; k++) {
+            limit(setup, lanes, samples[s + k], &rays[k]);
+        }
+        alpi_trace_occluded(setup->tracer, rays, batch, lanes->active, setup->filter);
+        count_open(rays, batch, tally);
+        for (uint32_t k = 0; k < batch && setup->bent; k++) {
+            bend(&rays[k], tally);
+        }
     }
 }
