@@ -10,7 +10,6 @@
 #include <embree3/rtcore.h>
 
 #include <stddef.h>
-#include <stdlib.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -293,15 +292,14 @@ static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
 }
 
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
-                         uint32_t active, alpi_trace_filter filter)
+                         uint32_t active, alpi_trace_filter filter, bool scattered)
 {
     _Alignas(32) int some[ALPI_PACKET];
     const int *valid = spread_bits(active, some);
     trace_context context = start_context(tracer, filter);
-    const char *e = getenv("NM");
-    if (e && *e == '1') {
-        rtcOccludedNM(tracer->embree_scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
-                      sizeof *packets);
+    if (scattered && valid == ALL_VALID) {
+        rtcOccludedNM(tracer->embree_scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET,
+                      count, sizeof *packets);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {

@@ -40,8 +40,10 @@ alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progre
 
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
 /// all ones. A lane that hits anything gets maximum = −∞, others are left alone.
+/// @param scattered the rays of a packet leave in different directions: they are then traced one by
+///                  one, as a stream, which is up to 1.4 times as fast (and the other way round)
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
-                         uint32_t active, alpi_trace_filter filter);
+                         uint32_t active, alpi_trace_filter filter, bool scattered);
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);

