@@ -53,27 +53,38 @@ static bool run_stated(const bench_scene *scene, bench_map *map, const bench_opt
 
 // --- over seeds ----------------------------------------------------------------------------------
 
-static bool run_seeds(const bench_scene *scene, bench_map *map, const bench_options *options,
-                      bench_table *table)
+static bool judge_seeds(const bench_scene *scene, bench_map *map, float accuracy, uint64_t seeds,
+                        const bench_truth *truth, bench_table *table)
 {
-    const uint64_t seeds = options->quick ? 4 : 64;
     alp_occlusion_options o = alp_occlusion_options_default();
-    bench_truth truth;
-    if (!bench_truth_open(scene, map, &o, options->quick ? 256 : 4096, &truth)) {
-        return false;
-    }
-    o.samples = 64;
     double mean = 0.0, squares = 0.0, bias = 0.0;
     bool good = true;
+    o.samples = 64;
     for (o.seed = 1; o.seed <= seeds && good; o.seed++) {
         bench_result r;
-        good = bench_bake(scene, map, &o, ALP_ADAPTIVE_AUTO, &truth, &r);
+        good = bench_bake(scene, map, &o, accuracy, truth, &r);
         mean += r.z_mean / (double)seeds;
         squares += r.z_spread * r.z_spread / (double)seeds;
         bias += r.bias / (double)seeds;
     }
-    bench_table_add(table, "%s|%u|%.0f|%+.3f|%.3f|%+.5f", scene->name, map->texels.count,
-                    (double)seeds, mean, sqrt(squares), bias);
+    bench_table_add(table, "%s|%u|%s|%.0f|%+.3f|%.3f|%+.5f", scene->name, map->texels.count,
+                    accuracy == ALP_ADAPTIVE_OFF ? "off" : "auto", (double)seeds, mean,
+                    sqrt(squares), bias);
+    return good;
+}
+
+static bool run_seeds(const bench_scene *scene, bench_map *map, const bench_options *options,
+                      bench_table *table)
+{
+    const uint64_t seeds = options->quick ? 4 : 64;
+    const alp_occlusion_options o = alp_occlusion_options_default();
+    bench_truth truth;
+    if (!bench_truth_open(scene, map, &o, options->quick ? 256 : 4096, &truth)) {
+        return false;
+    }
+    const bool good =
+        judge_seeds(scene, map, ALP_ADAPTIVE_OFF, seeds, &truth, table) &&
+        judge_seeds(scene, map, ALP_ADAPTIVE_AUTO, seeds, &truth, table);
     bench_truth_close(&truth);
     return good;
 }
@@ -160,7 +171,7 @@ int bench_accuracy(const bench_options *options)
     bool good = run_all(run_stated, names, 6, 128, options, &table);
     bench_table_start(&table, "Error over stated error, texel by texel, over seeds",
                       "64 rays a texel. The mean should be near 0 and the spread near 1.",
-                      "scene|texels|seeds|mean|spread|bias");
+                      "scene|texels|adaptive|seeds|mean|spread|bias");
     good = good && run_all(run_seeds, names, 4, 64, options, &table);
     bench_table_start(&table, "One sequence or some replicates",
                       "Root mean square error with the same number of rays in all. Replicates "
