@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 typedef struct bench_options {
-    bool quick;    // small sizes, one round: shows that it runs, the figures mean nothing
-    bool markdown; // tables for docs/
+    bool quick;        // small sizes, one round: shows that it runs, the figures mean nothing
+    bool markdown;     // tables for docs/
     const char *scene; // this one in the place of the bench's own, or NULL
 } bench_options;
 
@@ -55,6 +55,8 @@ typedef struct bench_scene {
 /// @return false after a message; nothing is left to close then
 bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene);
 void bench_scene_close(bench_scene *scene);
+/// Whether a scene of this name can be loaded; says nothing.
+bool bench_scene_exists(const char *name);
 /// Path of a file below $ALPENGLOW_SHARED in a static buffer, or `otherwise` where that is absent.
 const char *bench_shared(const char *relative, const char *otherwise);
 

@@ -42,7 +42,7 @@ int bench_atlas(const bench_options *options)
     static const struct {
         const char *name;
         uint32_t size;
-    } scenes[] = {{"builtin:teapot-room", 256}, {"builtin:teapot-room", 512},
+    } scenes[] = {{"builtin:teapot-room", 256},  {"builtin:teapot-room", 512},
                   {"builtin:teapot-room", 1024}, {"hills:70000", 1024},
                   {"hills:250000", 1024},        {"hills:1000000", 1024}};
     enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -56,6 +56,8 @@ int bench_atlas(const bench_options *options)
     if (options->scene != NULL) {
         good = run_scene(options->scene, 1024, options, &table);
     }
-    bench_table_print(&table, options);
+    if (good) {
+        bench_table_print(&table, options);
+    }
     return good ? 0 : 1;
 }

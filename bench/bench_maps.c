@@ -95,6 +95,8 @@ int bench_maps(const bench_options *options)
     for (int i = 0; i < count && good; i++) {
         good = run_scene(&scenes[i], options, &table);
     }
-    bench_table_print(&table, options);
+    if (good) {
+        bench_table_print(&table, options);
+    }
     return good ? 0 : 1;
 }

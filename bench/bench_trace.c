@@ -43,6 +43,8 @@ int bench_trace(const bench_options *options)
     for (int i = 0; i < (options->quick || options->scene != NULL ? 1 : SCENES) && good; i++) {
         good = run_scene(options->scene != NULL ? options->scene : names[i], options, &table);
     }
-    bench_table_print(&table, options);
+    if (good) {
+        bench_table_print(&table, options);
+    }
     return good ? 0 : 1;
 }

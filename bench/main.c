@@ -39,8 +39,9 @@ int main(int count, char **words)
         } else if (strcmp(words[i], "--scene") == 0 && i + 1 < count) {
             options.scene = words[++i];
         } else {
-            fprintf(stderr, "alpenglow bench: there is no '%s'; "
-                            "trace, transport, atlas, maps, accuracy, --quick, --markdown\n",
+            fprintf(stderr,
+                    "alpenglow bench: there is no '%s'; "
+                    "trace, transport, atlas, maps, accuracy, --quick, --markdown\n",
                     words[i]);
             return EXIT_USAGE;
         }

@@ -21,9 +21,8 @@ static bool attach(raw_embree *raw, const alp_scene *scene)
     float *vertices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), scene->vertex_count);
-    uint32_t(*indices)[3] =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof *indices, scene->usable_count);
+    uint32_t(*indices)[3] = rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof *indices, scene->usable_count);
     if (vertices == NULL || indices == NULL) {
         rtcReleaseGeometry(geometry);
         return false;

@@ -75,8 +75,8 @@ bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
         result = alp_scene_load(scene->context, name, &scene->scene);
     }
     if (result == ALP_OK) {
-        result = alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer,
-                                       &scene->build_seconds);
+        result =
+            alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer, &scene->build_seconds);
     }
     if (!bench_good(scene, result)) {
         bench_scene_close(scene);
@@ -90,6 +90,17 @@ void bench_scene_close(bench_scene *scene)
     alp_scene_destroy(scene->scene);
     alp_context_destroy(scene->context);
     *scene = (bench_scene){.name = scene->name};
+}
+
+bool bench_scene_exists(const char *name)
+{
+    alp_context *context = NULL;
+    alp_scene *scene = NULL;
+    const bool there = alp_context_create(NULL, &context) == ALP_OK &&
+                       alp_scene_load(context, name, &scene) == ALP_OK;
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    return there;
 }
 
 const char *bench_shared(const char *relative, const char *otherwise)

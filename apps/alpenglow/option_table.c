@@ -404,7 +404,8 @@ static const option options[] = {
      .group = GROUP_WHAT,
      .kind = KIND_FLAG,
      .name = "--quick",
-     .help = "Small sizes and one round, in a second: shows that it runs. The figures mean nothing."},
+     .help =
+         "Small sizes and one round, in a second: shows that it runs. The figures mean nothing."},
     {.id = OPTION_BENCH_SCENE,
      .commands = IN_BENCH,
      .group = GROUP_WHAT,

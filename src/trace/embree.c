@@ -313,7 +313,8 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
     struct RTCRayHit8 ray_hit;
     _Alignas(32) int some[ALPI_PACKET];
     memcpy(&ray_hit.ray, rays, sizeof ray_hit.ray);
-    memset(ray_hit.ray.mask, 0xff, sizeof ray_hit.ray.mask); // this build of Embree has ray masks on
+    memset(ray_hit.ray.mask, 0xff,
+           sizeof ray_hit.ray.mask); // this build of Embree has ray masks on
     const int *valid = spread_bits(active, some);
     memset(&ray_hit.hit, 0xff, sizeof ray_hit.hit); // RTC_INVALID_GEOMETRY_ID everywhere
     trace_context context = start_context(tracer, filter);

@@ -16,7 +16,7 @@ typedef struct alpi_rays {
     float direction_x[ALPI_PACKET], direction_y[ALPI_PACKET], direction_z[ALPI_PACKET];
     float time[ALPI_PACKET]; // the tracer's, 0
     float maximum[ALPI_PACKET];
-    uint32_t mask[ALPI_PACKET]; // all ones
+    uint32_t mask[ALPI_PACKET];                   // all ones
     uint32_t id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
 } alpi_rays;
 

@@ -18,9 +18,8 @@ struct alpi_occlusion_setup;
 struct alpi_occlusion_lanes;
 struct alpi_occlusion_tally;
 typedef void alpi_occlusion_kernel(const struct alpi_occlusion_setup *setup,
-                                   struct alpi_occlusion_lanes *lanes,
-                                   const uint32_t (*samples)[3], uint32_t count,
-                                   struct alpi_occlusion_tally *tally);
+                                   struct alpi_occlusion_lanes *lanes, const uint32_t (*samples)[3],
+                                   uint32_t count, struct alpi_occlusion_tally *tally);
 
 /// Directions that leave from one point of a receiver with extent. They are a block of the sequence
 /// and so well spread by themselves; more points would cost set-up and gain little.
@@ -36,9 +35,9 @@ typedef struct alpi_occlusion_setup {
     alp_falloff falloff; // NONE where there is no limit
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
-    bool bent;               // sum the open directions too
-    uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
-    uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
+    bool bent;           // sum the open directions too
+    uint32_t samples;    // of each receiver, a multiple of ALPI_QUARTERS
+    uint32_t shift_mask; // bits of a direction's coordinates that a receiver shifts by itself
     // Shared by all receivers, which shift them: 32-bit fractions.
     uint32_t (*sequence)[3]; // [samples] directions and distances
     uint32_t (*places)[2];   // [samples / ALPI_SAMPLES_PER_POINT, rounded up] points of a receiver

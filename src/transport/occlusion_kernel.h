@@ -5,8 +5,8 @@
 
 #include "transport/occlusion.h"
 
-/// Eight points, structure of arrays. Lane i of every packet belongs to point i: neighbours send the
-/// same sample in nearly the same direction, which is what packets are good at.
+/// Eight points, structure of arrays. Lane i of every packet belongs to point i: neighbours send
+/// the same sample in nearly the same direction, which is what packets are good at.
 typedef struct alpi_occlusion_lanes {
     _Alignas(32) float origin[3][ALPI_PACKET]; // offset included
     float normal[3][ALPI_PACKET];              // unit, the hemisphere's axis

@@ -130,10 +130,10 @@ static inline void aim(const alpi_occlusion_setup *setup, const alpi_occlusion_l
 static inline float inverse_smoothstep(float u)
 {
     const float s = sqrtf(u < 0.5f ? u : 1.0f - u);
-    const float t = s * (0.57698999f +
-                         s * (0.11991628f +
-                              s * (-0.016986352f +
-                                   s * (0.28287674f + s * (-0.39250040f + s * 0.29372040f)))));
+    const float t =
+        s * (0.57698999f +
+             s * (0.11991628f +
+                  s * (-0.016986352f + s * (0.28287674f + s * (-0.39250040f + s * 0.29372040f)))));
     return u < 0.5f ? t : 1.0f - t;
 }
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { TRUTH_SAMPLES = 2048 };
+enum { TRUTH_SAMPLES = 1024 };
 
 typedef struct map_case {
     alp_scene *scene;
@@ -89,7 +89,7 @@ static double squared_error(const map_case *m, uint32_t texel)
 static double stated_over_true(alp_context *context, map_case *m, uint32_t samples)
 {
     double stated = 0.0, real = 0.0;
-    for (uint64_t seed = 1; seed <= 4; seed++) {
+    for (uint64_t seed = 1; seed <= 6; seed++) {
         bake(context, m, samples, seed, ALP_ADAPTIVE_AUTO);
         for (uint32_t i = 0; i < m->texels.count; i++) {
             stated += (double)m->errors[i] * (double)m->errors[i];
@@ -149,7 +149,7 @@ static void texels_state_their_error(void **state)
     for (int i = 0; i < 4; i++) {
         map_case m;
         double mean = 0.0, spread = 0.0;
-        open_case(context, names[i], 40, &m);
+        open_case(context, names[i], 48, &m);
         find_z(context, &m, ALP_ADAPTIVE_OFF, &mean, &spread);
         print_message("accuracy: error over stated error, %s, every texel traced, 64 seeds: mean "
                       "%+.3f, spread %.3f\n",

@@ -49,7 +49,9 @@ static void fill_rays(alpi_rays *rays, uint32_t packet)
         rays->direction_x[i] = d.x;
         rays->direction_y[i] = d.y;
         rays->direction_z[i] = d.z;
-        rays->minimum[i] = 0.0f;
+        rays->minimum[i] = rays->time[i] = 0.0f;
+        rays->mask[i] = UINT32_MAX;
+        rays->id[i] = rays->flags[i] = 0;
         rays->maximum[i] = i % 3 == 0 ? 0.7f : INFINITY;
     }
 }
