@@ -13,6 +13,7 @@ install(FILES ${PROJECT_BINARY_DIR}/include/alpenglow/version.h
 file(RELATIVE_PATH ALP_BIN_TO_LIB "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 set_target_properties(alpenglow_command PROPERTIES INSTALL_RPATH "$ORIGIN/${ALP_BIN_TO_LIB}")
 install(TARGETS alpenglow_command DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS alpenglow_bench DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/alpenglow)
 if(TARGET alpenglow_manual)
     set(printed ${PROJECT_BINARY_DIR}/printed)
     install(DIRECTORY ${printed}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})

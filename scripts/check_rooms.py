@@ -39,7 +39,7 @@ PUBLIC = {
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)
 THIRD_PARTY = {
-    r"embree3/.*": ["src/trace/embree.c"],
+    r"embree3/.*": ["src/trace/embree.c", "bench"],
     r"jansson\.h": ["src/formats", "src/bake", "apps"],
     r"png\.h": ["src/formats"],
     r"jpeglib\.h|jerror\.h": ["src/formats"],
@@ -95,6 +95,9 @@ def fault_of_system(target, place):
 
 def fault_of_quoted(root, place, room, target):
     """Fault of including "target" from a file of a room (None: of an app)."""
+    if place.startswith("bench/"): # any header of ours
+        known = (root / place).parent / target, root / "src" / target
+        return None if any(p.is_file() for p in known) else f'there is no "{target}"'
     if room is None:
         beside = (root / place).parent / target
         return None if beside.is_file() else f'an app may not include "{target}": it is not its own'
@@ -148,7 +151,7 @@ def unlisted_files(root):
 def check(root):
     """All faults of a tree, as lines."""
     lines = []
-    for folder in ("src", "include", "apps", "examples"):
+    for folder in ("src", "include", "apps", "bench", "examples"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".c", ".h") or path.name.endswith(".h.in"):
                 for number, fault in faults_of_file(root, path):

@@ -34,7 +34,7 @@ static command_id find_command(const char *name)
     if (name[0] == '-') {
         usage_error(COMMAND_COUNT,
                     "unknown option '%s'; the command comes first: bake, render, "
-                    "info or compare",
+                    "info, compare or bench",
                     name);
     } else if (nearest != NULL) {
         usage_error(COMMAND_COUNT, "unknown command '%s'; did you mean %s?", name, nearest);
@@ -100,7 +100,7 @@ static int dispatch_option(int count, char **words)
 static int dispatch(int count, char **words)
 {
     if (count < 1) {
-        return usage_error(COMMAND_COUNT, "which command? bake, render, info or compare");
+        return usage_error(COMMAND_COUNT, "which command? bake, render, info, compare or bench");
     }
     if (is_help(words[0])) {
         return help_print();

@@ -41,7 +41,13 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                        "alpenglow compare maps/ao.exr maps/ao.exr --max-rmse 0.01"},
                       {"See where they differ:",
                        "alpenglow compare maps/ao.exr maps/ao.exr --heatmap difference.png"}}},
-    [COMMAND_BENCH] = {.examples = {{"Measure everything:", "alpenglow bench"}}},
+    [COMMAND_BENCH] =
+        {.failed = "The program that measures, alpenglow-bench, is not installed, or a scene could "
+                   "not be read.",
+         .examples = {{"Measure everything:", "alpenglow bench"},
+                      {"Only whether it runs:", "alpenglow bench --quick"},
+                      {"The innermost loop on a scene of yours:",
+                       "alpenglow bench transport --scene scene.glb"}}},
     [COMMAND_COUNT] = {.failed =
                            "The command failed; a message on standard error says what and where.",
                        .files = {{"*.gltf, *.glb", "Scenes, read and written."},

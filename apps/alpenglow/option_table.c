@@ -23,6 +23,15 @@ static const command_entry commands[COMMAND_COUNT] = {
          "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
          "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
          "largest of |A - B| and where it is."},
+    [COMMAND_BENCH] =
+        {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", 1,
+         command_bench,
+         "Measures this machine: in turns, what the hardware and the ray tracer give at most, and "
+         "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
+         "(the innermost loop), atlas, maps (error per second) or accuracy (stated against true "
+         "errors); without it all are run, which takes some minutes. Other work on the machine "
+         "makes the figures worse and the ratios little.",
+         true},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
                         "bake --maps ao puts light on surfaces"},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
@@ -32,8 +41,6 @@ static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_SH] = {"sh", "ENV", "spherical harmonics of a sky", 1, NULL, "nothing instead"},
     [COMMAND_VIEW] = {"view", "SCENE|OUT", "look at a scene", 1, NULL,
                       "render makes a picture, and any glTF viewer shows what bake writes"},
-    [COMMAND_BENCH] = {"bench", "[ROOM]", "measure speed", 0, NULL,
-                       "bake --json gives seconds and rays of a bake"},
 };
 
 #define SCENE_COMMANDS (IN_BAKE | IN_RENDER | IN_INFO)
@@ -445,6 +452,29 @@ static const option options[] = {
              "unchanged; a material whose image is tiled or shared by several places gets a "
              "separate map and a warning. A JPEG becomes a PNG."},
 
+    // --- bench ----------------------------------------------------------------------------------
+    {.id = OPTION_QUICK,
+     .commands = IN_BENCH,
+     .group = GROUP_WHAT,
+     .kind = KIND_FLAG,
+     .name = "--quick",
+     .help =
+         "Small sizes and one round, in a second: shows that it runs. The figures mean nothing."},
+    {.id = OPTION_BENCH_SCENE,
+     .commands = IN_BENCH,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--scene",
+     .value = "SCENE",
+     .help = "This scene in the place of those that the benches bring, which are built-in ones and "
+             "hills:N, a field of hills of N triangles."},
+    {.id = OPTION_MARKDOWN,
+     .commands = IN_BENCH,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_FLAG,
+     .name = "--markdown",
+     .help = "Tables as Markdown, with what they show, as in docs/speed.md."},
+
     // --- run ------------------------------------------------------------------------------------
     {.id = OPTION_SEED,
      .commands = RAY_COMMANDS,
@@ -494,7 +524,7 @@ static const option options[] = {
              "and compare are asked for."},
 
     {.id = OPTION_HELP,
-     .commands = SCENE_COMMANDS | IN_COMPARE,
+     .commands = SCENE_COMMANDS | IN_COMPARE | IN_BENCH,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-h",

@@ -375,7 +375,9 @@ static void set_defaults(command_id command, command_line *parsed)
 
 static const char *operand_names(command_id command)
 {
-    return command == COMMAND_COMPARE ? "two images, A and B" : "one SCENE";
+    return command == COMMAND_COMPARE ? "two images, A and B"
+           : command == COMMAND_BENCH ? "one ROOM at most"
+                                      : "one SCENE";
 }
 
 int arguments_parse(command_id command, int count, char **words, command_line *parsed)
@@ -399,7 +401,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
                                words[i]);
         }
     }
-    if (operands < wanted) {
+    if (operands < wanted && !command_table()[command].operand_optional) {
         return usage_error(command, "needs %s", operand_names(command));
     }
     return EXIT_DONE;

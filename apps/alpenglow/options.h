@@ -15,13 +15,13 @@ typedef enum command_id {
     COMMAND_RENDER,
     COMMAND_INFO,
     COMMAND_COMPARE,
+    COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // what follows is in the contract and not built yet
     COMMAND_PROBES = COMMAND_BUILT_COUNT,
     COMMAND_LPV,
     COMMAND_AMBIENCE,
     COMMAND_SH,
     COMMAND_VIEW,
-    COMMAND_BENCH,
     COMMAND_COUNT
 } command_id;
 
@@ -30,6 +30,7 @@ enum {
     IN_RENDER = 1 << COMMAND_RENDER,
     IN_INFO = 1 << COMMAND_INFO,
     IN_COMPARE = 1 << COMMAND_COMPARE,
+    IN_BENCH = 1 << COMMAND_BENCH,
 };
 
 /// Every option that can be given; OPTION_LATER stands for all that are not built yet.
@@ -67,6 +68,9 @@ typedef enum option_id {
     OPTION_SCALE,
     OPTION_MAX_RMSE,
     OPTION_HEATMAP,
+    OPTION_BENCH_SCENE,
+    OPTION_QUICK,
+    OPTION_MARKDOWN,
     OPTION_SEED,
     OPTION_THREADS,
     OPTION_PROGRESS,
@@ -139,6 +143,7 @@ typedef struct command_entry {
     int operand_count;
     int (*run)(const command_line *arguments); // NULL: not built yet
     const char *help; // paragraph under the synopsis; not built: what exists
+    bool operand_optional;
 } command_entry;
 
 const command_entry *command_table(void); ///< [COMMAND_COUNT]
@@ -183,5 +188,6 @@ int command_bake(const command_line *arguments);
 int command_render(const command_line *arguments);
 int command_info(const command_line *arguments);
 int command_compare(const command_line *arguments);
+int command_bench(const command_line *arguments);
 
 #endif

@@ -46,19 +46,36 @@ static void append_block(const alpi_lattice *l, uint32_t page, uint32_t x0, uint
     }
 }
 
-/// Tiles of 16 × 8 texels in blocks of 4 × 2: eight texels in a row of the order are one block of
-/// the page, and eight of every fourth texel are one tile.
+/// Puts texels of one chart together and leaves their order: charts look in different directions,
+/// and rays in different directions are slow company.
+static void sort_by_chart(const alpi_lattice *l, uint32_t first, uint32_t end)
+{
+    const uint32_t *charts = l->texels->charts;
+    for (uint32_t i = first + 1; i < end; i++) {
+        const uint32_t t = l->order[i];
+        uint32_t at = i;
+        for (; at > first && charts[l->order[at - 1]] > charts[t]; at--) {
+            l->order[at] = l->order[at - 1];
+        }
+        l->order[at] = t;
+    }
+}
+
+/// Tiles of 16 × 8 texels, in them chart by chart, blocks of 4 × 2: eight texels in a row of the
+/// order are one block of the page, and eight of every fourth texel are one tile.
 static void fill_order(alpi_lattice *l)
 {
     uint32_t count = 0;
     for (uint32_t page = 0; page < l->page_count; page++) {
         for (uint32_t ty = 0; ty < l->height; ty += TILE_HEIGHT) {
             for (uint32_t tx = 0; tx < l->width; tx += TILE_WIDTH) {
+                const uint32_t first = count;
                 for (uint32_t y = ty; y < ty + TILE_HEIGHT; y += BLOCK_HEIGHT) {
                     for (uint32_t x = tx; x < tx + TILE_WIDTH; x += BLOCK_WIDTH) {
                         append_block(l, page, x, y, &count);
                     }
                 }
+                sort_by_chart(l, first, count);
             }
         }
     }

@@ -190,7 +190,8 @@ static bool any_is_blocked(const validity_job *job, const alpi_receiver_point *l
         active |= (length > lying[i].offset ? 1u : 0u) << i;
     }
     if (active != 0) {
-        alpi_trace_occluded(job->setup->tracer, &rays, active, (alpi_trace_filter){0});
+        memset(rays.mask, 0xff, sizeof rays.mask);
+        alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0}, false);
     }
     bool blocked = false;
     for (int i = 0; i < ALPI_PACKET; i++) {

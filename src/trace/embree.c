@@ -336,12 +336,9 @@ _Static_assert(sizeof(alpi_rays) == sizeof(struct RTCRay8) &&
 
 static const _Alignas(32) int ALL_VALID[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
 
-/// Which lanes take part, as Embree wants it; and this build of Embree has ray masks on.
-static const int *start_rays(alpi_rays *rays, uint32_t active, int valid[ALPI_PACKET])
+/// Which lanes take part, as Embree wants it.
+static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
 {
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        rays->mask[i] = UINT32_MAX;
-    }
     if (active == (1u << ALPI_PACKET) - 1u) {
         return ALL_VALID;
     }
@@ -351,13 +348,20 @@ static const int *start_rays(alpi_rays *rays, uint32_t active, int valid[ALPI_PA
     return valid;
 }
 
-void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *rays, uint32_t active,
-                         alpi_trace_filter filter)
+void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
+                         uint32_t active, alpi_trace_filter filter, bool scattered)
 {
-    _Alignas(32) int valid[ALPI_PACKET];
+    _Alignas(32) int some[ALPI_PACKET];
+    const int *valid = spread_bits(active, some);
     trace_context context = start_context(tracer, filter);
-    rtcOccluded8(start_rays(rays, active, valid), tracer->embree_scene, &context.embree,
-                 (struct RTCRay8 *)rays);
+    if (scattered && valid == ALL_VALID) {
+        rtcOccludedNM(tracer->embree_scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET,
+                      count, sizeof *packets);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        rtcOccluded8(valid, tracer->embree_scene, &context.embree, (struct RTCRay8 *)&packets[i]);
+    }
 }
 
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
@@ -366,7 +370,9 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
     struct RTCRayHit8 ray_hit;
     _Alignas(32) int some[ALPI_PACKET];
     memcpy(&ray_hit.ray, rays, sizeof ray_hit.ray);
-    const int *valid = start_rays((alpi_rays *)&ray_hit.ray, active, some);
+    memset(ray_hit.ray.mask, 0xff,
+           sizeof ray_hit.ray.mask); // this build of Embree has ray masks on
+    const int *valid = spread_bits(active, some);
     memset(&ray_hit.hit, 0xff, sizeof ray_hit.hit); // RTC_INVALID_GEOMETRY_ID everywhere
     trace_context context = start_context(tracer, filter);
     rtcIntersect8(valid, tracer->embree_scene, &context.embree, &ray_hit);

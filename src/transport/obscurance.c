@@ -62,21 +62,23 @@ static void add_hits(const alpi_occlusion_setup *setup, const alpi_rays *rays,
     }
 }
 
-void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, const alpi_occlusion_lanes *lanes,
+void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
                             const uint32_t (*samples)[3], uint32_t count,
                             alpi_occlusion_tally *tally)
 {
-    alpi_rays rays;
+    alpi_rays *rays = &lanes->rays[0];
+    alpi_lane_frames frames;
     alpi_hits hits;
     double sum[3][ALPI_PACKET] = {{0}}; // floats would drift: a room of one colour adds it up
-    alpi_lanes_start(lanes, &rays);
+    alpi_lanes_frames(lanes, &frames);
+    alpi_lanes_start(lanes, rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        rays.maximum[i] = setup->distance;
+        rays->maximum[i] = setup->distance;
     }
     for (uint32_t s = 0; s < count; s++) {
-        alpi_lanes_aim(setup, lanes, samples[s], &rays);
-        alpi_trace_nearest(setup->tracer, &rays, lanes->active, setup->filter, &hits);
-        add_hits(setup, &rays, &hits, lanes->active, tally, sum);
+        alpi_lanes_aim(setup, lanes, &frames, samples[s], rays);
+        alpi_trace_nearest(setup->tracer, rays, lanes->active, setup->filter, &hits);
+        add_hits(setup, rays, &hits, lanes->active, tally, sum);
     }
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < ALPI_PACKET; i++) {
@@ -92,7 +94,7 @@ alp_result alpi_obscurance_gather(const alpi_occlusion_setup *setup,
 {
     alpi_occlusion_setup colored = *setup;
     colored.bent = false;
-    colored.bleed = true;
+    colored.kernel = alpi_obscurance_kernel;
     alpi_occlusion_sums sums;
     ALP_TRY(alpi_occlusion_sums_create(setup->context, receivers->count, true, &sums));
     alp_result result = alpi_occlusion_add(&colored, receivers, list, list_count, 0, samples,

@@ -128,6 +128,20 @@ static uint32_t shared_bits(uint32_t samples)
     return bits;
 }
 
+/// The kernel for this machine, unless the context asks for less.
+static alpi_occlusion_kernel *choose_kernel(alp_context *context)
+{
+#ifdef ALPI_HAS_V3_KERNEL
+    const char *isa = alpi_context_options(context)->max_isa;
+    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
+        __builtin_cpu_supports("bmi2")) {
+        return alpi_occlusion_kernel_v3;
+    }
+#endif
+    (void)context;
+    return alpi_occlusion_kernel_baseline;
+}
+
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options, alpi_occlusion_setup *setup)
 {
@@ -136,6 +150,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .context = scene->context,
         .scene = scene,
         .tracer = tracer,
+        .kernel = choose_kernel(scene->context),
         .options = *options,
         .distance = alp_occlusion_distance(scene, options),
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),

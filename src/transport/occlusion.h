@@ -13,10 +13,18 @@
 /// compares with its neighbours' (it is not the error: parts of one sequence are not independent).
 enum { ALPI_QUARTERS = 4 };
 
+/// The innermost loop, see occlusion_kernel.h.
+struct alpi_occlusion_setup;
+struct alpi_occlusion_lanes;
+struct alpi_occlusion_tally;
+typedef void alpi_occlusion_kernel(const struct alpi_occlusion_setup *setup,
+                                   struct alpi_occlusion_lanes *lanes, const uint32_t (*samples)[3],
+                                   uint32_t count, struct alpi_occlusion_tally *tally);
+
 /// Directions that leave from one point of a receiver with extent. With more, texels that many
 /// small triangles share err by the choice of their points: 16 doubled the error of torus-plane at
 /// 64². With fewer, placing them takes longer than it gains.
-enum { ALPI_SAMPLES_PER_POINT = 4 };
+enum { ALPI_SAMPLES_PER_POINT = 8 };
 
 /// The automatic distance limit over the diagonal of a bounding box.
 #define ALPI_OCCLUSION_AUTO_SHARE 0.2f
@@ -26,13 +34,13 @@ typedef struct alpi_occlusion_setup {
     alp_context *context;
     const alp_scene *scene;
     const alpi_tracer *tracer;
+    alpi_occlusion_kernel *kernel; // the one for this machine
     alp_occlusion_options options;
     float distance;      // metres, INFINITY = no limit
     alp_falloff falloff; // NONE where there is no limit
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
-    bool bleed;              // sum colours instead of testing for occlusion: see obscurance.h
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers

@@ -24,69 +24,93 @@ static inline float alpi_lane_unit(uint32_t bits)
     return (float)(int32_t)(bits >> 8) * 0x1p-24f; // 24 bits: exact, and below 1
 }
 
-/// Concentric map of the shifted sample to the unit disk (see alpi_warp_disk), with polynomials for
-/// sine and cosine on [−π/4, π/4], right to 4e-7.
-static inline void alpi_lanes_disk_points(const alpi_occlusion_lanes *lanes,
-                                          const uint32_t sample[3], float x[ALPI_PACKET],
-                                          float y[ALPI_PACKET])
+/// A frame about each lane's normal, as vec3_frame makes it.
+typedef struct alpi_lane_frames {
+    _Alignas(32) float tangent[3][ALPI_PACKET];
+    float bitangent[3][ALPI_PACKET];
+} alpi_lane_frames;
+
+static inline void alpi_lanes_frames(const alpi_occlusion_lanes *lanes, alpi_lane_frames *frames)
 {
-    const uint32_t u = sample[0], v = sample[1];
     ALPI_EACH_LANE
     {
-        float a = 2.0f * alpi_lane_unit(u ^ lanes->shift[0][i]) - 1.0f;
-        float b = 2.0f * alpi_lane_unit(v ^ lanes->shift[1][i]) - 1.0f;
-        int wide = fabsf(a) > fabsf(b);
-        float radius = wide ? a : b;
-        float across = wide ? b : a;
-        float safe = radius != 0.0f ? radius : 1.0f;
-        float p = (float)(ALPI_PI / 4.0) * (across / safe), q = p * p;
-        float sine = p * (1.0f + q * (-1.0f / 6.0f + q * (1.0f / 120.0f + q * (-1.0f / 5040.0f))));
-        float cosine =
-            1.0f + q * (-0.5f + q * (1.0f / 24.0f + q * (-1.0f / 720.0f + q * (1.0f / 40320.0f))));
-        x[i] = radius * (wide ? cosine : sine);
-        y[i] = radius * (wide ? sine : cosine);
+        const float x = lanes->normal[0][i], y = lanes->normal[1][i], z = lanes->normal[2][i];
+        const float sign = z < -0.5f ? -1.0f : 1.0f;
+        const float a = -1.0f / (sign + z);
+        const float c = x * y * a;
+        frames->tangent[0][i] = 1.0f + sign * x * x * a;
+        frames->tangent[1][i] = sign * c;
+        frames->tangent[2][i] = -sign * x;
+        frames->bitangent[0][i] = c;
+        frames->bitangent[1][i] = sign + y * y * a;
+        frames->bitangent[2][i] = -y;
+    }
+}
+
+/// Concentric map of the shifted sample to a disk of radius `scale` (see alpi_warp_disk). The
+/// coordinates are odd numbers of 25 bits with sign, in units of 2^-24: exact, and never 0. Sine
+/// and cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
+/// @param radius out: of the point, with sign
+static inline void alpi_lanes_disk_points(const alpi_occlusion_lanes *lanes,
+                                          const uint32_t sample[3], float scale,
+                                          float x[ALPI_PACKET], float y[ALPI_PACKET],
+                                          float radius[ALPI_PACKET])
+{
+    const uint32_t u = sample[0], v = sample[1];
+    const float unit = scale * 0x1p-24f;
+    ALPI_EACH_LANE
+    {
+        const float a = (float)((int32_t)(u ^ lanes->shift[0][i]) >> 7 | 1);
+        const float b = (float)((int32_t)(v ^ lanes->shift[1][i]) >> 7 | 1);
+        const int wide = fabsf(a) > fabsf(b);
+        const float longer = wide ? a : b, shorter = wide ? b : a;
+        const float p = shorter / longer, q = p * p;
+        const float r = unit * longer;
+        const float sine = r * p * (0.78539423f + q * (-0.080714f + q * 0.0024271060f));
+        const float cosine =
+            r * (0.99999997f + q * (-0.30842425f + q * (0.015849915f + q * -0.00031888049f)));
+        x[i] = wide ? cosine : sine;
+        y[i] = wide ? sine : cosine;
+        radius[i] = r;
     }
 }
 
 /// Directions in the lanes' frames: cosine-distributed (Malley) or uniform in the cone.
 static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
-                                  const alpi_occlusion_lanes *lanes, const uint32_t sample[3],
-                                  alpi_rays *rays)
+                                  const alpi_occlusion_lanes *lanes, const alpi_lane_frames *frames,
+                                  const uint32_t sample[3], alpi_rays *rays)
 {
     _Alignas(32) float x[ALPI_PACKET], y[ALPI_PACKET], z[ALPI_PACKET];
-    alpi_lanes_disk_points(lanes, sample, x, y);
     if (setup->options.distribution == ALP_DISTRIBUTION_UNIFORM) {
         const float h = 1.0f - setup->cone_cos; // z = 1 − h r², uniform in [cosθmax, 1]
+        alpi_lanes_disk_points(lanes, sample, 1.0f, x, y, z);
         ALPI_EACH_LANE
         {
-            float r2 = x[i] * x[i] + y[i] * y[i];
-            float scale = sqrtf(fmaxf(h * (2.0f - h * r2), 0.0f));
+            const float r2 = z[i] * z[i];
+            const float scale = sqrtf(h * (2.0f - h * r2));
             x[i] *= scale;
             y[i] *= scale;
             z[i] = 1.0f - h * r2;
         }
     } else {
-        const float scale = setup->cone_sin;
+        alpi_lanes_disk_points(lanes, sample, setup->cone_sin, x, y, z);
         ALPI_EACH_LANE
         {
-            x[i] *= scale;
-            y[i] *= scale;
-            float z2 = 1.0f - x[i] * x[i] - y[i] * y[i];
-            z[i] = sqrtf(z2 > 0.0f ? z2 : 0.0f);
+            z[i] = sqrtf(1.0f - z[i] * z[i]); // |radius| < 1
         }
     }
     ALPI_EACH_LANE
     {
-        rays->direction_x[i] = x[i] * lanes->tangent[0][i] + y[i] * lanes->bitangent[0][i] +
+        rays->direction_x[i] = x[i] * frames->tangent[0][i] + y[i] * frames->bitangent[0][i] +
                                z[i] * lanes->normal[0][i];
-        rays->direction_y[i] = x[i] * lanes->tangent[1][i] + y[i] * lanes->bitangent[1][i] +
+        rays->direction_y[i] = x[i] * frames->tangent[1][i] + y[i] * frames->bitangent[1][i] +
                                z[i] * lanes->normal[1][i];
-        rays->direction_z[i] = x[i] * lanes->tangent[2][i] + y[i] * lanes->bitangent[2][i] +
+        rays->direction_z[i] = x[i] * frames->tangent[2][i] + y[i] * frames->bitangent[2][i] +
                                z[i] * lanes->normal[2][i];
     }
 }
 
-/// The rays of a packet, but for direction and length.
+/// Where the rays of a packet start.
 static inline void alpi_lanes_start(const alpi_occlusion_lanes *lanes, alpi_rays *rays)
 {
     ALPI_EACH_LANE
@@ -94,9 +118,6 @@ static inline void alpi_lanes_start(const alpi_occlusion_lanes *lanes, alpi_rays
         rays->origin_x[i] = lanes->origin[0][i];
         rays->origin_y[i] = lanes->origin[1][i];
         rays->origin_z[i] = lanes->origin[2][i];
-        rays->minimum[i] = 0.0f;
-        rays->time[i] = 0.0f;
-        rays->id[i] = rays->flags[i] = 0;
     }
 }
 

@@ -26,7 +26,6 @@ enum {
 
 typedef struct gather_job {
     const alpi_occlusion_setup *setup;
-    alpi_occlusion_kernel *kernel;
     const alpi_receivers *receivers;
     const uint32_t *list;
     uint32_t list_count;
@@ -34,50 +33,37 @@ typedef struct gather_job {
     alpi_occlusion_sums *sums;
 } gather_job;
 
-/// The kernel for this machine, unless the context asks for less.
-static alpi_occlusion_kernel *choose_kernel(const alpi_occlusion_setup *setup)
+void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes, uint32_t active)
 {
-    if (setup->bleed) {
-        return alpi_obscurance_kernel;
+    lanes->active = active;
+    for (int k = 0; k < ALPI_TRACE_BATCH; k++) {
+        alpi_rays *rays = &lanes->rays[k];
+        memset(rays->minimum, 0, sizeof rays->minimum);
+        memset(rays->time, 0, sizeof rays->time);
+        memset(rays->mask, 0xff, sizeof rays->mask);
+        memset(rays->id, 0, sizeof rays->id);
+        memset(rays->flags, 0, sizeof rays->flags);
     }
-#ifdef ALPI_HAS_V3_KERNEL
-    const char *isa = alpi_context_options(setup->context)->max_isa;
-    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
-        __builtin_cpu_supports("bmi2")) {
-        return alpi_occlusion_kernel_v3;
-    }
-#endif
-    return alpi_occlusion_kernel_baseline;
-}
-
-static void set_column(float column[3][ALPI_PACKET], int lane, vec3 v)
-{
-    column[0][lane] = v.x;
-    column[1][lane] = v.y;
-    column[2][lane] = v.z;
 }
 
 static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_point *p)
 {
-    const vec3 n = p->shading_normal;
-    set_column(lanes->origin, lane, vec3_mad(p->position, p->offset, p->geometric_normal));
-    if (n.x == lanes->normal[0][lane] && n.y == lanes->normal[1][lane] &&
-        n.z == lanes->normal[2][lane]) {
-        return; // the frame is the last point's
-    }
-    vec3 t, b;
-    vec3_frame(n, &t, &b);
-    set_column(lanes->tangent, lane, t);
-    set_column(lanes->bitangent, lane, b);
-    set_column(lanes->normal, lane, n);
+    const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
+    lanes->origin[0][lane] = origin.x;
+    lanes->origin[1][lane] = origin.y;
+    lanes->origin[2][lane] = origin.z;
+    lanes->normal[0][lane] = p->shading_normal.x;
+    lanes->normal[1][lane] = p->shading_normal.y;
+    lanes->normal[2][lane] = p->shading_normal.z;
 }
 
 static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes, int lane,
                        uint64_t receiver)
 {
     const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
-    lanes->shift[0][lane] = alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask;
-    lanes->shift[1][lane] = alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask;
+    const uint32_t turned = 1u << 31;
+    lanes->shift[0][lane] = (alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask) ^ turned;
+    lanes->shift[1][lane] = (alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask) ^ turned;
     lanes->shift[2][lane] = alpi_hash32(key ^ 0x967a889bu);
 }
 
@@ -89,11 +75,10 @@ static void place_points(const gather_job *job, uint32_t receiver, uint32_t firs
     const uint32_t(*places)[2] = (const uint32_t(*)[2])job->setup->places + first;
     float square[POINTS_PER_CHUNK][2];
     const uint32_t key = alpi_random_key(job->setup->options.seed, receiver, STREAM_PLACE);
-    const uint32_t shift_x = alpi_hash32(key ^ 0x68bc21ebu),
-                   shift_y = alpi_hash32(key ^ 0x02e5be93u);
+    const uint32_t shift[2] = {alpi_hash32(key ^ 0x68bc21ebu), alpi_hash32(key ^ 0x02e5be93u)};
     for (uint32_t k = 0; k < count; k++) {
-        square[k][0] = alpi_unit_float(places[k][0] ^ shift_x);
-        square[k][1] = alpi_unit_float(places[k][1] ^ shift_y);
+        square[k][0] = alpi_unit_float(places[k][0] ^ shift[0]);
+        square[k][1] = alpi_unit_float(places[k][1] ^ shift[1]);
     }
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
 }
@@ -116,7 +101,7 @@ static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
         }
         const uint32_t left = block - at % block; // of the point's samples
         const uint32_t count = end - at < left ? end - at : left;
-        job->kernel(job->setup, lanes, samples + at, count, tally);
+        job->setup->kernel(job->setup, lanes, samples + at, count, tally);
         at += count;
     }
 }
@@ -139,9 +124,8 @@ static void run_packet(const gather_job *job, uint32_t first_item)
     uint32_t ids[ALPI_PACKET];
     const uint32_t items = job->list_count - first_item;
     const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
-    const uint32_t chunk =
-        ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may begin in the middle
-    lanes.active = (1u << used) - 1u;
+    const uint32_t chunk = ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may be in use
+    alpi_occlusion_lanes_start(&lanes, (1u << used) - 1u);
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t k = first_item + (i < used ? i : used - 1);
         ids[i] = job->list != NULL ? job->list[k] : k;
@@ -178,7 +162,6 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
 {
     assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
     gather_job job = {.setup = setup,
-                      .kernel = choose_kernel(setup),
                       .receivers = receivers,
                       .list = list,
                       .list_count = list_count,
@@ -272,14 +255,14 @@ void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
                               const uint64_t keys[ALPI_PACKET], uint32_t active,
                               float accessibility[ALPI_PACKET])
 {
-    alpi_occlusion_lanes lanes = {.active = active};
+    alpi_occlusion_lanes lanes;
     alpi_occlusion_tally tally = {{0}, {{0}}};
+    alpi_occlusion_lanes_start(&lanes, active);
     for (int i = 0; i < ALPI_PACKET; i++) {
         set_lane(&lanes, i, &points[i]);
         set_shifts(setup, &lanes, i, keys[i]);
     }
-    choose_kernel(setup)(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples,
-                         &tally);
+    setup->kernel(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples, &tally);
     for (int i = 0; i < ALPI_PACKET; i++) {
         accessibility[i] = (float)((double)tally.open[i] / setup->samples);
     }

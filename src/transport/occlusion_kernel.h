@@ -5,14 +5,20 @@
 
 #include "transport/occlusion.h"
 
-/// Eight points with their frames, structure of arrays. Lane i of every packet belongs to point i:
-/// neighbours send the same sample in nearly the same direction, which is what packets are good at.
+/// Eight points, structure of arrays. Lane i of every packet belongs to point i: neighbours send
+/// the same sample in nearly the same direction, which is what packets are good at.
 typedef struct alpi_occlusion_lanes {
     _Alignas(32) float origin[3][ALPI_PACKET]; // offset included
-    float tangent[3][ALPI_PACKET], bitangent[3][ALPI_PACKET], normal[3][ALPI_PACKET];
-    uint32_t shift[3][ALPI_PACKET]; // digital shifts of the samples' coordinates
+    float normal[3][ALPI_PACKET];              // unit, the hemisphere's axis
+    // Digital shifts of the samples' coordinates. The top bits of the first two are turned over:
+    // their fractions, read as signed numbers, lie in [−1, 1).
+    uint32_t shift[3][ALPI_PACKET];
     uint32_t active; // bit i: lane i is in use; the others hold copies of one that is
+    alpi_rays rays[ALPI_TRACE_BATCH]; // the kernel's: kept here so that what never changes stays
 } alpi_occlusion_lanes;
+
+/// Readies the lanes for their first points. `active` as above.
+void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes, uint32_t active);
 
 /// What the rays of eight points met.
 typedef struct alpi_occlusion_tally {
@@ -20,14 +26,9 @@ typedef struct alpi_occlusion_tally {
     float sum[3][ALPI_PACKET];               // Σ of their directions, or of colours
 } alpi_occlusion_tally;
 
-/// Sends `count` samples of a sequence from each of the lanes and adds to the tally.
-/// @param samples [count][3] 32-bit fractions: two for the direction, one for the distance
-typedef void alpi_occlusion_kernel(const alpi_occlusion_setup *setup,
-                                   const alpi_occlusion_lanes *lanes, const uint32_t (*samples)[3],
-                                   uint32_t count, alpi_occlusion_tally *tally);
-
-/// The same code compiled for any machine, and for x86-64-v3. No fused operations in either: the
-/// same bits.
+/// Sends `count` samples of a sequence from each of the lanes and adds to the tally. `samples` are
+/// [count][3] 32-bit fractions: two for the direction, one for the distance. The same code compiled
+/// for any machine, and for x86-64-v3. No fused operations in either: the same bits.
 alpi_occlusion_kernel alpi_occlusion_kernel_baseline, alpi_occlusion_kernel_v3;
 
 /// Coloured obscurance instead: adds (1 − w) + w · albedo of what each ray hits to tally->sum, and

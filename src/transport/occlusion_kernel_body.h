@@ -8,18 +8,32 @@
 // where, and short rays cost less still.
 #include "transport/occlusion_aim.h"
 
-/// t with 3t² − 2t³ = u, the inverse of smoothstep, to 9e-7: symmetric about ½, and analytic in √u
-/// below. (Coefficients: Chebyshev fit of ½ − sin(asin(1 − 2u) / 3) over √u.)
+/// Whether the lanes look in different directions: then so do their rays. Measured on eight scenes:
+/// below a cosine of .8 a stream is 1.02 to 1.4 times as fast as packets, above it .6 to 1.3 times.
+static inline bool is_scattered(const alpi_occlusion_lanes *lanes)
+{
+    _Alignas(32) float cosine[ALPI_PACKET];
+    const float x = lanes->normal[0][0], y = lanes->normal[1][0], z = lanes->normal[2][0];
+    ALPI_EACH_LANE
+    {
+        cosine[i] = x * lanes->normal[0][i] + y * lanes->normal[1][i] + z * lanes->normal[2][i];
+    }
+    float least = 1.0f;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        least = cosine[i] < least ? cosine[i] : least;
+    }
+    return least < 0.8f;
+}
+
+/// t with 3t² − 2t³ = u, the inverse of smoothstep, to 5e-6: symmetric about ½, and analytic in √u
+/// below (a polynomial of least largest error for ½ − sin(asin(1 − 2u) / 3) over √u).
 static inline float inverse_smoothstep(float u)
 {
-    float s = sqrtf(u < 0.5f ? u : 1.0f - u);
-    float t =
-        s * (0.5773496f +
-             s * (0.11123088f +
-                  s * (0.05011027f +
-                       s * (0.0678495f +
-                            s * (-0.15111879f +
-                                 s * (0.46672475f + s * (-0.57647908f + s * 0.33255363f)))))));
+    const float s = sqrtf(u < 0.5f ? u : 1.0f - u);
+    const float t =
+        s * (0.57698999f +
+             s * (0.11991628f +
+                  s * (-0.016986352f + s * (0.28287674f + s * (-0.39250040f + s * 0.29372040f)))));
     return u < 0.5f ? t : 1.0f - t;
 }
 
@@ -60,32 +74,63 @@ static inline void limit(const alpi_occlusion_setup *setup, const alpi_occlusion
     }
 }
 
-static inline void count_open(const alpi_rays *rays, bool bent, alpi_occlusion_tally *tally)
+/// Adds up four packets at a time: the sums go through memory.
+static inline void count_open(const alpi_rays *rays, uint32_t count, alpi_occlusion_tally *tally)
 {
-    ALPI_EACH_LANE
-    {
-        tally->open[i] += rays->maximum[i] >= 0.0f ? 1u : 0u;
-    }
-    if (bent) {
+    uint32_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+        const alpi_rays *r = rays + k;
         ALPI_EACH_LANE
         {
-            float open = rays->maximum[i] >= 0.0f ? 1.0f : 0.0f;
-            tally->sum[0][i] += open * rays->direction_x[i];
-            tally->sum[1][i] += open * rays->direction_y[i];
-            tally->sum[2][i] += open * rays->direction_z[i];
+            const uint32_t open =
+                (r[0].maximum[i] >= 0.0f ? 1u : 0u) + (r[1].maximum[i] >= 0.0f ? 1u : 0u) +
+                (r[2].maximum[i] >= 0.0f ? 1u : 0u) + (r[3].maximum[i] >= 0.0f ? 1u : 0u);
+            tally->open[i] += open;
+        }
+    }
+    for (; k < count; k++) {
+        ALPI_EACH_LANE
+        {
+            tally->open[i] += rays[k].maximum[i] >= 0.0f ? 1u : 0u;
         }
     }
 }
 
-void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_occlusion_lanes *lanes,
+static inline void bend(const alpi_rays *rays, alpi_occlusion_tally *tally)
+{
+    ALPI_EACH_LANE
+    {
+        float open = rays->maximum[i] >= 0.0f ? 1.0f : 0.0f;
+        tally->sum[0][i] += open * rays->direction_x[i];
+        tally->sum[1][i] += open * rays->direction_y[i];
+        tally->sum[2][i] += open * rays->direction_z[i];
+    }
+}
+
+/// A batch of packets is made before the first of it is traced: one packet after the other would
+/// wait for its own divisions and roots.
+void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
                  const uint32_t (*samples)[3], uint32_t count, alpi_occlusion_tally *tally)
 {
-    alpi_rays rays;
-    alpi_lanes_start(lanes, &rays);
-    for (uint32_t s = 0; s < count; s++) {
-        alpi_lanes_aim(setup, lanes, samples[s], &rays);
-        limit(setup, lanes, samples[s], &rays);
-        alpi_trace_occluded(setup->tracer, &rays, lanes->active, setup->filter);
-        count_open(&rays, setup->bent, tally);
+    alpi_rays *rays = lanes->rays;
+    alpi_lane_frames frames;
+    alpi_lanes_frames(lanes, &frames);
+    const bool scattered = is_scattered(lanes);
+    for (uint32_t k = 0; k < count && k < ALPI_TRACE_BATCH; k++) {
+        alpi_lanes_start(lanes, &rays[k]);
+    }
+    for (uint32_t s = 0; s < count; s += ALPI_TRACE_BATCH) {
+        const uint32_t batch = count - s < ALPI_TRACE_BATCH ? count - s : ALPI_TRACE_BATCH;
+        for (uint32_t k = 0; k < batch; k++) {
+            alpi_lanes_aim(setup, lanes, &frames, samples[s + k], &rays[k]);
+        }
+        for (uint32_t k = 0; k < batch; k++) {
+            limit(setup, lanes, samples[s + k], &rays[k]);
+        }
+        alpi_trace_occluded(setup->tracer, rays, batch, lanes->active, setup->filter, scattered);
+        count_open(rays, batch, tally);
+        for (uint32_t k = 0; k < batch && setup->bent; k++) {
+            bend(&rays[k], tally);
+        }
     }
 }

@@ -23,7 +23,8 @@ SHOW = {
     "mandoc": ["mandoc", "-Tutf8", "-Owidth=900"],
 }
 # An example that runs is an example; how fine it bakes is not what is tested.
-SMALL = {"bake": "--size 32 --ao-samples 4 -q -f", "render": "--resolution 32x18 --samples 1 -q -f"}
+SMALL = {"bake": "--size 32 --ao-samples 4 -q -f", "render": "--resolution 32x18 --samples 1 -q -f",
+         "bench": "--quick"}
 
 
 def run(command, **options):

@@ -105,27 +105,41 @@ static double mean_of(const map_setup *s)
     return sum;
 }
 
+/// Bakes with some seeds: one small map has too few held-out texels to be judged alone.
+/// @param report of the last; stated and rmse are root mean squares over the seeds
+static void judge(map_setup *s, float accuracy, alpi_occlusion_map_report *report, double *stated,
+                  double *rmse)
+{
+    enum { SEEDS = 6 };
+    const alpi_occlusion_map_options options = {.accuracy = accuracy, .deadline = HUGE_VAL};
+    double stated_squares = 0.0, squares = 0.0;
+    for (s->options.seed = 0; s->options.seed < SEEDS; s->options.seed++) {
+        alpi_lattice lattice;
+        ASSERT_OK(s->context, run(s, &options, &lattice, report));
+        stated_squares += pow(report->relative * mean_of(s), 2) / SEEDS;
+        squares += pow(true_rmse(s, &lattice), 2) / SEEDS;
+        alpi_lattice_destroy(&lattice);
+    }
+    *stated = sqrt(stated_squares);
+    *rmse = sqrt(squares);
+}
+
 static void interpolation_saves_rays_and_no_truth(void **state)
 {
     (void)state;
     map_setup s;
     set_up(&s, 2, "builtin:torus-plane");
     find_truth(&s);
-    double rmse[2];
+    double rmse[2], stated[2];
     alpi_occlusion_map_report reports[2];
     for (int adaptive = 0; adaptive < 2; adaptive++) {
-        const alpi_occlusion_map_options options = {
-            .accuracy = adaptive ? ALP_ADAPTIVE_AUTO : ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
-        alpi_lattice lattice;
-        ASSERT_OK(s.context, run(&s, &options, &lattice, &reports[adaptive]));
-        rmse[adaptive] = true_rmse(&s, &lattice);
-        const double stated = reports[adaptive].relative * mean_of(&s);
-        print_message("accuracy: %s: %llu traced, %llu interpolated, rmse %.5f, stated %.5f\n",
-                      adaptive ? "adaptive" : "all traced",
-                      (unsigned long long)reports[adaptive].traced,
-                      (unsigned long long)reports[adaptive].interpolated, rmse[adaptive], stated);
-        assert_true(fabs(stated / rmse[adaptive] - 1.0) < 0.25); // a small map: few held-out texels
-        alpi_lattice_destroy(&lattice);
+        judge(&s, adaptive ? ALP_ADAPTIVE_AUTO : ALP_ADAPTIVE_OFF, &reports[adaptive],
+              &stated[adaptive], &rmse[adaptive]);
+        print_message(
+            "accuracy: %s: %llu traced, %llu interpolated, rmse %.5f, stated %.5f\n",
+            adaptive ? "adaptive" : "all traced", (unsigned long long)reports[adaptive].traced,
+            (unsigned long long)reports[adaptive].interpolated, rmse[adaptive], stated[adaptive]);
+        assert_true(fabs(stated[adaptive] / rmse[adaptive] - 1.0) < 0.15);
     }
     assert_int_equal(reports[0].traced, s.texels.count);
     assert_true(reports[1].traced < s.texels.count * 3 / 5);

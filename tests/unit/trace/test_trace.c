@@ -49,7 +49,9 @@ static void fill_rays(alpi_rays *rays, uint32_t packet)
         rays->direction_x[i] = d.x;
         rays->direction_y[i] = d.y;
         rays->direction_z[i] = d.z;
-        rays->minimum[i] = 0.0f;
+        rays->minimum[i] = rays->time[i] = 0.0f;
+        rays->mask[i] = UINT32_MAX;
+        rays->id[i] = rays->flags[i] = 0;
         rays->maximum[i] = i % 3 == 0 ? 0.7f : INFINITY;
     }
 }
@@ -69,7 +71,7 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
         alpi_trace_nearest(tracer, &rays, active, filter, &fast);
         alpi_brute_force_nearest(scene, &rays, active, filter, &slow);
         alpi_rays shadow = rays;
-        alpi_trace_occluded(tracer, &shadow, active, filter);
+        alpi_trace_occluded(tracer, &shadow, 1, active, filter, packet % 3 == 0);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             assert_int_equal(fast.triangle[i], slow.triangle[i]);
             if ((active >> i & 1u) == 0) {

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// The occlusion loop against its limit, the raw call on the very rays it sends, and against the
+// natural loop, which puts eight directions of one receiver into a packet.
+#include "bench.h"
+
+#include "raw_embree.h"
+#include "recorded_rays.h"
+
+#include "base/tasks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK = 512,          // packets that fit the second-level cache
+    TEXELS_PER_RUN = 512, // texels that follow each other in the order of packets
+    WORKER_LIMIT = 2
+};
+
+typedef struct measured_case {
+    const bench_scene *scene;
+    alp_context *context; // with as many workers as are measured
+    uint32_t workers;
+    alpi_occlusion_setup setup;
+    alpi_receivers receivers;
+    uint32_t *list, list_count;
+    uint32_t samples; // sent from each receiver
+    alpi_occlusion_sums sums;
+    const raw_embree *raw;
+    ray_record record;
+    bool stream; // the raw call for all packets of a block at once
+    double traced[WORKER_LIMIT];
+    alpi_rays *blocks[WORKER_LIMIT]; // [BLOCK]
+} measured_case;
+
+// --- what is measured ----------------------------------------------------------------------------
+
+/// Raw calls on recorded packets. A call destroys its packet, so each block is copied to a place in
+/// the cache first, which is not timed.
+static alp_result run_raw_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    measured_case *c = user;
+    for (uint32_t block = begin; block < end; block++) {
+        const uint32_t first = block * BLOCK, left = c->record.count - first;
+        const uint32_t count = left < BLOCK ? left : BLOCK;
+        memcpy(c->blocks[worker], c->record.packets + first, count * sizeof(alpi_rays));
+        const double started = c->workers == 1 ? bench_thread_seconds() : alpi_seconds();
+        if (c->stream) {
+            raw_embree_occluded_stream(c->raw, c->blocks[worker], count);
+        } else {
+            raw_embree_occluded(c->raw, c->blocks[worker], count);
+        }
+        c->traced[worker] += (c->workers == 1 ? bench_thread_seconds() : alpi_seconds()) - started;
+    }
+    return ALP_OK;
+}
+
+/// Seconds of the calls alone, as if they scaled perfectly over the workers.
+static double time_raw(measured_case *c, bool stream)
+{
+    double sum = 0.0;
+    memset(c->traced, 0, sizeof c->traced);
+    c->stream = stream;
+    (void)!alpi_parallel_for(c->context, (c->record.count + BLOCK - 1) / BLOCK, 1, run_raw_range, c,
+                             NULL);
+    for (uint32_t w = 0; w < c->workers; w++) {
+        sum += c->traced[w];
+    }
+    return sum / c->workers;
+}
+
+static double time_ours(measured_case *c)
+{
+    const double started = bench_seconds(c->workers);
+    (void)!alpi_occlusion_add(&c->setup, &c->receivers, c->list, c->list_count, 0, c->samples,
+                              c->setup.samples, NULL, &c->sums);
+    return bench_seconds(c->workers) - started;
+}
+
+static double time_natural(measured_case *c, uint32_t *open)
+{
+    natural_loop loop = {.setup = &c->setup,
+                         .receivers = &c->receivers,
+                         .list = c->list,
+                         .count = c->samples,
+                         .open = open};
+    const double started = bench_seconds(c->workers);
+    (void)!alpi_parallel_for(c->context, c->list_count, 64, natural_loop_range, &loop, NULL);
+    return bench_seconds(c->workers) - started;
+}
+
+// --- one case ------------------------------------------------------------------------------------
+
+/// Runs of neighbours, spread evenly over the order of packets.
+static void pick_texels(const bench_map *map, uint32_t wanted, measured_case *c)
+{
+    const uint32_t count = map->texels.count;
+    const uint32_t run_count = wanted < count ? wanted / TEXELS_PER_RUN : 1;
+    const uint32_t run = wanted < count ? TEXELS_PER_RUN : count / ALPI_PACKET * ALPI_PACKET;
+    c->list = bench_allocate((size_t)run_count * run, sizeof *c->list);
+    for (uint32_t r = 0; r < run_count; r++) {
+        const uint32_t first = (uint32_t)((double)r * count / run_count) / 8 * 8;
+        for (uint32_t i = 0; i < run && first + i < count; i++) {
+            c->list[c->list_count++] = map->lattice.order[first + i];
+        }
+    }
+    c->list_count = c->list_count / ALPI_PACKET * ALPI_PACKET;
+}
+
+static bool record_rays(measured_case *c)
+{
+    alpi_occlusion_setup recording = c->setup;
+    recording.context = c->scene->context; // of one worker: in order
+    recording.kernel = bench_recording_kernel;
+    c->record.capacity = c->list_count / ALPI_PACKET * c->samples;
+    c->record.packets = aligned_alloc(64, (c->record.capacity * sizeof(alpi_rays) + 63) / 64 * 64);
+    ray_record_use(&c->record);
+    return c->record.packets != NULL &&
+           alpi_occlusion_add(&recording, &c->receivers, c->list, c->list_count, 0, c->samples,
+                              recording.samples, NULL, &c->sums) == ALP_OK;
+}
+
+static void measure(measured_case *c, uint32_t rounds, bench_table *table)
+{
+    double ratios[BENCH_ROUND_LIMIT], limits[BENCH_ROUND_LIMIT], times[BENCH_ROUND_LIMIT];
+    double natural[BENCH_ROUND_LIMIT], stream[BENCH_ROUND_LIMIT];
+    uint32_t *open = bench_allocate(c->receivers.count, sizeof *open);
+    for (uint32_t i = 0; i < rounds; i++) {
+        limits[i] = time_raw(c, false);
+        times[i] = time_ours(c);
+        natural[i] = time_natural(c, open) / times[i];
+        stream[i] = limits[i] / time_raw(c, true);
+        limits[i] = 0.5 * (limits[i] + time_raw(c, false)); // before and after ours
+        ratios[i] = limits[i] / times[i];
+    }
+    const double rays = 1e-6 * c->list_count * c->samples;
+    bench_table_add(table, "%s|%u|%u|%.1f|%.1f|%.2f|%.2f|%.2f", c->scene->name,
+                    alp_scene_get_info(c->scene->scene).usable_triangles, c->workers,
+                    rays / bench_median(limits, (int)rounds),
+                    rays / bench_median(times, (int)rounds), bench_median(ratios, (int)rounds),
+                    bench_median(natural, (int)rounds), bench_median(stream, (int)rounds));
+    free(open);
+}
+
+static void release_case(measured_case *c)
+{
+    for (int w = 0; w < WORKER_LIMIT; w++) {
+        free(c->blocks[w]);
+    }
+    free(c->list);
+    free(c->record.packets);
+    alpi_occlusion_sums_destroy(c->scene->context, &c->sums);
+    alpi_occlusion_release(&c->setup);
+}
+
+static bool run_case(const bench_scene *scene, const bench_map *map, const raw_embree *raw,
+                     const bench_options *options, bench_table *table)
+{
+    alp_occlusion_options o = alp_occlusion_options_default();
+
+    measured_case c = {.scene = scene, .raw = raw, .samples = 128};
+    c.receivers = alpi_texels_receivers(&map->texels);
+    if (!bench_good(scene, alpi_occlusion_prepare(scene->scene, scene->tracer, &o, &c.setup)) ||
+        !bench_good(
+            scene, alpi_occlusion_sums_create(scene->context, map->texels.count, false, &c.sums))) {
+        return false;
+    }
+    for (int w = 0; w < WORKER_LIMIT; w++) {
+        c.blocks[w] = aligned_alloc(64, BLOCK * sizeof(alpi_rays));
+    }
+    pick_texels(map, options->quick ? 1024 : 20480, &c);
+    bool good = c.blocks[0] != NULL && c.blocks[1] != NULL && record_rays(&c);
+    for (c.workers = 1; c.workers <= WORKER_LIMIT && good; c.workers++) {
+        alp_context_options context = alp_context_options_default();
+        context.worker_count = c.workers;
+        good = bench_good(scene, alp_context_create(&context, &c.context));
+        c.setup.context = c.context;
+        if (good) {
+            measure(&c, options->quick ? 1 : 7, table);
+        }
+        alp_context_destroy(c.context);
+    }
+    c.setup.context = scene->context;
+    release_case(&c);
+    return good;
+}
+
+static bool run_scene(const char *name, uint32_t size, const bench_options *options,
+                      bench_table *table)
+{
+    bench_scene scene;
+    bench_map map;
+    if (!bench_scene_open(name, 1, &scene)) {
+        return false;
+    }
+    const bool mapped = bench_map_open(&scene, options->quick ? 64 : size, &map);
+    raw_embree *raw = mapped ? raw_embree_create(scene.scene) : NULL;
+    const bool good = raw != NULL && run_case(&scene, &map, raw, options, table);
+    raw_embree_destroy(raw);
+    if (mapped) {
+        bench_map_close(&scene, &map);
+    }
+    bench_scene_close(&scene);
+    return good;
+}
+
+int bench_transport(const bench_options *options)
+{
+    static const struct {
+        const char *name;
+        uint32_t size;
+    } scenes[] = {{"builtin:cornell", 256}, {"builtin:teapot-room", 1024},
+                  {"builtin:atrium", 1024}, {"builtin:atrium,triangles=1000000", 1024},
+                  {"hills:70000", 1024},    {"hills:1000000", 1024}};
+    enum { SCENES = sizeof scenes / sizeof *scenes };
+    bench_table table;
+    bench_table_start(&table, "Occlusion loop, Mrays/s",
+                      "Limit: `rtcOccluded8` on the packets that our loop sends, recorded. Ratio: "
+                      "limit's seconds over ours. Natural: seconds of the loop with eight "
+                      "directions of one receiver in a packet, over ours. Stream: "
+                      "`rtcOccludedNM` in the place of `rtcOccluded8`.",
+                      "scene|triangles|workers|limit|ours|ratio|natural/ours|stream");
+    bool good = true;
+    for (size_t i = 0; i < SCENES && good && options->scene == NULL; i++) {
+        if (options->quick && i > 0) {
+            break;
+        }
+        if (!bench_scene_exists(scenes[i].name) && strncmp(scenes[i].name, "hills", 5) != 0) {
+            bench_table_add(&table, "%s|not there", scenes[i].name);
+            continue;
+        }
+        good = run_scene(scenes[i].name, scenes[i].size, options, &table);
+    }
+    if (options->scene != NULL) {
+        good = run_scene(options->scene, 1024, options, &table);
+    }
+    if (good) {
+        bench_table_print(&table, options);
+    }
+    return good ? 0 : 1;
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "raw_embree.h"
+
+#include "base/tasks.h"
+
+#include <embree3/rtcore.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct raw_embree {
+    RTCDevice device;
+    RTCScene scene;
+    double build_seconds;
+};
+
+static bool attach(raw_embree *raw, const alp_scene *scene)
+{
+    RTCGeometry geometry = rtcNewGeometry(raw->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *vertices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), scene->vertex_count);
+    uint32_t(*indices)[3] = rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof *indices, scene->usable_count);
+    if (vertices == NULL || indices == NULL) {
+        rtcReleaseGeometry(geometry);
+        return false;
+    }
+    memcpy(vertices, scene->positions, sizeof *scene->positions * scene->vertex_count);
+    for (uint32_t t = 0, i = 0; t < scene->triangle_count; t++) {
+        if (scene->triangle_usable[t]) {
+            memcpy(indices[i++], scene->triangles[t], sizeof *indices);
+        }
+    }
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(raw->scene, geometry, 0);
+    rtcReleaseGeometry(geometry);
+    return true;
+}
+
+raw_embree *raw_embree_create(const alp_scene *scene)
+{
+    raw_embree *raw = calloc(1, sizeof *raw);
+    const double started = alpi_seconds();
+    if (raw == NULL || (raw->device = rtcNewDevice("threads=1,set_affinity=0")) == NULL ||
+        (raw->scene = rtcNewScene(raw->device)) == NULL) {
+        fprintf(stderr, "alpenglow bench: Embree does not start\n");
+        raw_embree_destroy(raw);
+        return NULL;
+    }
+    rtcSetSceneFlags(raw->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(raw->scene, RTC_BUILD_QUALITY_MEDIUM);
+    if (!attach(raw, scene)) {
+        fprintf(stderr, "alpenglow bench: Embree takes no geometry\n");
+        raw_embree_destroy(raw);
+        return NULL;
+    }
+    rtcCommitScene(raw->scene);
+    raw->build_seconds = alpi_seconds() - started;
+    return raw;
+}
+
+void raw_embree_destroy(raw_embree *raw)
+{
+    if (raw != NULL && raw->scene != NULL) {
+        rtcReleaseScene(raw->scene);
+    }
+    if (raw != NULL && raw->device != NULL) {
+        rtcReleaseDevice(raw->device);
+    }
+    free(raw);
+}
+
+double raw_embree_build_seconds(const raw_embree *raw)
+{
+    return raw->build_seconds;
+}
+
+void raw_embree_occluded(const raw_embree *raw, alpi_rays *packets, uint32_t count)
+{
+    static const _Alignas(32) int valid[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (uint32_t i = 0; i < count; i++) {
+        rtcOccluded8(valid, raw->scene, &context, (struct RTCRay8 *)&packets[i]);
+    }
+}
+
+void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint32_t count)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccludedNM(raw->scene, &context, (struct RTCRayN *)packets, ALPI_PACKET, count,
+                  sizeof *packets);
+}

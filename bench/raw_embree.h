@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The limit: Embree called directly on rays that lie ready.
+#ifndef BENCH_RAW_EMBREE_H
+#define BENCH_RAW_EMBREE_H
+
+#include "trace/trace.h"
+
+typedef struct raw_embree raw_embree;
+/// The scene's usable triangles with the flags and the quality that src/trace/embree.c asks for.
+/// @return NULL after a message
+raw_embree *raw_embree_create(const alp_scene *scene);
+void raw_embree_destroy(raw_embree *raw);
+double raw_embree_build_seconds(const raw_embree *raw);
+
+/// rtcOccluded8 on each packet in place, all lanes.
+void raw_embree_occluded(const raw_embree *raw, alpi_rays *packets, uint32_t count);
+/// rtcOccludedNM on all packets at once.
+void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint32_t count);
+
+#endif
