@@ -15,9 +15,9 @@ static const float SAME_NORMAL = 1e-10f;
 static const float LEAST_HEIGHT = 1e-6f;
 // How much of that lift is done. On quadratic surfaces one half leads to the surface exactly, and
 // the whole as far beyond it again: a sphere that rests on a floor is lifted through the floor.
-// Very coarse spheres (5 segments) need more than a half: at 0.63 a few rays in thousands still
+// Very coarse spheres (5 segments) need more than a half: at 2/3 a ray in thousands still
 // hit.
-static const float LIFT_SHARE = 2.0f / 3.0f;
+static const float LIFT_SHARE = 0.7f;
 // The longest lift, in lengths of the longest edge. On a sphere whose edges span an angle θ an edge
 // needs up to θ/16, at a quarter of its length: 0.07 on an icosahedron. The formula gives more, and
 // a third where normals are averaged over the creases of a cube, which describe no surface.

@@ -213,7 +213,7 @@ float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *
     for (uint32_t i = 0; i < stencil->count; i++) {
         value += stencil->weights[i] * lattice->values[stencil->texels[i]];
     }
-    return fminf(fmaxf(value, 0.0f), 1.0f); // a cubic may overshoot
+    return value;
 }
 
 uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,

@@ -54,6 +54,7 @@ uint32_t alpi_lattice_reach(uint32_t pass);
 /// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
 /// else linear. @return false: a neighbour is missing, in another chart, or turned away
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
+/// Not clamped: a bound on every pass would darken what is nearly open.
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
 
 enum { ALPI_NEIGHBOUR_LIMIT = 8 };

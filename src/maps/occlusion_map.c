@@ -339,6 +339,8 @@ static alp_result run(map_job *job)
     }
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint8_t state = job->lattice->states[job->order[i]];
+        float *value = &job->lattice->values[job->order[i]]; // a cubic may overshoot
+        *value = fminf(fmaxf(*value, 0.0f), 1.0f);
         job->report->traced += state == ALPI_TEXEL_TRACED;
         job->report->interpolated += state == ALPI_TEXEL_INTERPOLATED;
         job->report->unknown += state == ALPI_TEXEL_OPEN;

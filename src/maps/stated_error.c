@@ -186,7 +186,7 @@ static alp_result find_interpolated(void *user, uint32_t begin, uint32_t end, ui
     return ALP_OK;
 }
 
-/// Moves every variance a quarter of the way to the mean of its state: some twenty numbers per
+/// Moves every variance a part of the way to the mean of its state: some twenty numbers per
 /// texel say little where they happen to be equal, and a stated error of nearly 0 is wrong by many
 /// times.
 static void level_variances(const alpi_lattice *l, const uint32_t *order, uint32_t order_count,
@@ -200,7 +200,7 @@ static void level_variances(const alpi_lattice *l, const uint32_t *order, uint32
     for (uint32_t i = 0; i < order_count; i++) {
         const uint8_t state = l->states[order[i]];
         const double mean = sums[state] / counts[state];
-        variances[order[i]] = (float)(0.75 * (double)variances[order[i]] + 0.25 * mean);
+        variances[order[i]] = (float)(0.85 * (double)variances[order[i]] + 0.15 * mean);
     }
 }
 
