@@ -220,11 +220,20 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
         return; // no texels, no stated error
     }
-    printf(
-        "sampling   %llu texels traced, %llu interpolated; stated error %.2g %% of the mean, 99 %% "
-        "of the texels within %.2g %%\n",
-        (unsigned long long)r->traced, (unsigned long long)r->interpolated,
-        100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
+    printf("sampling   %llu texels traced, %llu interpolated", (unsigned long long)r->traced,
+           (unsigned long long)r->interpolated);
+    if (r->dropped > 0) {
+        printf(", %llu inside other objects filled", (unsigned long long)r->dropped);
+    }
+    if (r->unknown > 0) {
+        printf(", %llu without a value filled", (unsigned long long)r->unknown);
+    }
+    if (isfinite(r->ao_relative_error)) {
+        printf("; stated error %.2g %% of the mean, 99 %% of the texels within %.2g %%\n",
+               100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
+    } else {
+        printf("; error unknown\n");
+    }
 }
 
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,

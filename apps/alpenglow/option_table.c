@@ -93,8 +93,10 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "--maps-dir",
      .value = "DIR",
-     .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0) and "
-             "ao.png; bent.exr (unit vectors) and bent.png (n / 2 + 1/2); obscurance.exr and "
+     .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0), "
+             "ao.png, ao.error.exr (standard error of each texel), ao.sampling.png (red traced, "
+             "green interpolated, blue filled from beside); bent.exr (unit vectors) and bent.png "
+             "(n / 2 + 1/2); obscurance.exr and "
              "obscurance.png; further pages ao.1.exr and so on. DIR is made if missing."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,

@@ -125,6 +125,15 @@ static json_t *make_seconds(const alp_bake_report *r, double load)
                      json_number(load + r->seconds_total));
 }
 
+/// Texels by how they got their value, and whether sampling came to its end.
+static json_t *make_sampling(const alp_bake_report *r)
+{
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:b}", "samples", (json_int_t)r->ao_samples,
+                     "traced", (json_int_t)r->traced, "interpolated", (json_int_t)r->interpolated,
+                     "moved", (json_int_t)r->moved, "dropped", (json_int_t)r->dropped, "unknown",
+                     (json_int_t)r->unknown, "cut_off", (int)r->cut_off);
+}
+
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r)
 {
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
@@ -142,5 +151,6 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     if (r->atlas.mode == ALP_ATLAS_VERTEX) { // no error is stated
         json_object_clear(json_object_get(document, "error"));
     }
+    json_object_set_new(document, "sampling", make_sampling(r));
     return document;
 }

@@ -9,6 +9,7 @@
 #include "maps/validity.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /// Mean over the surface: each texel of known value counts by its area.
 static double area_mean(const alpi_texels *texels, const alpi_lattice *lattice)
@@ -25,7 +26,7 @@ static double area_mean(const alpi_texels *texels, const alpi_lattice *lattice)
 
 void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
 {
-    if (job->report.ao_mean < 0.05) {
+    if (job->report.ao_mean < 0.05 && !job->report.cut_off) {
         bool limited = isfinite(job->report.ao_distance);
         alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
                   100.0 * job->report.ao_mean,
@@ -40,11 +41,15 @@ static void warn_of_error(const alpi_bake_job *job)
 {
     const alp_bake_report *r = &job->report;
     const double wanted = (double)job->options.sampling.error;
+    char error[32] = "unknown";
+    if (isfinite(r->ao_relative_error)) {
+        snprintf(error, sizeof error, "%.2g %%", 100.0 * r->ao_relative_error);
+    }
     if (r->cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
-                  "sampling ended before its time at %u rays a texel; the stated error is %.2g %%, "
-                  "%llu texels have no value of their own, and another run gives other bits",
-                  r->ao_samples, 100.0 * r->ao_relative_error, (unsigned long long)r->unknown);
+                  "sampling ended before its time, after a round of %u rays a texel; the error is "
+                  "%s, %llu texels have no value of their own, and another run gives other bits",
+                  r->ao_samples, error, (unsigned long long)r->unknown);
     } else if (wanted > 0.0 && r->ao_relative_error > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
                   "the stated error is %.2g %% after %u rays a texel, wanted %.2g %%; allow more "
@@ -180,8 +185,9 @@ static alp_result join_errors(const alpi_bake_job *job, const alpi_lattice *latt
         sum += (double)errors[i] * (double)errors[i];
     }
     ALP_TRY(alpi_percentile(job->context, errors, lattice->order, count, 0.99, &p99));
-    all->relative = sqrt(sum / fmax((double)count, 1.0)) / mean;
-    all->p99 = p99 / mean;
+    const bool known = !all->cut_off; // an object without its first round has no error
+    all->relative = known ? sqrt(sum / fmax((double)count, 1.0)) / mean : (double)NAN;
+    all->p99 = known ? p99 / mean : (double)NAN;
     return ALP_OK;
 }
 
@@ -206,8 +212,9 @@ static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_l
         part.end += (double)object->texel_count / texels;
         if (!all->cut_off) {
             alp_result result = gather_object(job, objects, object, &options, lattice, &one);
-            const bool kept = job->options.sampling.keep_partial && all->traced > 0;
-            if (result == ALP_ERROR_CANCELLED && kept) { // before its rays: others have theirs
+            const bool stopped = result == ALP_ERROR_CANCELLED ? job->options.sampling.keep_partial
+                                                               : result == ALP_ERROR_LIMIT;
+            if (stopped && all->traced > 0) { // before its rays: others have theirs
                 one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
             } else {
                 ALP_TRY(result);

@@ -7,6 +7,7 @@
 #include "formats/formats.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -162,6 +163,21 @@ static json_t *distance_value(const alpi_bake_job *job)
                                            : json_string("inf");
 }
 
+/// How texels were chosen and when sampling was to stop; `occlusion` may be NULL.
+static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
+{
+    static const char *const existing[] = {"replace", "multiply", "keep"};
+    const alp_sampling_options *s = &job->options.sampling;
+    json_object_set_new(occlusion, "adaptive",
+                        s->accuracy == ALP_ADAPTIVE_AUTO  ? json_string("auto")
+                        : s->accuracy == ALP_ADAPTIVE_OFF ? json_string("off")
+                                                          : json_real((double)s->accuracy));
+    if (s->error > 0.0f) {
+        json_object_set_new(occlusion, "wanted_relative_error", json_real((double)s->error));
+    }
+    json_object_set_new(occlusion, "existing_ao", json_string(existing[job->options.existing_ao]));
+}
+
 /// Version, options, quantity, input hash.
 char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
@@ -169,16 +185,19 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
     char hash[17];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)job->scene->input_hash);
     json_t *object = json_pack(
-        "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:f, s:b, s:s, s:i, s:i, s:i}}",
+        "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:o, s:b, s:s, s:i, s:i, s:i}}",
         "version", alp_version(), "input_hash", hash, "occlusion", "quantity",
         "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)job->report.ao_samples,
         "distance_m", distance_value(job), "falloff", falloff_name(ao->falloff), "cone_rad",
         (double)ao->cone, "distribution",
         ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform", "one_sided",
         (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",
-        job->report.ao_relative_error, "cut_off", (int)job->report.cut_off, "atlas",
-        atlas_name(job->report.atlas.mode), "size", (int)job->report.atlas.width, "pages",
-        (int)job->report.atlas.pages, "padding", (int)job->options.atlas.padding);
+        isfinite(job->report.ao_relative_error) ? json_real(job->report.ao_relative_error)
+                                                : json_null(),
+        "cut_off", (int)job->report.cut_off, "atlas", atlas_name(job->report.atlas.mode), "size",
+        (int)job->report.atlas.width, "pages", (int)job->report.atlas.pages, "padding",
+        (int)job->options.atlas.padding);
+    add_sampling(job, json_object_get(object, "occlusion"));
     add_choice(job, object); // jansson takes NULL and does nothing
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));

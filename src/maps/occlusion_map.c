@@ -345,6 +345,10 @@ static alp_result run(map_job *job)
         job->report->interpolated += state == ALPI_TEXEL_INTERPOLATED;
         job->report->unknown += state == ALPI_TEXEL_OPEN;
     }
+    if (job->report->cut_off && job->report->traced == 0) {
+        return alpi_fail(context, late ? ALP_ERROR_LIMIT : ALP_ERROR_CANCELLED,
+                         "sampling ended before any texel had a value; allow more time");
+    }
     if (result == ALP_OK && job->options->bent != NULL) {
         result = alpi_bent_normals(job->lattice, &job->sums, job->order, job->order_count,
                                    job->options->bent);
@@ -357,7 +361,7 @@ alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_rece
                               const alpi_occlusion_map_options *options, alpi_lattice *lattice,
                               float *errors, alpi_occlusion_map_report *report)
 {
-    *report = (alpi_occlusion_map_report){0};
+    *report = (alpi_occlusion_map_report){.relative = (double)NAN, .p99 = (double)NAN};
     map_job job = {.setup = setup,
                    .receivers = receivers,
                    .order = order,

@@ -24,8 +24,10 @@ typedef struct alpi_occlusion_map_options {
 typedef struct alpi_occlusion_map_report {
     uint64_t rays, traced, interpolated, unknown; // texels; unknown: cut off before its turn
     uint32_t samples;                             // of a traced texel
-    double relative, p99; // stated error over the mean: √ mean of squares, and 99th percentile
-    bool cut_off;         // by the deadline or the user
+    // Stated error over the mean: √ mean of squares, and 99th percentile, of the last round that
+    // ended; NaN when none did.
+    double relative, p99;
+    bool cut_off; // by the deadline or the user
 } alpi_occlusion_map_report;
 
 /// Gathers the texels in `order` (some of lattice->order, in its order) into lattice->values and
