@@ -257,7 +257,8 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
     return inside;
 }
 
-/// Whether anything is within a texel of a texel's middle: else it is wholly outside, or so far
+/// Whether anything is within 1.6 texels of a texel's middle (a filter reads it up to one away, and
+/// eight directions may miss the nearest by 22°): else it is wholly outside, or so far
 /// inside that no filter reads it with one that is seen.
 static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
@@ -265,7 +266,7 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
     alpi_rays rays;
     alpi_hits hits;
     alpi_texels_point(job->texels, texel, &point);
-    look_around(job, &point, texel_side(job->texels, texel), true, &rays, &hits);
+    look_around(job, &point, 1.6f * texel_side(job->texels, texel), true, &rays, &hits);
     bool suspicious = false;
     for (int k = 0; k < ALPI_PACKET; k++) {
         suspicious = suspicious || hits.triangle[k] != ALPI_NONE;
