@@ -140,7 +140,7 @@ typedef struct command_entry {
     const char *name;
     const char *synopsis;
     const char *summary;
-    int operand_count;
+    long operand_count;
     int (*run)(const command_line *arguments); // NULL: not built yet
     const char *help; // paragraph under the synopsis; not built: what exists
     bool operand_optional;

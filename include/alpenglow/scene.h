@@ -25,14 +25,14 @@ ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char
 
 /// A mesh handed over as arrays, already in world space.
 typedef struct alp_mesh {
-    const char *name; ///< NULL = "mesh N"
-    uint32_t vertex_count;
-    const float *positions; ///< [vertex_count][3] metres
-    const float *normals;   ///< [vertex_count][3] unit, or NULL: flat, from the triangles
-    const float *uvs;       ///< [vertex_count][2] lightmap coordinates in [0,1], or NULL
-    uint32_t triangle_count;
+    const char *name;        ///< NULL = "mesh N"
+    const float *positions;  ///< [vertex_count][3] metres
+    const float *normals;    ///< [vertex_count][3] unit, or NULL: flat, from the triangles
+    const float *uvs;        ///< [vertex_count][2] lightmap coordinates in [0,1], or NULL
     const uint32_t *indices; ///< [triangle_count][3], each < vertex_count
-    float base_color[3];     ///< linear diffuse colour, [0, 1] (clamped with a warning)
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    float base_color[3]; ///< linear diffuse colour, [0, 1] (clamped with a warning)
     bool double_sided;
 } alp_mesh;
 

@@ -144,7 +144,7 @@ static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t 
 /// coordinate goes through them one after the other.
 static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2], float (*out)[2])
 {
-    uint8_t strata[STRATA];
+    uint8_t strata[STRATA] = {0};
     uint32_t strata_count = 0;
     for (uint32_t s = 0; s < STRATA; s++) {
         if ((valid >> s & 1u) != 0) {

@@ -24,7 +24,7 @@ const char *alpi_patcher_vertex_name(const alpi_gltf_patcher *p)
 uint16_t alpi_patcher_vertex_value(const alpi_gltf_patcher *p, uint32_t vertex)
 {
     float value = p->patch->vertex_values[vertex];
-    return value > 0.0f ? (uint16_t)(fminf(value, 1.0f) * (float)FULL + 0.5f) : 0;
+    return value > 0.0f ? (uint16_t)lroundf(fminf(value, 1.0f) * (float)FULL) : 0;
 }
 
 /// Scalars, or colours where there were none: 16 bits, because 8 show steps on smooth walls.
@@ -75,7 +75,7 @@ static alp_result add_product(alpi_gltf_patcher *p, const alpi_gltf_vertex_input
     for (uint32_t i = 0; i < input->count; i++) {
         for (uint32_t k = 0; k < old->components; k++) {
             float value = darkened(input, old, i, k);
-            uint16_t bits = value > 0.0f ? (uint16_t)(fminf(value, 1.0f) * (float)FULL + 0.5f) : 0;
+            uint16_t bits = value > 0.0f ? (uint16_t)lroundf(fminf(value, 1.0f) * (float)FULL) : 0;
             memcpy(stored + ((size_t)i * old->components + k) * size,
                    is_float ? (const void *)&value : (const void *)&bits, size);
         }

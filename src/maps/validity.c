@@ -175,8 +175,9 @@ static void place_strata(const validity_job *job, uint32_t texel,
 {
     float square[STRATA][2];
     for (int i = 0; i < STRATA; i++) {
-        square[i][0] = ((float)(i % 4) + 0.5f) / 4.0f;
-        square[i][1] = ((float)(i / 4) + 0.5f) / 4.0f;
+        const int column = i % 4, row = i / 4;
+        square[i][0] = ((float)column + 0.5f) / 4.0f;
+        square[i][1] = ((float)row + 0.5f) / 4.0f;
     }
     job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
 }

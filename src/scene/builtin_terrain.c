@@ -274,7 +274,8 @@ static void build_jetty(alpi_shaper *shaper, uint32_t wood)
     alpi_shape_box(shaper, (vec3){-0.3f, 0.5f, -0.9f},
                    (vec3){spacing * (float)(POSTS - 1) + 0.3f, 0.62f, 0.9f});
     for (int i = 0; i < 2 * POSTS; i++) {
-        float x = spacing * (float)(i / 2), z = i % 2 == 0 ? -1.0f : 1.0f;
+        const int pair = i / 2;
+        float x = spacing * (float)pair, z = i % 2 == 0 ? -1.0f : 1.0f;
         alpi_shape_box(shaper, (vec3){x - 0.12f, -5.5f, z - 0.12f},
                        (vec3){x + 0.12f, 1.3f, z + 0.12f});
     }

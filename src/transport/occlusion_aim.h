@@ -10,10 +10,8 @@
 #include <math.h>
 
 // Unrolled by 8 first, a loop of 8 would no longer be seen as one.
-#ifdef __clang__
-#define ALPI_EACH_LANE                                                                             \
-    _Pragma("clang loop vectorize(assume_safety) unroll(disable)") for (int i = 0;                 \
-                                                                        i < ALPI_PACKET; i++)
+#ifdef __clang__ // finds them by itself, and warns when asked to in a build without optimisation
+#define ALPI_EACH_LANE for (int i = 0; i < ALPI_PACKET; i++)
 #else
 #define ALPI_EACH_LANE                                                                             \
     _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int i = 0; i < ALPI_PACKET; i++)

@@ -207,7 +207,8 @@ static void workers_change_no_bit_and_seeds_do(void **state)
     for (int map = 0; map < 2; map++) {
         int different = 0;
         for (int i = 0; i < POINTS; i++) {
-            different += memcmp(one[map][i], other[map][i], sizeof one[map][i]) != 0;
+            different += one[map][i][0] != other[map][i][0] || one[map][i][1] != other[map][i][1] ||
+                         one[map][i][2] != other[map][i][2];
         }
         assert_true(different > POINTS / 10);
     }

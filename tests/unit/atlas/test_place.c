@@ -440,7 +440,8 @@ static void invalid_strata_get_no_points(void **state)
     const uint16_t masks[] = {0x0001, 0x8000, 0x0f0f, 0x7fff, 0x1240};
     for (uint32_t i = 0; i < texels.count; i += 37) {
         for (int m = 0; m < 5; m++) {
-            uint32_t counts[16] = {0}, bits = (uint32_t)__builtin_popcount(masks[m]), order[16];
+            uint32_t counts[16] = {0}, bits = (uint32_t)__builtin_popcount(masks[m]),
+                     order[16] = {0};
             for (uint32_t s = 0, k = 0; s < 16; s++) {
                 if ((masks[m] >> s & 1) != 0) {
                     order[k++] = s;

@@ -27,6 +27,11 @@ static alp_scene *load(alp_context *context, const char *name)
 
 // --- values --------------------------------------------------------------------------------------
 
+static bool is_same(const float a[3], const float b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 static void a_convex_mesh_is_open(void **state)
 {
     (void)state;
@@ -110,9 +115,8 @@ static void equal_vertices_have_equal_values(void **state)
     }
     for (uint32_t a = 0; a < scene->vertex_count; a += 3) {
         for (uint32_t b = a + 1; b < scene->vertex_count; b++) {
-            if (used[a] && used[b] &&
-                memcmp(scene->positions[a], scene->positions[b], sizeof(float[3])) == 0 &&
-                memcmp(scene->normals[a], scene->normals[b], sizeof(float[3])) == 0) {
+            if (used[a] && used[b] && is_same(scene->positions[a], scene->positions[b]) &&
+                is_same(scene->normals[a], scene->normals[b])) {
                 ASSERT_NEAR(values[a], values[b], 0.0);
                 pairs++;
             }

@@ -208,7 +208,12 @@ static void a_map_cut_off_has_bent_normals_where_it_has_values(void **state)
     options.sampling.time_limit = 0.02;
     options.occlusion.samples = 65536;
     alp_lightmap *lightmap = NULL;
-    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
+    alp_result result = alp_bake(scene, &options, &lightmap, NULL);
+    while (result == ALP_ERROR_LIMIT) { // a machine too slow for a single texel in that time
+        options.sampling.time_limit *= 2.0;
+        result = alp_bake(scene, &options, &lightmap, NULL);
+    }
+    ASSERT_OK(context, result);
     const float *bent = alp_lightmap_map_page(lightmap, ALP_MAP_BENT, 0, NULL, NULL);
     for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) {
         const float *b = bent + 4 * i;
