@@ -40,6 +40,7 @@ typedef struct map_job {
     uint8_t *wanted;  // [texels] to be traced next
     uint32_t *list;   // [order_count]
     uint32_t samples; // of this round
+    double started;   // alpi_seconds()
     float noise;      // standard deviation of a traced texel by its spread, root mean square
 
     // Of the pass that runs.
@@ -66,6 +67,7 @@ static alp_result trace_list(map_job *job, uint32_t list_count, uint32_t first, 
     const alpi_task_progress progress = {.callback = go_on,
                                          .user = job,
                                          .stage = "occlusion",
+                                         .started = job->started,
                                          .units_before = (double)job->report->rays,
                                          .units_total = (double)job->report->rays +
                                                         (double)list_count * count};
@@ -368,6 +370,7 @@ alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_rece
                    .order_count = order_count,
                    .options = options,
                    .lattice = lattice,
+                   .started = alpi_seconds(),
                    .errors = errors,
                    .report = report};
     alp_result result = run(&job);

@@ -122,7 +122,7 @@ static alp_result make_sequences(alpi_occlusion_setup *setup)
 static uint32_t shared_bits(uint32_t samples)
 {
     uint32_t bits = 0;
-    while (bits < 4 && 1u << (2 * (bits + 1)) <= samples) {
+    while (bits < 4 && samples % (1u << (2 * (bits + 1))) == 0) {
         bits++;
     }
     return bits;
@@ -168,6 +168,7 @@ alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint6
 {
     *other = *setup;
     other->options.seed = seed;
+    other->shift_mask |= UINT32_MAX >> shared_bits(other->samples);
     return make_sequences(other);
 }
 
