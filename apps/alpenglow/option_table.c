@@ -30,8 +30,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
          "(the innermost loop), atlas, maps (error per second) or accuracy (stated against true "
          "errors); without it all are run, which takes some minutes. Other work on the machine "
-         "makes the figures worse and the ratios little.",
-         true},
+         "makes the figures worse and the ratios little."},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
                         "bake --maps ao puts light on surfaces"},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,

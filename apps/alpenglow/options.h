@@ -140,10 +140,9 @@ typedef struct command_entry {
     const char *name;
     const char *synopsis;
     const char *summary;
-    long operand_count;
+    long operand_count;                        // exactly; of bench, at most
     int (*run)(const command_line *arguments); // NULL: not built yet
     const char *help; // paragraph under the synopsis; not built: what exists
-    bool operand_optional;
 } command_entry;
 
 const command_entry *command_table(void); ///< [COMMAND_COUNT]
