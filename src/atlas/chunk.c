@@ -56,7 +56,7 @@ static void leave_edges(const carrier *c, double b[2])
     if (nearest >= margin) {
         return;
     }
-    double to[2] = {1.0 / 3.0 - b[0], 1.0 / 3.0 - b[1]};
+    const double to[2] = {1.0 / 3.0 - b[0], 1.0 / 3.0 - b[1]};
     double way = length(to[0] * c->edges[0][0] + to[1] * c->edges[1][0],
                         to[0] * c->edges[0][1] + to[1] * c->edges[1][1]);
     double share = way > margin ? margin / way : 1.0;
