@@ -194,7 +194,7 @@ static void print_options(void)
          "    case $1 in");
     for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
         const command_entry *c = &command_table()[i];
-        printf("    %s) operands=%ld options='", c->name, c->operand_count);
+        printf("    %s) operands=%d options='", c->name, command_operand_limit(i));
         print_names(table, count, i);
         puts("' ;;");
     }

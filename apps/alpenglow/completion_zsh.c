@@ -127,7 +127,7 @@ static void print_command(command_id command)
             print_option(&table[i]);
         }
     }
-    for (int i = 0; i < entry->operand_count; i++) {
+    for (int i = 0; i < command_operand_limit(command); i++) {
         printf("            ':%s:", command == COMMAND_COMPARE ? "image" : "scene");
         put_action(&operand);
         puts("' \\");

@@ -91,18 +91,12 @@ static void print_later(command_id command)
 
 static void print_group(command_id command, option_group group)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
-    bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        if (table[i].group != group || (table[i].commands & (1u << command)) == 0) {
-            continue;
-        }
-        if (!any) {
-            printf("\n%s:\n", option_group_title(group));
-        }
-        any = true;
-        print_option(&table[i]);
+    const option *o = option_next(command, group, NULL);
+    if (o != NULL) {
+        printf("\n%s:\n", option_group_title(group));
+    }
+    for (; o != NULL; o = option_next(command, group, o)) {
+        print_option(o);
     }
 }
 

@@ -181,18 +181,12 @@ static void put_option(const option *o)
 
 static void put_group(command_id command, option_group group)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
-    bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        if (table[i].group != group || (table[i].commands & (1u << command)) == 0) {
-            continue;
-        }
-        if (!any) {
-            printf(".SS %s\n", option_group_title(group));
-        }
-        any = true;
-        put_option(&table[i]);
+    const option *o = option_next(command, group, NULL);
+    if (o != NULL) {
+        printf(".SS %s\n", option_group_title(group));
+    }
+    for (; o != NULL; o = option_next(command, group, o)) {
+        put_option(o);
     }
 }
 

@@ -2,6 +2,8 @@
 // The commands and options themselves: everything that the contract names, built or not.
 #include "options.h"
 
+#include <stdlib.h>
+
 static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_BAKE] =
         {"bake", "SCENE -o OUT.glb|OUT.gltf [--maps-dir DIR] [OPTIONS]",
@@ -24,7 +26,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
          "largest of |A - B| and where it is."},
     [COMMAND_BENCH] =
-        {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", 1,
+        {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", -1,
          command_bench,
          "Measures this machine: in turns, what the hardware and the ray tracer give at most, and "
          "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
@@ -621,6 +623,22 @@ const char *builtin_scene_settings(void)
 bool command_interruptible(command_id command)
 {
     return command == COMMAND_BAKE || command == COMMAND_RENDER;
+}
+
+const option *option_next(command_id command, option_group group, const option *last)
+{
+    const option *end = options + sizeof options / sizeof *options;
+    for (const option *o = last != NULL ? last + 1 : options; o < end; o++) {
+        if (o->group == group && (o->commands & (1u << command)) != 0) {
+            return o;
+        }
+    }
+    return NULL;
+}
+
+int command_operand_limit(command_id command)
+{
+    return abs(commands[command].operand_count);
 }
 
 const char *option_group_title(option_group group)

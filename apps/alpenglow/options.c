@@ -384,7 +384,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
 {
     *parsed = (command_line){.command = command};
     set_defaults(command, parsed);
-    int operands = 0, wanted = (int)command_table()[command].operand_count;
+    int operands = 0, wanted = command_operand_limit(command);
     bool options_ended = false;
     for (int i = 0; i < count; i++) {
         if (!options_ended && strcmp(words[i], "--") == 0) {
@@ -401,7 +401,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
                                words[i]);
         }
     }
-    if (operands < wanted && command != COMMAND_BENCH) {
+    if (operands < command_table()[command].operand_count) {
         return usage_error(command, "needs %s", operand_names(command));
     }
     return EXIT_DONE;

@@ -140,7 +140,7 @@ typedef struct command_entry {
     const char *name;
     const char *synopsis;
     const char *summary;
-    long operand_count;                        // exactly; of bench, at most
+    int operand_count;                         // −n: up to n, none is needed
     int (*run)(const command_line *arguments); // NULL: not built yet
     const char *help; // paragraph under the synopsis; not built: what exists
 } command_entry;
@@ -151,6 +151,11 @@ const option *program_option_table(size_t *count); ///< of alpenglow itself, bef
 const char *const *builtin_scene_names(size_t *count);
 const char *builtin_scene_settings(void); ///< lines that say which scenes take settings
 const char *option_group_title(option_group group);
+/// The options that a command has in a group, in order: the one after `last`, or the first (NULL).
+/// @return NULL after the last one
+const option *option_next(command_id command, option_group group, const option *last);
+/// How many operands a command takes at most.
+int command_operand_limit(command_id command);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
 bool command_interruptible(command_id command);
 
