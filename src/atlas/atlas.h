@@ -94,7 +94,7 @@ alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv
 /// A texel's representative point.
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
 
-/// Whether the triangle of a texel's representative point is smooth enough for a lift.
+/// Whether any triangle of a texel lifts its points.
 bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel);
 
 /// Texels as receivers: their points are spread over the surface inside the texel, over its pieces

@@ -103,6 +103,16 @@ static uint32_t drop(const alpi_object *object, const uint8_t *dropped, uint32_t
     return kept;
 }
 
+/// Asks the user, and the clock.
+static bool is_in_time(void *user, const alp_progress *progress)
+{
+    const alpi_occlusion_map_options *o = user;
+    if (o->progress != NULL && !o->progress(o->progress_user, progress)) {
+        return false;
+    }
+    return alpi_seconds() < o->deadline;
+}
+
 /// Looks for texels of an object that are inside other geometry, then gathers the others.
 static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                const alpi_occlusion_setup *setup,
@@ -113,9 +123,16 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     const alpi_receivers receivers = alpi_texels_receivers(texels);
     const alpi_task_progress progress = {
         .callback = options.progress, .user = options.progress_user, .stage = "validity"};
+    const alpi_task_progress until = {
+        .callback = is_in_time, .user = &options, .stage = progress.stage};
     alpi_validity validity;
-    ALP_TRY(alpi_validity_create(setup, &receivers, texels, lattice, object->texels,
-                                 object->texel_count, &progress, &validity));
+    const alp_result looked = alpi_validity_create(
+        setup, &receivers, texels, lattice, object->texels, object->texel_count, &until, &validity);
+    if (looked == ALP_ERROR_CANCELLED && alpi_seconds() >= options.deadline) {
+        return alpi_fail(job->context, ALP_ERROR_LIMIT,
+                         "the time limit ended before any texel had a value; allow more time");
+    }
+    ALP_TRY(looked);
     job->report.rays += validity.rays;
     job->report.moved += validity.moved_count;
     job->report.dropped += validity.dropped_count;
