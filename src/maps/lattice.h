@@ -45,7 +45,8 @@ typedef struct alpi_stencil {
 
 /// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
 /// between two (type 1) and those in the middle of four (type 2).
-enum { ALPI_LATTICE_PASSES = 5 };
+/// COARSE is the last that belongs to the lattice of half the spacing.
+enum { ALPI_LATTICE_PASSES = 5, ALPI_LATTICE_COARSE = 2 };
 /// The pass a texel belongs to, by its pixel.
 uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
 /// Distance in texels to the nearest texels that pass `pass` interpolates from: 2, 2, 1, 1.

@@ -7,10 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 16 };
+enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 16, OCTAVE_LIMIT = 64 };
 
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
 static const double NEAR_DISTANCE = 2.5;
+// Share of a scout's rays that end there where the surface is within a texel.
+static const float TOUCHING = 0.22f;
 static const uint64_t NEAR_SEED = 0x6e656172;
 
 typedef struct validity_job {
@@ -21,7 +23,7 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
-    uint8_t *scouts;  // [texels] 0: not one, 1: nothing near it, 2: something
+    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_nearness
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry
 } validity_job;
 
@@ -39,15 +41,37 @@ static bool is_scout(const alpi_texels *t, uint32_t texel)
     return t->pixels[texel][0] % 2 == 0 && t->pixels[texel][1] % 2 == 0;
 }
 
-/// Occlusion over a short distance. Its random numbers are always the same: which texels are looked
-/// at, and so what a map converges to, must not hang on the seed of the bake.
-static alp_result make_short_setup(const validity_job *job, alpi_occlusion_setup *setup)
+/// The octave of a texel's side: scouts of one octave look equally far.
+static int find_octave(const alpi_texels *t, uint32_t texel)
+{
+    const int octave = ilogbf(texel_side(t, texel));
+    return octave < -OCTAVE_LIMIT ? -OCTAVE_LIMIT : octave > OCTAVE_LIMIT ? OCTAVE_LIMIT : octave;
+}
+
+/// Scouts of one octave. @return how many
+static uint32_t list_scouts(const validity_job *job, int octave, uint32_t *list)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        const uint32_t t = job->order[i];
+        if (is_scout(job->texels, t) && find_octave(job->texels, t) == octave) {
+            list[count++] = t;
+        }
+    }
+    return count;
+}
+
+/// Occlusion over a short distance, in mean sides of the listed texels. Its random numbers are
+/// always the same: which texels are looked at, and so what a map converges to, must not hang on
+/// the seed of the bake.
+static alp_result make_short_setup(const validity_job *job, const uint32_t *list, uint32_t count,
+                                   alpi_occlusion_setup *setup)
 {
     alpi_occlusion_setup near = *job->setup;
     double area = 0.0, coverage = 0.0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        area += (double)job->texels->areas[job->order[i]];
-        coverage += (double)job->texels->coverages[job->order[i]];
+    for (uint32_t i = 0; i < count; i++) {
+        area += (double)job->texels->areas[list[i]];
+        coverage += (double)job->texels->coverages[list[i]];
     }
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
@@ -66,49 +90,55 @@ static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t texel = job->order[i];
         const uint16_t *p = t->pixels[texel];
-        bool any = false, near = false;
+        uint8_t nearest = 0;
         for (int k = 0; k < 9; k++) {
             const uint32_t n =
                 alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + k % 3 - 1,
                                    (int64_t)p[1] + k / 3 - 1);
             if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->scouts[n] > 0) {
-                any = true;
-                near = near || job->scouts[n] > 1;
+                nearest = job->scouts[n] > nearest ? job->scouts[n] : nearest;
             }
         }
-        job->out->near[texel] = near || !any;
+        job->out->near[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
     }
     return ALP_OK;
 }
 
-/// A few short rays from a quarter of the texels, by the occlusion kernel.
+/// A few short rays from each of the listed texels, by the occlusion kernel.
+static alp_result send_scouts(validity_job *job, const uint32_t *list, uint32_t count,
+                              const alpi_task_progress *progress, alpi_occlusion_sums *sums)
+{
+    alpi_occlusion_setup near;
+    ALP_TRY(make_short_setup(job, list, count, &near));
+    alp_result result = alpi_occlusion_add(&near, job->receivers, list, count, 0, NEAR_SAMPLES,
+                                           NEAR_SAMPLES, progress, sums);
+    for (uint32_t i = 0; i < count; i++) {
+        const float closed = 1.0f - alpi_occlusion_value(sums, list[i]);
+        job->scouts[list[i]] = closed > TOUCHING ? 3 : closed > 0.0f ? 2 : 1;
+    }
+    job->out->rays += (uint64_t)count * NEAR_SAMPLES;
+    alpi_occlusion_release(&near);
+    return result;
+}
+
+/// Sends a quarter of the texels as scouts, then tells all.
 static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
 {
     alp_context *context = job->setup->context;
-    alpi_occlusion_setup near;
-    alpi_occlusion_sums sums = {0};
-    ALP_TRY(make_short_setup(job, &near));
-    uint32_t *list = ALPI_NEW(context, uint32_t, job->order_count), count = 0;
-    alp_result result = alpi_occlusion_sums_create(context, job->texels->count, false, &sums);
-    if (result == ALP_OK && list == NULL) {
-        result = ALP_ERROR_OUT_OF_MEMORY;
+    bool octaves[2 * OCTAVE_LIMIT + 1] = {false};
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        octaves[OCTAVE_LIMIT + find_octave(job->texels, job->order[i])] = true;
     }
-    if (result == ALP_OK) {
-        for (uint32_t i = 0; i < job->order_count; i++) {
-            if (is_scout(job->texels, job->order[i])) {
-                list[count++] = job->order[i];
-            }
-        }
-        result = alpi_occlusion_add(&near, job->receivers, list, count, 0, NEAR_SAMPLES,
-                                    NEAR_SAMPLES, progress, &sums);
-        for (uint32_t i = 0; i < count; i++) { // 1: nothing near, 2: something
-            job->scouts[list[i]] = alpi_occlusion_value(&sums, list[i]) < 1.0f ? 2 : 1;
-        }
-        job->out->rays += (uint64_t)count * NEAR_SAMPLES;
+    alpi_occlusion_sums sums;
+    ALP_TRY(alpi_occlusion_sums_create(context, job->texels->count, false, &sums));
+    uint32_t *list = ALPI_NEW(context, uint32_t, job->order_count);
+    alp_result result = list != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    for (int k = -OCTAVE_LIMIT; k <= OCTAVE_LIMIT && result == ALP_OK; k++) {
+        const uint32_t count = octaves[OCTAVE_LIMIT + k] ? list_scouts(job, k, list) : 0;
+        result = count > 0 ? send_scouts(job, list, count, progress, &sums) : ALP_OK;
     }
     alpi_release(context, list);
     alpi_occlusion_sums_destroy(context, &sums);
-    alpi_occlusion_release(&near);
     ALP_TRY(result);
     return alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, spread_range, job, NULL);
 }
@@ -127,6 +157,13 @@ static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, floa
     rays->maximum[lane] = reach;
 }
 
+/// Where rays that look around start: higher than rays usually do, as a tangent one must not graze
+/// its own, slightly bent surface.
+static vec3 lift_point(const alpi_receiver_point *p, float side)
+{
+    return vec3_mad(p->position, p->offset + 0.02f * side, p->geometric_normal);
+}
+
 /// Sends eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
 /// all_tangent, 4 more tangent ones between the first.
 static void look_around(const validity_job *job, const alpi_receiver_point *p, float length,
@@ -134,8 +171,7 @@ static void look_around(const validity_job *job, const alpi_receiver_point *p, f
 {
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
-    // Higher than rays usually start: a tangent ray must not graze its own, slightly bent surface.
-    const vec3 origin = vec3_mad(p->position, p->offset + 0.02f * length, n);
+    const vec3 origin = lift_point(p, length);
     for (int i = 0; i < 4; i++) {
         const vec3 axes[4] = {t, b, vec3_scale(t, -1.0f), vec3_scale(b, -1.0f)};
         const vec3 axis = axes[i], other = axes[(i + 1) % 4];
@@ -182,40 +218,50 @@ static void place_strata(const validity_job *job, uint32_t texel,
     job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
 }
 
-/// Lifts of eight points, as rays from where they lie to where they are lifted.
-static bool any_is_blocked(const validity_job *job, const alpi_receiver_point *lying,
-                           const alpi_receiver_point *lifted)
+/// Which of eight ways are blocked: lane i goes from `from` to `to`, unless it is shorter than
+/// `least[i]`. @return bits of the lanes
+static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKET],
+                             const vec3 to[ALPI_PACKET], const float least[ALPI_PACKET])
 {
     alpi_rays rays;
-    uint32_t active = 0;
+    uint32_t active = 0, blocked = 0;
     memset(&rays, 0, sizeof rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec3 origin = vec3_mad(lying[i].position, lying[i].offset, lying[i].geometric_normal);
-        const vec3 lift = vec3_sub(lifted[i].position, lying[i].position);
-        const float length = vec3_length(lift);
-        set_ray(&rays, i, origin, vec3_scale(lift, length > 0.0f ? 1.0f / length : 0.0f), length);
-        active |= (length > lying[i].offset ? 1u : 0u) << i;
+        const vec3 way = vec3_sub(to[i], from[i]);
+        const float length = vec3_length(way);
+        set_ray(&rays, i, from[i], vec3_scale(way, length > 0.0f ? 1.0f / length : 0.0f), length);
+        active |= (length > least[i] ? 1u : 0u) << i;
     }
-    if (active != 0) {
-        memset(rays.mask, 0xff, sizeof rays.mask);
-        alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0}, false);
+    if (active == 0) {
+        return 0;
     }
-    bool blocked = false;
+    memset(rays.mask, 0xff, sizeof rays.mask);
+    alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0}, false);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        blocked = blocked || ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f);
+        blocked |= ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f ? 1u : 0u) << i;
     }
     return blocked;
 }
 
-/// Leaves the points of a texel on their triangles where the lift of any passes through something.
+/// Leaves the points of a texel on their triangles where the lift of any of eight passes through
+/// something.
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
+    static const int chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
     alpi_receiver_point lifted[STRATA], lying[STRATA];
+    vec3 from[ALPI_PACKET], to[ALPI_PACKET];
+    float least[ALPI_PACKET];
     place_strata(job, texel, lifted);
     job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     place_strata(job, texel, lying);
-    if (!any_is_blocked(job, lying, lifted) &&
-        !any_is_blocked(job, lying + ALPI_PACKET, lifted + ALPI_PACKET)) {
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const alpi_receiver_point *low = &lying[chosen[i]], *high = &lifted[chosen[i]];
+        const vec3 lift = vec3_sub(high->position, low->position);
+        from[i] = vec3_mad(low->position, low->offset, low->geometric_normal);
+        to[i] = vec3_add(from[i], lift);
+        least[i] = low->offset;
+    }
+    if (find_blocked(job, from, to, least) == 0) {
         job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
     }
 }
@@ -236,26 +282,32 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     return tangent > 0 || upward >= 3;
 }
 
-/// Which strata of a texel lie inside other geometry: all are asked where its middle or one of its
-/// corners is inside.
+/// Which strata of a texel lie inside other geometry: those that are seen from its middle, where
+/// that is outside, are outside; the others are asked.
 static uint16_t find_inside(const validity_job *job, uint32_t texel)
 {
-    static const int corners[4] = {0, 3, 12, 15};
     const float side = texel_side(job->texels, texel);
+    const float none[ALPI_PACKET] = {0.0f};
     alpi_receiver_point points[STRATA], middle;
     alpi_texels_point(job->texels, texel, &middle);
     place_strata(job, texel, points);
-    // In a cut texel the corners of the square may lie anywhere.
-    bool any = job->texels->piece_first[texel] < job->texels->piece_first[texel + 1] ||
-               is_inside(job, &middle, side);
-    for (int i = 0; i < 4 && !any; i++) {
-        any = is_inside(job, &points[corners[i]], side);
+    const vec3 above = lift_point(&middle, side);
+    const bool middle_inside = is_inside(job, &middle, side);
+    uint32_t inside = 0;
+    for (int first = 0; first < STRATA; first += ALPI_PACKET) {
+        vec3 from[ALPI_PACKET], to[ALPI_PACKET];
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            from[i] = above;
+            to[i] = lift_point(&points[first + i], side);
+        }
+        const uint32_t hidden = find_blocked(job, from, to, none);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            const bool outside = !middle_inside && (hidden >> i & 1u) == 0;
+            const bool is = !outside && is_inside(job, &points[first + i], side);
+            inside |= (is ? 1u : 0u) << (first + i);
+        }
     }
-    uint16_t inside = 0;
-    for (int i = 0; i < STRATA && any; i++) {
-        inside |= (uint16_t)((is_inside(job, &points[i], side) ? 1u : 0u) << i);
-    }
-    return inside;
+    return (uint16_t)inside;
 }
 
 /// Whether anything is within 1.6 texels of a texel's middle (a filter reads it up to one away, and

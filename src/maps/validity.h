@@ -6,10 +6,17 @@
 #include "maps/lattice.h"
 #include "transport/occlusion.h"
 
+/// How far another surface is from a texel.
+typedef enum alpi_nearness {
+    ALPI_FAR = 0,
+    ALPI_NEAR,    // some texels: interpolate with care
+    ALPI_TOUCHING // about one: do not interpolate
+} alpi_nearness;
+
 /// What a few short rays found around the texels.
 typedef struct alpi_validity {
     alp_context *context;
-    uint8_t *near;    // [texels] 1: another surface is within some texels
+    uint8_t *near;    // [texels] alpi_nearness
     uint8_t *dropped; // [texels] 1: wholly inside other geometry and beside one that is not: its
                       // value must come from there
     uint64_t rays, moved_count, dropped_count, lowered_count;
