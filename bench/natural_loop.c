@@ -82,7 +82,7 @@ static uint32_t trace_receiver(const natural_loop *loop, uint32_t receiver)
     const uint32_t corner[2] = {alpi_hash32(place ^ 0x68bc21ebu), alpi_hash32(place ^ 0x02e5be93u)};
     const uint32_t count = loop->count / ALPI_SAMPLES_PER_POINT;
     uint32_t open = 0;
-    alpi_occlusion_lanes_start(&lanes, (1u << ALPI_PACKET) - 1u);
+    alpi_occlusion_lanes_start(&lanes);
     for (uint32_t k = 0; k < count && k < POINT_LIMIT; k++) {
         square[k][0] = alpi_unit_float(setup->places[k][0] ^ corner[0]);
         square[k][1] = alpi_unit_float(setup->places[k][1] ^ corner[1]);

@@ -12,7 +12,7 @@
 static const float SAME_NORMAL = 1e-10f;
 // A corner this far above another's tangent plane counts, in lengths of the longest edge: the rays
 // that start below a slope of it carry its square of the light.
-static const float LEAST_HEIGHT = 2e-3f;
+static const float LEAST_HEIGHT = 5e-3f;
 // How much of that lift is done. On quadratic surfaces one half leads to the surface exactly, and
 // the whole as far beyond it again: a sphere that rests on a floor is lifted through the floor.
 // Very coarse spheres (5 segments) need more than a half: at 2/3 a ray in thousands still

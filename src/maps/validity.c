@@ -89,14 +89,15 @@ static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_
     const alpi_texels *t = job->texels;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t texel = job->order[i];
-        const uint16_t *p = t->pixels[texel];
+        const uint32_t p[2] = {t->pixels[texel][0], t->pixels[texel][1]};
         uint8_t nearest = 0;
-        for (int k = 0; k < 9; k++) {
-            const uint32_t n =
-                alpi_lattice_texel(job->lattice, t->pages[texel], (int64_t)p[0] + k % 3 - 1,
-                                   (int64_t)p[1] + k / 3 - 1);
-            if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->scouts[n] > 0) {
-                nearest = job->scouts[n] > nearest ? job->scouts[n] : nearest;
+        for (uint32_t y = p[1] & ~1u; y <= p[1] + 1u; y += 2) {
+            for (uint32_t x = p[0] & ~1u; x <= p[0] + 1u; x += 2) {
+                const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], x, y);
+                if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
+                    job->scouts[n] > nearest) {
+                    nearest = job->scouts[n];
+                }
             }
         }
         job->out->near[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
@@ -127,7 +128,10 @@ static alp_result find_near(validity_job *job, const alpi_task_progress *progres
     alp_context *context = job->setup->context;
     bool octaves[2 * OCTAVE_LIMIT + 1] = {false};
     for (uint32_t i = 0; i < job->order_count; i++) {
-        octaves[OCTAVE_LIMIT + find_octave(job->texels, job->order[i])] = true;
+        const uint32_t t = job->order[i];
+        if (is_scout(job->texels, t)) {
+            octaves[OCTAVE_LIMIT + find_octave(job->texels, t)] = true;
+        }
     }
     alpi_occlusion_sums sums;
     ALP_TRY(alpi_occlusion_sums_create(context, job->texels->count, false, &sums));

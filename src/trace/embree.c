@@ -348,6 +348,11 @@ static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
     return valid;
 }
 
+uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer)
+{
+    return tracer->count[GEOMETRY_SOLID] + tracer->count[GEOMETRY_CUT];
+}
+
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, bool scattered)
 {

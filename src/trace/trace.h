@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 16 };
+enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 64 };
 
 /// Eight rays, structure of arrays, laid out as the ray tracer wants them: nothing is copied.
 typedef struct alpi_rays {
@@ -46,6 +46,9 @@ alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progre
 alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
                               alp_progress_fn *progress, void *progress_user, alpi_tracer **tracer);
 void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
+
+/// How many triangles stop its rays.
+uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer);
 
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
 /// all ones. A lane that hits anything gets maximum = −∞, others are left alone.

@@ -18,7 +18,7 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    POINTS_PER_CHUNK = 32,
+    POINTS_PER_CHUNK = 33, // a quarter of 1024 samples, and one that is in use already
     // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
     RAYS_PER_RANGE = 1 << 15,
     SAMPLES_PER_ROUND = 1 << 14
@@ -33,9 +33,10 @@ typedef struct gather_job {
     alpi_occlusion_sums *sums;
 } gather_job;
 
-void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes, uint32_t active)
+void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes)
 {
-    lanes->active = active;
+    lanes->pending = 0;
+    lanes->scattered = false;
     for (int k = 0; k < ALPI_TRACE_BATCH; k++) {
         alpi_rays *rays = &lanes->rays[k];
         memset(rays->minimum, 0, sizeof rays->minimum);
@@ -118,18 +119,17 @@ static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
     }
 }
 
-static void run_packet(const gather_job *job, uint32_t first_item)
+static void run_packet(const gather_job *job, uint32_t first_item, alpi_occlusion_lanes *lanes)
 {
-    alpi_occlusion_lanes lanes = {.active = 0}; // no normal yet
     uint32_t ids[ALPI_PACKET];
     const uint32_t items = job->list_count - first_item;
     const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
     const uint32_t chunk = ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may be in use
-    alpi_occlusion_lanes_start(&lanes, (1u << used) - 1u);
+    lanes->active = (1u << used) - 1u;
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t k = first_item + (i < used ? i : used - 1);
         ids[i] = job->list != NULL ? job->list[k] : k;
-        set_shifts(job->setup, &lanes, (int)i, ids[i]);
+        set_shifts(job->setup, lanes, (int)i, ids[i]);
     }
     for (uint32_t at = job->first; at < job->end;) {
         const uint32_t quarter = at / job->quarter;
@@ -137,7 +137,8 @@ static void run_packet(const gather_job *job, uint32_t first_item)
         end = end < job->end ? end : job->end;
         end = job->receivers->extended && end - at > chunk ? at + chunk : end;
         alpi_occlusion_tally tally = {{0}, {{0}}};
-        run_chunk(job, ids, at, end, &lanes, &tally);
+        run_chunk(job, ids, at, end, lanes, &tally);
+        job->setup->kernel(job->setup, lanes, NULL, 0, &tally);
         add_tally(job, ids, used, quarter, &tally);
         at = end;
     }
@@ -149,8 +150,10 @@ static void run_packet(const gather_job *job, uint32_t first_item)
 static alp_result run_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
+    alpi_occlusion_lanes lanes;
+    alpi_occlusion_lanes_start(&lanes);
     for (uint32_t packet = begin; packet < end; packet++) {
-        run_packet(user, packet * ALPI_PACKET);
+        run_packet(user, packet * ALPI_PACKET, &lanes);
     }
     return ALP_OK;
 }
@@ -259,12 +262,14 @@ void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
 {
     alpi_occlusion_lanes lanes;
     alpi_occlusion_tally tally = {{0}, {{0}}};
-    alpi_occlusion_lanes_start(&lanes, active);
+    alpi_occlusion_lanes_start(&lanes);
+    lanes.active = active;
     for (int i = 0; i < ALPI_PACKET; i++) {
         set_lane(&lanes, i, &points[i]);
         set_shifts(setup, &lanes, i, keys[i]);
     }
     setup->kernel(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples, &tally);
+    setup->kernel(setup, &lanes, NULL, 0, &tally);
     for (int i = 0; i < ALPI_PACKET; i++) {
         accessibility[i] = (float)((double)tally.open[i] / setup->samples);
     }

@@ -14,11 +14,14 @@ typedef struct alpi_occlusion_lanes {
     // their fractions, read as signed numbers, lie in [−1, 1).
     uint32_t shift[3][ALPI_PACKET];
     uint32_t active; // bit i: lane i is in use; the others hold copies of one that is
-    alpi_rays rays[ALPI_TRACE_BATCH]; // the kernel's: kept here so that what never changes stays
+    // The kernel's: kept here so that what never changes stays.
+    alpi_rays rays[ALPI_TRACE_BATCH];
+    uint32_t pending; // packets made and not traced yet, of one point or of several
+    bool scattered;   // some of them look in different directions
 } alpi_occlusion_lanes;
 
-/// Readies the lanes for their first points. `active` as above.
-void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes, uint32_t active);
+/// Readies the lanes for any points; which are in use is the caller's to set.
+void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes);
 
 /// What the rays of eight points met.
 typedef struct alpi_occlusion_tally {
@@ -28,7 +31,8 @@ typedef struct alpi_occlusion_tally {
 
 /// Sends `count` samples of a sequence from each of the lanes and adds to the tally. `samples` are
 /// [count][3] 32-bit fractions: two for the direction, one for the distance. The same code compiled
-/// for any machine, and for x86-64-v3. No fused operations in either: the same bits.
+/// for any machine, and for x86-64-v3. Packets wait until a batch of them is full: in the end a
+/// call with no samples sends the rest. No fused operations in either: the same bits.
 alpi_occlusion_kernel alpi_occlusion_kernel_baseline, alpi_occlusion_kernel_v3;
 
 /// Coloured obscurance instead: adds (1 − w) + w · albedo of what each ray hits to tally->sum, and

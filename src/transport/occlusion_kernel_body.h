@@ -107,30 +107,50 @@ static inline void bend(const alpi_rays *rays, alpi_occlusion_tally *tally)
     }
 }
 
+/// Traces what is pending and counts it.
+static inline void flush(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
+                         alpi_occlusion_tally *tally)
+{
+    if (lanes->pending == 0) {
+        return;
+    }
+    alpi_trace_occluded(setup->tracer, lanes->rays, lanes->pending, lanes->active, setup->filter,
+                        setup->streams || lanes->scattered);
+    count_open(lanes->rays, lanes->pending, tally);
+    for (uint32_t k = 0; k < lanes->pending && setup->bent; k++) {
+        bend(&lanes->rays[k], tally);
+    }
+    lanes->pending = 0;
+    lanes->scattered = false;
+}
+
 /// A batch of packets is made before the first of it is traced: one packet after the other would
 /// wait for its own divisions and roots.
 void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
                  const uint32_t (*samples)[3], uint32_t count, alpi_occlusion_tally *tally)
 {
-    alpi_rays *rays = lanes->rays;
     alpi_lane_frames frames;
     alpi_lanes_frames(lanes, &frames);
     const bool scattered = is_scattered(lanes);
-    for (uint32_t k = 0; k < count && k < ALPI_TRACE_BATCH; k++) {
-        alpi_lanes_start(lanes, &rays[k]);
-    }
-    for (uint32_t s = 0; s < count; s += ALPI_TRACE_BATCH) {
-        const uint32_t batch = count - s < ALPI_TRACE_BATCH ? count - s : ALPI_TRACE_BATCH;
-        for (uint32_t k = 0; k < batch; k++) {
+    for (uint32_t s = 0; s < count;) {
+        alpi_rays *rays = lanes->rays + lanes->pending;
+        const uint32_t room = ALPI_TRACE_BATCH - lanes->pending;
+        const uint32_t made = count - s < room ? count - s : room;
+        for (uint32_t k = 0; k < made; k++) {
+            alpi_lanes_start(lanes, &rays[k]);
             alpi_lanes_aim(setup, lanes, &frames, samples[s + k], &rays[k]);
         }
-        for (uint32_t k = 0; k < batch; k++) {
+        for (uint32_t k = 0; k < made; k++) {
             limit(setup, lanes, samples[s + k], &rays[k]);
         }
-        alpi_trace_occluded(setup->tracer, rays, batch, lanes->active, setup->filter, scattered);
-        count_open(rays, batch, tally);
-        for (uint32_t k = 0; k < batch && setup->bent; k++) {
-            bend(&rays[k], tally);
+        lanes->pending += made;
+        lanes->scattered = lanes->scattered || scattered;
+        s += made;
+        if (lanes->pending == ALPI_TRACE_BATCH) {
+            flush(setup, lanes, tally);
         }
+    }
+    if (count == 0) {
+        flush(setup, lanes, tally);
     }
 }
