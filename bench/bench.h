@@ -5,6 +5,7 @@
 #define BENCH_H
 
 #include "maps/occlusion_map.h"
+#include "maps/validity.h"
 
 #include <stdio.h>
 
@@ -65,7 +66,8 @@ typedef struct bench_map {
     alp_atlas *atlas;
     alpi_texels texels;
     alpi_lattice lattice;
-    double atlas_seconds, texel_seconds;
+    alpi_validity validity;
+    double atlas_seconds, texel_seconds, validity_seconds;
 } bench_map;
 bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map);
 void bench_map_close(const bench_scene *scene, bench_map *map);

@@ -40,7 +40,8 @@ static bool measure(const bench_scene *scene, bench_map *map, const alp_occlusio
         seconds[i] = r.seconds;
     }
     const double sampling = bench_median(seconds, rounds);
-    const double before = map->atlas_seconds + map->texel_seconds + scene->build_seconds;
+    const double before = map->atlas_seconds + map->texel_seconds + scene->build_seconds +
+                          map->validity_seconds;
     const uint32_t count = map->texels.count;
     bench_table_add(table, "%s|%u|%u|%s|%.0f %%|%.4f|%.4f|%.3f|%.3f|%.3f", short_name(scene->name),
                     count, o->samples, accuracy == ALP_ADAPTIVE_OFF ? "off" : "auto",
@@ -88,7 +89,8 @@ int bench_maps(const bench_options *options)
     bench_table table;
     bench_table_start(&table, "Error per second, all workers",
                       "Root mean square and largest error against a converged bake of the same "
-                      "texels. Before: seconds for atlas, texels and acceleration structure; then "
+                      "texels. Before: seconds for atlas, texels, acceleration structure and the look "
+                      "around the texels; then "
                       "sampling, stated errors included.",
                       "scene|texels|rays|adaptive|traced|rmse|largest|before s|sampling s|all s");
     bool good = true;

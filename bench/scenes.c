@@ -114,6 +114,22 @@ const char *bench_shared(const char *relative, const char *otherwise)
     return length > 0 && (size_t)length < sizeof path && access(path, R_OK) == 0 ? path : otherwise;
 }
 
+/// Looks for texels inside other geometry and near it, as a bake does.
+static alp_result look_around(const bench_scene *scene, bench_map *map)
+{
+    const alp_occlusion_options o = alp_occlusion_options_default();
+    const alpi_receivers receivers = alpi_texels_receivers(&map->texels);
+    const double started = alpi_seconds();
+    alpi_occlusion_setup setup;
+    ALP_TRY(alpi_occlusion_prepare(scene->scene, scene->tracer, &o, &setup));
+    const alp_result result =
+        alpi_validity_create(&setup, &receivers, &map->texels, &map->lattice, map->lattice.order,
+                             map->texels.count, NULL, &map->validity);
+    alpi_occlusion_release(&setup);
+    map->validity_seconds = alpi_seconds() - started;
+    return result;
+}
+
 bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map)
 {
     memset(map, 0, sizeof *map);
@@ -130,6 +146,9 @@ bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map)
     if (result == ALP_OK) {
         result = alpi_lattice_create(map->atlas, &map->texels, &map->lattice);
     }
+    if (result == ALP_OK) {
+        result = look_around(scene, map);
+    }
     if (!bench_good(scene, result)) {
         bench_map_close(scene, map);
         return false;
@@ -139,6 +158,9 @@ bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map)
 
 void bench_map_close(const bench_scene *scene, bench_map *map)
 {
+    if (map->validity.context != NULL) {
+        alpi_validity_destroy(&map->validity);
+    }
     if (map->lattice.context != NULL) {
         alpi_lattice_destroy(&map->lattice);
     }

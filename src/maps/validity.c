@@ -209,17 +209,17 @@ static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const a
 
 // --- texels --------------------------------------------------------------------------------------
 
-/// Points at the middles of the strata.
-static void place_strata(const validity_job *job, uint32_t texel,
-                         alpi_receiver_point points[STRATA])
+/// Points at the middles of `count` strata.
+static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
+                         uint32_t count, alpi_receiver_point *points)
 {
     float square[STRATA][2];
-    for (int i = 0; i < STRATA; i++) {
-        const int column = i % 4, row = i / 4;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t column = strata[i] % 4u, row = strata[i] / 4u;
         square[i][0] = ((float)column + 0.5f) / 4.0f;
         square[i][1] = ((float)row + 0.5f) / 4.0f;
     }
-    job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
+    job->receivers->place(job->receivers->user, texel, count, (const float(*)[2])square, points);
 }
 
 /// Which of eight ways are blocked: lane i goes from `from` to `to`, unless it is shorter than
@@ -251,18 +251,17 @@ static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKE
 /// something.
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
-    static const int chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
-    alpi_receiver_point lifted[STRATA], lying[STRATA];
+    static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
+    alpi_receiver_point lifted[ALPI_PACKET], lying[ALPI_PACKET];
     vec3 from[ALPI_PACKET], to[ALPI_PACKET];
     float least[ALPI_PACKET];
-    place_strata(job, texel, lifted);
+    place_strata(job, texel, chosen, ALPI_PACKET, lifted);
     job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
-    place_strata(job, texel, lying);
+    place_strata(job, texel, chosen, ALPI_PACKET, lying);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const alpi_receiver_point *low = &lying[chosen[i]], *high = &lifted[chosen[i]];
-        const vec3 lift = vec3_sub(high->position, low->position);
+        const alpi_receiver_point *low = &lying[i];
         from[i] = vec3_mad(low->position, low->offset, low->geometric_normal);
-        to[i] = vec3_add(from[i], lift);
+        to[i] = vec3_add(from[i], vec3_sub(lifted[i].position, low->position));
         least[i] = low->offset;
     }
     if (find_blocked(job, from, to, least) == 0) {
@@ -292,9 +291,10 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
 {
     const float side = texel_side(job->texels, texel);
     const float none[ALPI_PACKET] = {0.0f};
+    const uint8_t all[STRATA] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     alpi_receiver_point points[STRATA], middle;
     alpi_texels_point(job->texels, texel, &middle);
-    place_strata(job, texel, points);
+    place_strata(job, texel, all, STRATA, points);
     const vec3 above = lift_point(&middle, side);
     const bool middle_inside = is_inside(job, &middle, side);
     uint32_t inside = 0;
