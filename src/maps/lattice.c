@@ -9,8 +9,8 @@
 
 enum { TILE_WIDTH = 16, TILE_HEIGHT = 8, BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2 };
 
-// Across a larger angle light changes at once: cos 8°.
-static const float SMOOTH_COSINE = 0.99f;
+// Across a larger angle light changes at once: cos 16°.
+static const float SMOOTH_COSINE = 0.96f;
 
 // --- neighbourhood -------------------------------------------------------------------------------
 

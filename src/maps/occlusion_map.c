@@ -20,10 +20,10 @@ enum {
 
 // What is still interpolated, in standard deviations of the noise (by the spread of quarters, which
 // makes about 1.8 of a true one): the bend of a stencil, the difference between its texels, and the
-// kink at a texel beside a traced one. Chosen on cornell, teapot-room and torus-plane: with half of
-// it a tenth more texels are traced and nothing is gained, with twice of it small shadows get lost
-// (docs/accuracy.md).
-static const float BEND_LIMIT = 2.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
+// kink at a texel beside a traced one. Chosen on cornell, teapot-room and torus-plane: with twice
+// the bend a tenth fewer texels are traced and what is interpolated grows three times darker, with
+// twice the others small shadows get lost (docs/accuracy.md).
+static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
 // Shares of these limits for texels near another surface: a tenth and a half cost the same error as
 // tracing all of them, and a quarter less time on cornell.
 static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
@@ -154,15 +154,16 @@ static alp_result judge(map_job *job, uint32_t pass, bool flood)
 
 /// Wants texels traced that have another surface near, those that touch it all, the others of every
 /// second row every second: a contact shadow may be smaller than the lattice. Ward's criterion:
-/// light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein, R. D. Clear. A Ray
-/// Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
+/// light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein, R. D. Clear. A
+/// Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
 static void want_near(map_job *job)
 {
     for (uint32_t i = 0; i < job->order_count && job->options->near != NULL; i++) {
         const uint32_t t = job->order[i];
         const uint32_t pass = alpi_lattice_pass(job->lattice->texels->pixels[t]);
         const uint8_t near = job->options->near[t];
-        job->wanted[t] = near == ALPI_TOUCHING || (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
+        job->wanted[t] =
+            near == ALPI_TOUCHING || (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
     }
 }
 
