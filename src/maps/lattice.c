@@ -9,8 +9,9 @@
 
 enum { TILE_WIDTH = 16, TILE_HEIGHT = 8, BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2 };
 
-// Across a larger angle light changes at once: cos 16°.
-static const float SMOOTH_COSINE = 0.96f;
+// Across a larger angle light changes at once: cos 16°. Texels that tell each other's noise must be
+// more alike: cos 8°.
+static const float SMOOTH_COSINE = 0.96f, ALIKE_COSINE = 0.99f;
 
 // --- neighbourhood -------------------------------------------------------------------------------
 
@@ -131,8 +132,8 @@ uint32_t alpi_lattice_reach(uint32_t pass)
     return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
 }
 
-/// The texel (dx, dy) away, if texel t may be interpolated from it.
-static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
+/// The texel (dx, dy) away, if it is known, of the chart of texel t, and turned at most so far.
+static uint32_t find_turned(const alpi_lattice *l, uint32_t t, int dx, int dy, float cosine)
 {
     const uint16_t *p = l->texels->pixels[t];
     const uint32_t n =
@@ -141,9 +142,14 @@ static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
         l->texels->charts[n] != l->texels->charts[t]) {
         return ALPI_NONE;
     }
-    const bool smooth = vec3_dot(vec3_load(l->texels->normals[n]),
-                                 vec3_load(l->texels->normals[t])) >= SMOOTH_COSINE;
-    return smooth ? n : ALPI_NONE;
+    const float turn = vec3_dot(vec3_load(l->texels->normals[n]), vec3_load(l->texels->normals[t]));
+    return turn >= cosine ? n : ALPI_NONE;
+}
+
+/// The texel (dx, dy) away, if texel t may be interpolated from it.
+static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
+{
+    return find_turned(l, t, dx, dy, SMOOTH_COSINE);
 }
 
 static void add_to_stencil(alpi_stencil *s, uint32_t texel, float weight)
@@ -222,7 +228,8 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
     uint32_t count = 0;
     for (int dy = -1; dy <= 1; dy++) {
         for (int dx = -1; dx <= 1; dx++) {
-            const uint32_t n = dx == 0 && dy == 0 ? ALPI_NONE : neighbour(lattice, texel, dx, dy);
+            const uint32_t n =
+                dx == 0 && dy == 0 ? ALPI_NONE : find_turned(lattice, texel, dx, dy, ALIKE_COSINE);
             if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
                 around[count++] = n;
             }
