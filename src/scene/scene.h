@@ -69,6 +69,7 @@ typedef struct alpi_light {
     vec3 position, direction;     // world; direction: where the light travels, unit
     float range;                  // metres, INFINITY = none
     float inner_cone, outer_cone; // radians, half-angles
+    float size;                   // radians, full angle of a directional light's disk; 0 = a point
 } alpi_light;
 
 /// Something another room keeps with a scene, destroyed with it. Only that room knows what it is.

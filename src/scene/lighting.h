@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// All light that falls on a scene, as a sampler asks for it: punctual lights, the sun, emissive
+// triangles and the sky behind one door. Of many lights the one that is asked is drawn in
+// proportion to what each can give at the point.
+#ifndef ALPI_SCENE_LIGHTING_H
+#define ALPI_SCENE_LIGHTING_H
+
+#include "scene/scene.h"
+#include "scene/sky.h"
+
+typedef enum alpi_light_class {
+    ALPI_LIGHT_CLASS_PUNCTUAL, // point, spot, and directional without size: never hit by chance
+    ALPI_LIGHT_CLASS_SUN,      // directional with a size
+    ALPI_LIGHT_CLASS_SURFACE,  // emissive triangles
+    ALPI_LIGHT_CLASS_SKY,
+    ALPI_LIGHT_CLASS_COUNT
+} alpi_light_class;
+
+typedef struct alpi_lighting alpi_lighting; // immutable
+
+/// @param options checked here
+/// @return ALP_OK; INVALID_ARGUMENT (named); OUT_OF_MEMORY
+alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
+                                alpi_lighting **lighting);
+void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting); // NULL does nothing
+/// Whether there is no light at all.
+bool alpi_lighting_is_dark(const alpi_lighting *lighting);
+
+/// A way from a point to light.
+typedef struct alpi_light_sample {
+    alpi_light_class kind;
+    vec3 direction;    // unit, from the point
+    float distance;    // metres to the light, INFINITY for sun, directional and sky
+    vec3 light;        // radiance that comes from there; PUNCTUAL: E on a surface that faces it
+    float density;     // of drawing this, per steradian; PUNCTUAL: the probability of the light
+    uint32_t triangle; // of SURFACE, else ALPI_NONE
+} alpi_light_sample;
+
+/// Draws one light and a direction to it. Unshadowed: the caller asks the tracer, and multiplies
+/// light · cosθ / density.
+/// @param normal the side that gathers   @param pick [0,1)   @param u [0,1)²
+/// @return false: nothing here can give light (a closed lid, a light behind): counts as 0
+bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal, float pick,
+                          vec2 u, alpi_light_sample *sample);
+
+/// Density, per steradian, with which alpi_lighting_sample draws from `point` a direction that hits
+/// emissive triangle `triangle` (any other triangle: 0), or, ALPI_NONE, leaves the scene (sun and
+/// sky together).
+float alpi_lighting_density(const alpi_lighting *lighting, vec3 point, vec3 normal, vec3 direction,
+                            uint32_t triangle);
+
+/// Radiance of sky and sun disks in a direction that leaves the scene.
+vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction);
+
+/// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first.
+uint32_t alpi_lighting_light_count(const alpi_lighting *lighting);
+const alpi_light *alpi_lighting_light(const alpi_lighting *lighting, uint32_t index);
+/// What light `index` gives at a point: direction, distance, light and density as above, drawn in
+/// the disk for a SUN. @return false: out of its range or cone
+bool alpi_lighting_sample_light(const alpi_lighting *lighting, uint32_t index, vec3 point, vec2 u,
+                                alpi_light_sample *sample);
+const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting); // may be NULL
+uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting);
+
+/// Radiance that leaves a triangle towards `direction` at barycentrics: emission × texture; 0 from
+/// behind unless double-sided.
+vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                           vec3 direction);
+
+#endif

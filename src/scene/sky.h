@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The sky: radiance by direction, and directions drawn in proportion to it.
+#ifndef ALPI_SCENE_SKY_H
+#define ALPI_SCENE_SKY_H
+
+#include "base/vec.h"
+
+#include <alpenglow/light.h>
+
+typedef struct alpi_sky alpi_sky; // immutable
+
+/// @param sun_direction towards the sun, unit; read by the clear sky only, which leaves the sun's
+///                      disk to the caller
+/// @return ALP_OK with NULL for a sky that is black; INVALID_ARGUMENT (a value out of range, not
+///         finite; an image of the wrong kind or shape); OUT_OF_MEMORY
+alp_result alpi_sky_create(alp_context *context, const alp_sky_options *options,
+                           vec3 sun_direction, alpi_sky **sky);
+void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
+
+/// Radiance from a unit direction. Images are bilinear between texel centres, wrapping around; what
+/// is sampled and what is looked up are the same function.
+vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction);
+
+/// Draws a direction. @param u [0,1)²  @param density out: per steradian, > 0
+vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density);
+/// Density that alpi_sky_sample draws a direction with; > 0 wherever the radiance is.
+float alpi_sky_density(const alpi_sky *sky, vec3 direction);
+
+/// ∫ radiance dω / 4π.
+vec3 alpi_sky_mean(const alpi_sky *sky);
+
+#endif
