@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/lighting.h"
+#include "scene/lighting_dark.h"
 
 /// Looks at a texture, in squares over the triangle.
 enum { LOOKS_ACROSS = 4 };
@@ -64,20 +65,21 @@ static alpi_light_bound bound_triangle(const alp_scene *scene, uint32_t triangle
                               .power = *radiance * vec3_triangle_area(c[0], c[1], c[2])};
 }
 
-static uint32_t count_candidates(const alp_scene *scene)
+/// The material a triangle emits with; NULL where it does not.
+static const alpi_material *emitter_material(const alp_scene *scene, const bool *dark,
+                                             uint32_t triangle)
 {
-    uint32_t count = 0;
-    for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        count += scene->triangle_usable[t] &&
-                 emissive_material(scene, scene->triangle_surface[t]) != NULL;
-    }
-    return count;
+    return scene->triangle_usable[triangle] && !dark[triangle]
+               ? emissive_material(scene, scene->triangle_surface[triangle])
+               : NULL;
 }
 
-alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters)
+static alp_result fill(const alp_scene *scene, const bool *dark, alpi_emitters *emitters)
 {
-    *emitters = (alpi_emitters){0};
-    uint32_t candidates = count_candidates(scene);
+    uint32_t candidates = 0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        candidates += emitter_material(scene, dark, t) != NULL;
+    }
     if (candidates == 0) {
         return ALP_OK;
     }
@@ -87,16 +89,14 @@ alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        const alpi_material *m =
-            scene->triangle_usable[t] ? emissive_material(scene, scene->triangle_surface[t]) : NULL;
-        if (m != NULL) {
-            double radiance;
-            alpi_light_bound bound = bound_triangle(scene, t, m, &radiance);
-            if (bound.power > 0.0) { // an area of 1e-20 m² of 1e-300: nothing to draw
-                emitters->largest = fmax(emitters->largest, radiance);
-                bounds[emitters->count] = bound;
-                emitters->triangles[emitters->count++] = t;
-            }
+        const alpi_material *m = emitter_material(scene, dark, t);
+        double radiance = 0.0;
+        alpi_light_bound bound =
+            m == NULL ? (alpi_light_bound){0} : bound_triangle(scene, t, m, &radiance);
+        if (bound.power > 0.0) { // also not where area × radiance is below any number
+            emitters->largest = fmax(emitters->largest, radiance);
+            bounds[emitters->count] = bound;
+            emitters->triangles[emitters->count++] = t;
         }
     }
     alp_result result = ALP_OK;
@@ -104,6 +104,28 @@ alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters
         result = alpi_light_tree_create(scene->context, bounds, emitters->count, &emitters->tree);
     }
     alpi_release(scene->context, bounds);
+    return result;
+}
+
+alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters)
+{
+    *emitters = (alpi_emitters){0};
+    bool any = false;
+    for (uint32_t s = 0; s < scene->surface_count && !any; s++) {
+        any = emissive_material(scene, s) != NULL;
+    }
+    if (!any) {
+        return ALP_OK;
+    }
+    bool *dark = ALPI_NEW(scene->context, bool, scene->triangle_count);
+    if (dark == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = alpi_lighting_mark_dark(scene, dark);
+    if (result == ALP_OK) {
+        result = fill(scene, dark, emitters);
+    }
+    alpi_release(scene->context, dark);
     return result;
 }
 

@@ -13,9 +13,9 @@ typedef struct alpi_emitters {
     double largest;        // radiance, mean of the channels, of the brightest triangle
 } alpi_emitters;
 
-/// Usable triangles whose material emits. The power of each is its area times the mean of a few
-/// looks at its texture, and never 0 where the factor is not. What was made is released by
-/// alpi_emitters_clear, also after a failure.
+/// Usable triangles whose material emits, less those over black of its texture. The power of each
+/// is its area times the mean of a few looks at the texture, and never 0. What was made is released
+/// by alpi_emitters_clear, also after a failure.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters);
 void alpi_emitters_clear(alp_context *context, alpi_emitters *emitters);

@@ -216,6 +216,59 @@ static void a_texture_is_as_its_sum(void **state)
     finish(&s);
 }
 
+/// A picture 64 wide of which one texel shines, on 2 of 200 triangles: looks at 16 places miss it,
+/// and the 190 that are far from it are no lights.
+static void a_spark_is_found_and_darkness_left_out(void **state)
+{
+    (void)state;
+    enum { PIECES = 200, SIDE = 64 };
+    static vec3 strip[PIECES][3];
+    for (int i = 0; i < PIECES; i++) {
+        float x = (float)(i / 2) - 50.0f;
+        const vec3 a = {x, 4, -1}, b = {x + 1, 4, -1}, c = {x + 1, 4, 1}, d = {x, 4, 1};
+        const vec3 both[2][3] = {{a, b, c}, {a, c, d}};
+        memcpy(strip[i], both[i % 2], sizeof both[0]);
+    }
+    stage s = start((const vec3(*)[3])strip, PIECES, (vec3){100, 100, 100});
+    s.scene->images = ALPI_NEW(s.context, alp_image *, 1);
+    s.scene->image_count = 1;
+    ASSERT_OK(s.context,
+              alp_image_create(s.context, (alp_image_info){SIDE, SIDE, 3, ALP_COMPONENT_U8},
+                               &s.scene->images[0]));
+    memset(alp_image_bytes(s.scene->images[0]), 0, SIDE * SIDE * 3);
+    memset((uint8_t *)alp_image_bytes(s.scene->images[0]) + ((ptrdiff_t)33 * SIDE + 32) * 3, 255,
+           3);
+    s.scene->uvs[0] = alpi_allocate(s.context, (size_t)3 * PIECES, sizeof(float[2]));
+    double place[2] = {0}; // of the spark, on the strip
+    for (int i = 0; i < PIECES; i++) {
+        for (int k = 0; k < 3; k++) { // a block of 20 × 20 pieces of the picture to each
+            float *uv = s.scene->uvs[0][3 * i + k];
+            uv[0] = ((float)(i / 2 % 10) + strip[i][k].x - ((float)(i / 2) - 50.0f)) / 10.0f;
+            uv[1] = ((float)(i / 20) + 0.5f * (strip[i][k].z + 1.0f)) / 10.0f;
+        }
+    }
+    // Texel (32, 33): u = 32.5/64 is 5.078 pieces along, v = 33.5/64 is row 5, .234 of it.
+    place[0] = 55 - 50 + 0.078125;
+    place[1] = -1.0 + 2.0 * 0.234375;
+    s.scene->materials[0].emission_texture.image = 0;
+    alpi_lighting_destroy(s.context, s.lighting);
+    ASSERT_OK(s.context, alpi_lighting_create(s.scene, NULL, &s.lighting));
+    assert_in_range(alpi_lighting_emitter_count(s.lighting), 2, 10);
+    test_estimate e = test_light_estimate(s.lighting, ORIGIN, UP, 2000000, 11);
+    // A texel is a tent of area 1 texel: 10/64 m × 20/64 m, small enough to be in one place, to 1 %
+    // (its spread over the distance, squared).
+    double d2 = place[0] * place[0] + 16.0 + place[1] * place[1];
+    double expected = 100.0 * (10.0 / 64.0) * (20.0 / 64.0) * 16.0 / (d2 * d2);
+    ASSERT_NEAR(e.mean, expected, 4.0 * e.error + 0.01 * expected);
+    ASSERT_NEAR(e.error / expected, 0.0, 0.02);
+    // All of it black is dark.
+    memset(alp_image_bytes(s.scene->images[0]), 0, SIDE * SIDE * 3);
+    alpi_lighting_destroy(s.context, s.lighting);
+    ASSERT_OK(s.context, alpi_lighting_create(s.scene, NULL, &s.lighting));
+    assert_true(alpi_lighting_is_dark(s.lighting));
+    finish(&s);
+}
+
 /// 10,000 small squares in a ceiling, drawn by the hierarchy, against one lamp of the same outline
 /// and power: the same light, and not much more noise.
 static void ten_thousand_are_as_one(void **state)
@@ -261,6 +314,7 @@ int main(void)
         cmocka_unit_test(a_disk_of_64_corners),
         cmocka_unit_test(a_strong_and_a_weak_lamp),
         cmocka_unit_test(a_texture_is_as_its_sum),
+        cmocka_unit_test(a_spark_is_found_and_darkness_left_out),
         cmocka_unit_test(ten_thousand_are_as_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -222,13 +222,13 @@ static void the_file_s_suns_get_a_size(void **state)
     clear(context, scene, lighting);
 }
 
-/// 16 are asked one by one, 17 stand in a tree: the sum is the same.
+/// 16 are asked one by one, 17 stand in a tree, a directional one beside it: the sum is the same.
 static void many_lamps_add_up(void **state)
 {
     (void)state;
     enum { LIMIT = 10000 };
     static alpi_light lights[LIMIT];
-    const uint32_t counts[] = {2, 16, 17, LIMIT};
+    const uint32_t counts[] = {2, 16, 18, LIMIT};
     for (int k = 0; k < 4; k++) {
         alp_context *context = test_context(1);
         double expected = 0.0;
@@ -243,6 +243,8 @@ static void many_lamps_add_up(void **state)
                 lights[i].outer_cone = 1.0f;
             }
         }
+        lights[1].kind = ALPI_LIGHT_DIRECTIONAL;
+        lights[1].direction = (vec3){0, -1, 0};
         alp_scene *scene = light_scene(context, lights, counts[k]);
         alpi_lighting *lighting = make(scene, context, NULL);
         const vec3 normal = {0, 1, 0}, point = {0.5f, -2.0f, 0.3f};

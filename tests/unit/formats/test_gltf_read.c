@@ -335,15 +335,18 @@ static void lights(void **state)
         load(context, "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','name':'p',"
                       "'color':[1,0.5,0],'intensity':40,'range':7},{'type':'spot','intensity':2,"
                       "'spot':{'innerConeAngle':0.3,'outerConeAngle':0.6}},{'type':'spot',"
-                      "'spot':{'innerConeAngle':1,'outerConeAngle':0.5}},{'type':'directional'}]}},"
+                      "'spot':{'innerConeAngle':1,'outerConeAngle':0.5}},{'type':'directional'},"
+                      "{'type':'spot','range':2}]}},"
                       // 90° about x turns −z to +y
                       "'nodes':[{'translation':[0,5,0],'rotation':[0.70710678,0,0,0.70710678],"
                       "'scale':[3,3,3],'children':[1,2,3,4]},"
                       "{'extensions':{'KHR_lights_punctual':{'light':0}},'translation':[1,0,0]},"
                       "{'extensions':{'KHR_lights_punctual':{'light':1}}},"
                       "{'extensions':{'KHR_lights_punctual':{'light':2}}},"
-                      "{'extensions':{'KHR_lights_punctual':{'light':3}}}]");
-    assert_int_equal(scene->light_count, 4);
+                      "{'extensions':{'KHR_lights_punctual':{'light':3}}},"
+                      // uneven, mirrored scale: −z is +z, and no number changes with it
+                      "{'extensions':{'KHR_lights_punctual':{'light':4}},'scale':[2,0.5,-7]}]");
+    assert_int_equal(scene->light_count, 5);
     const alpi_light *light = scene->lights;
     assert_int_equal(light[0].kind, ALPI_LIGHT_POINT);
     assert_string_equal(light[0].name, "p");
@@ -361,6 +364,11 @@ static void lights(void **state)
     assert_int_equal(light[3].kind, ALPI_LIGHT_DIRECTIONAL);
     ASSERT_NEAR(light[3].intensity, 1, 0);
     assert_vec3(light[3].direction, 0, 1, 0);
+    assert_vec3(light[4].direction, 0, 0, 1);
+    ASSERT_NEAR(light[4].inner_cone, 0, 0); // what it does not say
+    ASSERT_NEAR(light[4].outer_cone, 0.785398163, 1e-7);
+    ASSERT_NEAR(light[4].color.z, 1, 0);
+    ASSERT_NEAR(light[4].range, 2, 0);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }

@@ -79,13 +79,15 @@ static void finish(stage *s)
     alp_context_destroy(s->context);
 }
 
-/// Densities of all directions and the probability of the lamp make 1.
+/// Densities of all directions and the probability of the lamp make 1, and each triangle is drawn
+/// as often as its densities say.
 static void densities_make_one(void **state)
 {
     (void)state;
     stage s = start_all();
-    double sum = 0.0, lamp = 0.0;
+    double sum = 0.0, lamp = 0.0, share[3] = {0}, drawn[3] = {0};
     enum { DRAWS = 100000 };
+    const double cell = 4.0 * ALPI_PI / (2.0 * BANDS * BANDS);
     for (int j = 0; j < BANDS; j++) {
         for (int i = 0; i < 2 * BANDS; i++) {
             vec3 direction = grid_direction(i, j);
@@ -93,11 +95,12 @@ static void densities_make_one(void **state)
             sum += (double)alpi_lighting_density(s.lighting, ORIGIN, UP, direction, ALPI_NONE);
             uint32_t t = hit(ORIGIN, direction);
             if (t != ALPI_NONE) {
-                sum += (double)alpi_lighting_density(s.lighting, ORIGIN, UP, direction, t);
+                share[t] +=
+                    cell * (double)alpi_lighting_density(s.lighting, ORIGIN, UP, direction, t);
             }
         }
     }
-    sum *= 4.0 * ALPI_PI / (2.0 * BANDS * BANDS);
+    sum = sum * cell + share[0] + share[1] + share[2];
     for (uint32_t i = 0; i < DRAWS; i++) {
         alpi_light_sample sample;
         test_draw draw = test_draw_at(1, i);
@@ -105,6 +108,13 @@ static void densities_make_one(void **state)
         if (lit && sample.kind == ALPI_LIGHT_CLASS_PUNCTUAL) {
             lamp = (double)sample.density;
         }
+        if (sample.triangle != ALPI_NONE) {
+            drawn[sample.triangle] += 1.0 / DRAWS;
+        }
+    }
+    for (int t = 0; t < 3; t++) {
+        assert_true(share[t] > 0.005);
+        ASSERT_NEAR(drawn[t], share[t], 4.0 * sqrt(share[t] / DRAWS) + 5e-4); // cells, see below
     }
     assert_true(lamp > 0.05 && lamp < 0.5);
     // Cells at the edges of triangles and disk: a length of 20 rad of a million cells of 4e-3.
