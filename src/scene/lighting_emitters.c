@@ -41,9 +41,9 @@ static double mean_radiance(const alp_scene *scene, uint32_t triangle, const alp
         return full;
     }
     for (int i = 0; i < LOOKS_ACROSS * LOOKS_ACROSS; i++) {
-        float x = ((float)(i % LOOKS_ACROSS) + 0.5f) / LOOKS_ACROSS;
-        float y = ((float)(i / LOOKS_ACROSS) + 0.5f) / LOOKS_ACROSS;
-        float root = sqrtf(x);
+        int column = i % LOOKS_ACROSS, row = i / LOOKS_ACROSS;
+        float root = sqrtf(((float)column + 0.5f) / LOOKS_ACROSS);
+        float y = ((float)row + 0.5f) / LOOKS_ACROSS;
         sum += channel_mean(
             alpi_surface_emission(scene, triangle, root * (1.0f - y), root * y, normal));
     }
@@ -90,9 +90,11 @@ static alp_result fill(const alp_scene *scene, const bool *dark, alpi_emitters *
     }
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         const alpi_material *m = emitter_material(scene, dark, t);
-        double radiance = 0.0;
-        alpi_light_bound bound =
-            m == NULL ? (alpi_light_bound){0} : bound_triangle(scene, t, m, &radiance);
+        if (m == NULL) {
+            continue;
+        }
+        double radiance;
+        alpi_light_bound bound = bound_triangle(scene, t, m, &radiance);
         if (bound.power > 0.0) { // also not where area × radiance is below any number
             emitters->largest = fmax(emitters->largest, radiance);
             bounds[emitters->count] = bound;
