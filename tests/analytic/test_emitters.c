@@ -289,8 +289,9 @@ static void ten_thousand_are_as_one(void **state)
                               {{-2, 0, -2}, {2, 0, 2}, {-2, 0, 2}}};
     stage many = start((const vec3(*)[3])small, COUNT, (vec3){4, 4, 4});
     stage one = start(large, 2, (vec3){1, 1, 1});
-    const vec3 points[] = {{0, -4, 0}, {1, -2, 0.5f}, {5, -3, 1}, {0.3f, -1, 0.2f}};
-    for (int k = 0; k < 4; k++) {
+    const vec3 points[] = {{0, -4, 0},       {1, -2, 0.5f},       {5, -3, 1},
+                           {0.3f, -1, 0.2f}, {0.3f, -0.5f, 0.2f}, {1.3f, -0.2f, 0.2f}};
+    for (int k = 0; k < 6; k++) {
         double expected = 4.0 * closed_form((const vec3(*)[3])small, COUNT, points[k], UP);
         test_estimate m = test_light_estimate(many.lighting, points[k], UP, 100000, 9);
         test_estimate o = test_light_estimate(one.lighting, points[k], UP, 100000, 9);
