@@ -10,7 +10,7 @@
 
 typedef enum alpi_light_class {
     ALPI_LIGHT_CLASS_PUNCTUAL, // point, spot, and directional without size: never hit by chance
-    ALPI_LIGHT_CLASS_SUN,      // directional with a size
+    ALPI_LIGHT_CLASS_SUN,      // directional with a size (below 2e-5 rad it is a point)
     ALPI_LIGHT_CLASS_SURFACE,  // emissive triangles
     ALPI_LIGHT_CLASS_SKY,
     ALPI_LIGHT_CLASS_COUNT
@@ -18,7 +18,8 @@ typedef enum alpi_light_class {
 
 typedef struct alpi_lighting alpi_lighting; // immutable
 
-/// @param options checked here
+/// @param scene   borrowed: it must live as long as the lighting
+/// @param options checked here; NULL = defaults
 /// @return ALP_OK; INVALID_ARGUMENT (named); OUT_OF_MEMORY
 alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
                                 alpi_lighting **lighting);
@@ -31,28 +32,35 @@ typedef struct alpi_light_sample {
     alpi_light_class kind;
     vec3 direction;    // unit, from the point
     float distance;    // metres to the light, INFINITY for sun, directional and sky
-    vec3 light;        // radiance that comes from there; PUNCTUAL: E on a surface that faces it
-    float density;     // of drawing this, per steradian; PUNCTUAL: the probability of the light
+    vec3 light;        // radiance that comes from there; PUNCTUAL: E on a surface that faces it.
+                       // SUN and SKY: of sky and suns together, whichever was drawn
+    float density;     // of drawing this, per steradian: what alpi_lighting_density says of it;
+                       // PUNCTUAL: the probability of the light
     uint32_t triangle; // of SURFACE, else ALPI_NONE
 } alpi_light_sample;
 
 /// Draws one light and a direction to it. Unshadowed: the caller asks the tracer, and multiplies
 /// light · cosθ / density.
 /// @param normal the side that gathers   @param pick [0,1)   @param u [0,1)²
-/// @return false: nothing here can give light (a closed lid, a light behind): counts as 0
+/// @return false: nothing here can give light (a closed lid, a light behind): counts as 0.
+///         *sample then says no more than the kind and triangle that were asked
+/// Cost: a walk down the hierarchy of emitters, and of point and spot lights beyond 16; each
+/// directional light is asked. Draws are functions of what is passed in alone.
 bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal, float pick,
                           vec2 u, alpi_light_sample *sample);
 
 /// Density, per steradian, with which alpi_lighting_sample draws from `point` a direction that hits
 /// emissive triangle `triangle` (any other triangle: 0), or, ALPI_NONE, leaves the scene (sun and
-/// sky together).
+/// sky together). Over all directions and triangles it makes 1, less the probability of PUNCTUAL
+/// lights and of ways down the hierarchy that end before a light.
 float alpi_lighting_density(const alpi_lighting *lighting, vec3 point, vec3 normal, vec3 direction,
                             uint32_t triangle);
 
 /// Radiance of sky and sun disks in a direction that leaves the scene.
 vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction);
 
-/// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first.
+/// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first, then the sun of
+/// the options. A light of the file with a value that is none keeps its place, with intensity 0.
 uint32_t alpi_lighting_light_count(const alpi_lighting *lighting);
 const alpi_light *alpi_lighting_light(const alpi_lighting *lighting, uint32_t index);
 /// What light `index` gives at a point: direction, distance, light and density as above, drawn in
