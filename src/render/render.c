@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "maps/lightmap.h"
 #include "scene/select.h"
+#include "transport/hit.h"
 #include "transport/occlusion.h"
 
 #include <math.h>
@@ -85,35 +86,6 @@ static alp_result place_camera(render_job *job)
     return ALP_OK;
 }
 
-/// The point of a hit, on the side that is seen.
-static alpi_receiver_point place_hit(const alp_scene *scene, const alpi_hits *hits, int lane,
-                                     vec3 direction)
-{
-    const uint32_t triangle = hits->triangle[lane];
-    const float b1 = hits->b1[lane], b2 = hits->b2[lane], b0 = 1.0f - b1 - b2;
-    const float weight[3] = {b0, b1, b2};
-    vec3 c[3], shading = {0.0f, 0.0f, 0.0f};
-    alpi_triangle_corners(scene, triangle, c);
-    alpi_receiver_point p;
-    p.position =
-        vec3_add(vec3_add(vec3_scale(c[0], b0), vec3_scale(c[1], b1)), vec3_scale(c[2], b2));
-    p.geometric_normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-    for (int k = 0; k < 3; k++) {
-        shading =
-            vec3_mad(shading, weight[k], vec3_load(scene->normals[scene->triangles[triangle][k]]));
-    }
-    p.shading_normal = vec3_normalize_or(shading, p.geometric_normal);
-    if (vec3_dot(p.shading_normal, p.geometric_normal) <= 0.0f) {
-        p.shading_normal = p.geometric_normal;
-    }
-    if (vec3_dot(direction, p.geometric_normal) > 0.0f) { // seen from behind
-        p.geometric_normal = vec3_scale(p.geometric_normal, -1.0f);
-        p.shading_normal = vec3_scale(p.shading_normal, -1.0f);
-    }
-    p.offset = alpi_receiver_offset(p.position, c);
-    return p;
-}
-
 /// What needs no rays. @return false: only rays can tell
 static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int lane, float rgb[3])
 {
@@ -143,7 +115,7 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
     int one = 0;       // any of them
     for (int i = 0; i < ALPI_PACKET; i++) {
         if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, rgb[i])) {
-            points[i] = place_hit(job->scene, hits, i, directions[i]);
+            points[i] = alpi_hit_point(job->scene, hits, i, directions[i], NULL);
             keys[i] = first_key + (uint64_t)i;
             dark |= 1u << i;
             one = i;
