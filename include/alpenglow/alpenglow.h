@@ -8,6 +8,7 @@
 #include <alpenglow/context.h>
 #include <alpenglow/display.h>
 #include <alpenglow/image.h>
+#include <alpenglow/light.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/render.h>
 #include <alpenglow/result.h>
