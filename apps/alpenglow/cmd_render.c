@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
 #include "interrupt.h"
+#include "lighting.h"
 #include "output.h"
 #include "session.h"
 
@@ -90,6 +91,41 @@ static int read_camera(const char *text, alp_render_options *o)
     return EXIT_DONE;
 }
 
+/// Light that a method does not look at is refused and never ignored.
+static int check_light(const command_line *a, const alp_render_options *o)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+        bool of_hemisphere;
+    } of_light[] = {{OPTION_BOUNCES, "--bounces", false},
+                    {OPTION_SUN, "--sun", false},
+                    {OPTION_SUN_SIZE, "--sun-size", false},
+                    {OPTION_SKY_TURN, "--sky-turn", false},
+                    {OPTION_SKY, "--sky", true},
+                    {OPTION_SKY_STRENGTH, "--sky-strength", true}};
+    for (size_t i = 0; i < sizeof of_light / sizeof *of_light; i++) {
+        const bool read = o->method == ALP_RENDER_REFERENCE ||
+                          (o->method == ALP_RENDER_HEMISPHERE && of_light[i].of_hemisphere);
+        if (!read && a->values[of_light[i].id].given) {
+            return usage_error(COMMAND_RENDER, "%s: has no meaning with --with %s",
+                               of_light[i].name, a->values[OPTION_WITH].text);
+        }
+    }
+    return EXIT_DONE;
+}
+
+/// The ambient light of two half skies has no picture in it.
+static int check_hemisphere(const alp_render_options *o)
+{
+    const alp_sky_kind kind = o->lighting.sky.kind;
+    if (o->method == ALP_RENDER_HEMISPHERE && (kind == ALP_SKY_IMAGE || kind == ALP_SKY_CLEAR)) {
+        return usage_error(COMMAND_RENDER,
+                           "--with hemisphere: takes a --sky of one or two colours");
+    }
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -102,7 +138,8 @@ static int read_options(const command_line *a, alp_render_options *o)
         return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png or .exr", output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "by which method? give --with ao or --with constant");
+        return usage_error(COMMAND_RENDER, "by which method? give --with reference, ao, constant "
+                                           "or hemisphere");
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
@@ -111,7 +148,11 @@ static int read_options(const command_line *a, alp_render_options *o)
     if (code == EXIT_DONE) {
         code = read_camera(a->values[OPTION_CAMERA].text, o);
     }
-    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? check_light(a, o) : code;
+    o->bounces = lighting_bounces(a);
+    code = code == EXIT_DONE ? lighting_read(a, &o->lighting) : code;
+    return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
 /// A camera that was asked for by number must be there.
@@ -184,9 +225,14 @@ int command_render(const command_line *a)
     if (code == EXIT_DONE) {
         code = check_camera(&s, a, &options);
     }
+    alp_image *sky = NULL;
+    if (code == EXIT_DONE) {
+        code = lighting_load_sky(&s, a, &options.lighting, &sky);
+    }
     if (code == EXIT_DONE) {
         code = render(&s, a, &options);
     }
+    alp_image_destroy(sky);
     session_close(&s);
     return code;
 }

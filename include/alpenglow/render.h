@@ -21,9 +21,6 @@ typedef enum alp_render_method {
     ALP_RENDER_REFERENCE = 3   ///< path tracing: all light of the scene and of `lighting`
 } alp_render_method;
 
-/// `bounces` of paths that go on as long as they bring light.
-#define ALP_BOUNCES_CONVERGE UINT32_MAX
-
 typedef struct alp_render_options {
     size_t struct_size;
     alp_render_method method;

@@ -15,6 +15,9 @@ alp_bake_options alp_bake_options_default(void)
     return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
                               .atlas = alp_atlas_options_default(),
                               .occlusion = alp_occlusion_options_default(),
+                              .light = {.lighting = alp_lighting_options_default(),
+                                        .bounces = ALP_BOUNCES_CONVERGE,
+                                        .samples = 256},
                               .maps = ALP_MAP_AO,
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }

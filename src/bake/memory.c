@@ -20,8 +20,9 @@ enum {
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps)
 {
     const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
-    const uint64_t sides =
-        ((maps & ALP_MAP_BENT) != 0 ? 1u : 0u) + ((maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u);
+    const uint64_t sides = ((maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+                           ((maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
+                           ((maps & ALP_MAP_LIGHT) != 0 ? 2u : 0u); // and its errors
     const uint64_t of_texel = BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides;
     const uint64_t rays = (of_texel + SIDE_BYTES_OF_SUMS * sides) * atlas->texels;
     const uint64_t store =

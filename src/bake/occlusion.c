@@ -71,8 +71,10 @@ static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map
     r->ao_p99_error = map->p99;
     r->cut_off = map->cut_off;
     r->ao_mean = area_mean(&job->lightmap->texels, lattice);
-    alpi_bake_warn_of_darkness(job);
-    warn_of_error(job);
+    if (alpi_bake_wants_occlusion(job)) {
+        alpi_bake_warn_of_darkness(job);
+        warn_of_error(job);
+    }
 }
 
 /// Options of the map that are the same for all objects.
@@ -113,6 +115,19 @@ static bool is_in_time(void *user, const alp_progress *progress)
     return alpi_seconds() < o->deadline;
 }
 
+/// Every texel is open where nobody asks for occlusion.
+static alp_result skip_occlusion(const uint32_t *order, uint32_t count, alpi_lattice *lattice,
+                                 alpi_occlusion_map_report *report)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        lattice->states[order[i]] = ALPI_TEXEL_TRACED;
+        lattice->values[order[i]] = 1.0f;
+    }
+    *report =
+        (alpi_occlusion_map_report){.traced = count, .relative = (double)NAN, .p99 = (double)NAN};
+    return ALP_OK;
+}
+
 /// Looks for texels of an object that are inside other geometry, then gathers the others.
 static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                const alpi_occlusion_setup *setup,
@@ -141,11 +156,16 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (order != NULL) {
         const uint32_t count = drop(object, validity.dropped, order);
-        result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
-                                    job->lightmap->errors, report);
+        result = alpi_bake_wants_occlusion(job)
+                     ? alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
+                                          job->lightmap->errors, report)
+                     : skip_occlusion(order, count, lattice, report);
         if (result == ALP_OK) {
             result = alpi_bake_obscurance(job, setup, &receivers, order, count, report->samples,
                                           &progress);
+        }
+        if (result == ALP_OK) {
+            result = alpi_bake_irradiance(job, setup->tracer, &receivers, order, count, &progress);
         }
     }
     alpi_release(job->context, order);

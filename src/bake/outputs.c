@@ -21,6 +21,8 @@ typedef enum map_kind {
     MAP_BENT,
     MAP_OBSCURANCE_PNG,
     MAP_OBSCURANCE,
+    MAP_IRRADIANCE,
+    MAP_IRRADIANCE_ERROR,
     MAP_COUNT
 } map_kind;
 
@@ -34,7 +36,9 @@ static const struct {
                           [MAP_BENT_PNG] = {ALP_MAP_BENT, "bent", ".png"},
                           [MAP_BENT] = {ALP_MAP_BENT, "bent", ".exr"},
                           [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
-                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"}};
+                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"},
+                          [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
+                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -239,10 +243,12 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                              encoded_page *out)
 {
     const alp_lightmap *l = job->lightmap;
-    float *const *pages = kind == MAP_AO           ? l->pages
-                          : kind == MAP_BENT       ? l->bent_pages
-                          : kind == MAP_OBSCURANCE ? l->obscurance_pages
-                                                   : NULL;
+    float *const *pages = kind == MAP_AO                 ? l->pages
+                          : kind == MAP_BENT             ? l->bent_pages
+                          : kind == MAP_OBSCURANCE       ? l->obscurance_pages
+                          : kind == MAP_IRRADIANCE       ? l->irradiance_pages
+                          : kind == MAP_IRRADIANCE_ERROR ? l->irradiance_error_pages
+                                                         : NULL;
     if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,
                                 .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
