@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a surface is made of at a point: texture coordinates, alpha, albedo.
+// What a surface is made of at a point: texture coordinates, alpha, albedo, emission.
+#include "scene/lighting.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -149,4 +150,32 @@ bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle)
 {
     uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
     return material != ALPI_NONE && scene->materials[material].double_sided;
+}
+
+/// Radiance that sums of many can hold: what a scene's emission is clamped to as well. NaN is none.
+static float bounded_radiance(float value)
+{
+    const float limit = 1e20f;
+    return value > 0.0f ? fminf(value, limit) : 0.0f;
+}
+
+vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, float b2,
+                           vec3 direction)
+{
+    const vec3 dark = {0.0f, 0.0f, 0.0f};
+    const alpi_material *m = material_of(scene, triangle);
+    if (m == NULL || !(m->emission[0] > 0.0f || m->emission[1] > 0.0f || m->emission[2] > 0.0f)) {
+        return dark;
+    }
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    bool behind = !(vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], dark), direction) > 0.0f);
+    if ((behind && !m->double_sided) || alpi_surface_is_cut(scene, triangle, b1, b2)) {
+        return dark;
+    }
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    read_texture(scene, &m->emission_texture, (surface_point){triangle, b1, b2}, true, texel);
+    return (vec3){bounded_radiance(m->emission[0] * texel[0]),
+                  bounded_radiance(m->emission[1] * texel[1]),
+                  bounded_radiance(m->emission[2] * texel[2])};
 }

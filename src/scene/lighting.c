@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+// All light that falls on a scene: which there is, and draws of one of it.
+//
+// A draw asks one of four classes, in proportion to what each may give at the point, and within it
+// one light. Sky and suns are seen in the same directions, so that a direction to either counts all
+// that comes from there, over the density of drawing it in any way (the balance heuristic of Eric
+// Veach, Leonidas Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995).
+#include "scene/lighting.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "scene/lighting_emitters.h"
+#include "scene/lighting_options.h"
+#include "scene/lighting_punctual.h"
+#include "scene/lighting_suns.h"
+#include "scene/triangle_light.h"
+
+#include <string.h>
+
+struct alpi_lighting {
+    const alp_scene *scene;
+    alpi_light *lights; // file first, then the sun of the options; names of the file's are borrowed
+    uint32_t light_count;
+    char *sun_name;
+    alpi_punctual punctual;
+    alpi_sun *suns;
+    uint32_t sun_count;
+    alpi_emitters emitters;
+    alpi_sky *sky;      // may be NULL
+    double sky_average; // π × mean radiance, mean of the channels
+};
+
+static double channel_mean(vec3 v)
+{
+    return ((double)v.x + (double)v.y + (double)v.z) / 3.0;
+}
+
+static bool is_lit(vec3 v)
+{
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
+// --- making --------------------------------------------------------------------------------------
+
+static bool is_strength(float value)
+{
+    return value >= 0.0f && isfinite(value);
+}
+
+/// A scene made by hand may hold what readers refuse.
+static bool light_is_sound(const alpi_light *light)
+{
+    bool aimed =
+        light->kind == ALPI_LIGHT_POINT || fabsf(vec3_length(light->direction) - 1) < 1e-3f;
+    bool placed = light->kind == ALPI_LIGHT_DIRECTIONAL || vec3_is_finite(light->position);
+    return aimed && placed && is_strength(light->intensity) && is_strength(light->color.x) &&
+           is_strength(light->color.y) && is_strength(light->color.z);
+}
+
+static alp_result add_sun(alpi_lighting *lighting, const alp_sun_options *sun)
+{
+    if (!(sun->illuminance > 0.0f)) {
+        return ALP_OK;
+    }
+    lighting->sun_name = alpi_copy_string(lighting->scene->context, "sun");
+    if (lighting->sun_name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    lighting->lights[lighting->light_count++] =
+        (alpi_light){.name = lighting->sun_name,
+                     .kind = ALPI_LIGHT_DIRECTIONAL,
+                     .color = vec3_load(sun->color),
+                     .intensity = sun->illuminance,
+                     .direction = vec3_scale(alpi_sun_direction(sun), -1.0f),
+                     .range = INFINITY,
+                     .size = sun->size};
+    return ALP_OK;
+}
+
+static alp_result gather_lights(alpi_lighting *lighting, const alp_lighting_options *options)
+{
+    const alp_scene *scene = lighting->scene;
+    ALPI_TRY_NEW(scene->context, lighting->lights, (size_t)scene->light_count + 1);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        alpi_light *light = &lighting->lights[i];
+        *light = scene->lights[i];
+        if (light->kind == ALPI_LIGHT_DIRECTIONAL && !(light->size > 0.0f)) {
+            light->size = options->file_sun_size;
+        }
+        if (!light_is_sound(light)) {
+            alpi_warn(scene->context, "light", light->name,
+                      "light %u is left out: a value of it is negative or no number", i);
+            light->intensity = 0.0f;
+        }
+    }
+    lighting->light_count = scene->light_count;
+    return add_sun(lighting, &options->sun);
+}
+
+/// Tells disks from points.
+static alp_result sort_lights(alpi_lighting *lighting)
+{
+    alp_context *context = lighting->scene->context;
+    ALPI_TRY_NEW(context, lighting->suns, lighting->light_count);
+    uint32_t *points = ALPI_NEW(context, uint32_t, lighting->light_count);
+    uint32_t count = 0;
+    if (points == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < lighting->light_count; i++) {
+        alpi_light *light = &lighting->lights[i];
+        bool disk = light->kind == ALPI_LIGHT_DIRECTIONAL && light->size >= ALPI_SUN_LEAST_SIZE;
+        light->size = disk ? light->size : 0.0f;
+        if (!(light->intensity > 0.0f && is_lit(light->color))) {
+            continue;
+        }
+        if (disk) {
+            lighting->suns[lighting->sun_count++] = alpi_sun_from(light, i);
+        } else {
+            points[count++] = i;
+        }
+    }
+    alp_result result =
+        alpi_punctual_collect(context, lighting->lights, points, count, &lighting->punctual);
+    alpi_release(context, points);
+    return result;
+}
+
+static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
+{
+    alp_context *context = lighting->scene->context;
+    ALP_TRY(gather_lights(lighting, options));
+    ALP_TRY(sort_lights(lighting));
+    ALP_TRY(alpi_emitters_collect(lighting->scene, &lighting->emitters));
+    ALP_TRY(
+        alpi_sky_create(context, &options->sky, alpi_sun_direction(&options->sun), &lighting->sky));
+    if (lighting->sky != NULL) {
+        lighting->sky_average = ALPI_PI * channel_mean(alpi_sky_mean(lighting->sky));
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
+                                alpi_lighting **lighting)
+{
+    *lighting = NULL;
+    const alp_lighting_options chosen = options ? *options : alp_lighting_options_default();
+    ALP_TRY(alpi_lighting_options_check(scene->context, &chosen));
+    alpi_lighting *made = ALPI_NEW(scene->context, alpi_lighting, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    made->scene = scene;
+    alp_result result = fill(made, &chosen);
+    if (result != ALP_OK) {
+        alpi_lighting_destroy(scene->context, made);
+        return result;
+    }
+    *lighting = made;
+    return ALP_OK;
+}
+
+void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting)
+{
+    if (lighting == NULL) {
+        return;
+    }
+    alpi_sky_destroy(context, lighting->sky);
+    alpi_emitters_clear(context, &lighting->emitters);
+    alpi_punctual_clear(context, &lighting->punctual);
+    alpi_release(context, lighting->suns);
+    alpi_release(context, lighting->lights);
+    alpi_release(context, lighting->sun_name);
+    alpi_release(context, lighting);
+}
+
+// --- questions -----------------------------------------------------------------------------------
+
+bool alpi_lighting_is_dark(const alpi_lighting *lighting)
+{
+    const alpi_punctual *p = &lighting->punctual;
+    return p->listed + p->placed_count + lighting->sun_count + lighting->emitters.count == 0 &&
+           lighting->sky == NULL;
+}
+
+uint32_t alpi_lighting_light_count(const alpi_lighting *lighting)
+{
+    return lighting->light_count;
+}
+
+const alpi_light *alpi_lighting_light(const alpi_lighting *lighting, uint32_t index)
+{
+    return &lighting->lights[index];
+}
+
+const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting)
+{
+    return lighting->sky;
+}
+
+uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting)
+{
+    return lighting->emitters.count;
+}
+
+vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction)
+{
+    vec3 sum = {0.0f, 0.0f, 0.0f};
+    if (lighting->sky != NULL) {
+        sum = alpi_sky_radiance(lighting->sky, direction);
+    }
+    for (uint32_t i = 0; i < lighting->sun_count; i++) {
+        if (alpi_sun_holds(&lighting->suns[i], direction)) {
+            sum = vec3_add(sum, lighting->suns[i].radiance);
+        }
+    }
+    return sum;
+}
+
+bool alpi_lighting_sample_light(const alpi_lighting *lighting, uint32_t index, vec3 point, vec2 u,
+                                alpi_light_sample *sample)
+{
+    const alpi_light *light = &lighting->lights[index];
+    *sample = (alpi_light_sample){.kind = ALPI_LIGHT_CLASS_PUNCTUAL,
+                                  .distance = INFINITY,
+                                  .density = 1.0f,
+                                  .triangle = ALPI_NONE};
+    if (light->size > 0.0f) {
+        alpi_sun sun = alpi_sun_from(light, index);
+        sample->kind = ALPI_LIGHT_CLASS_SUN;
+        sample->direction = alpi_sun_sample(&sun, u);
+        sample->light = sun.radiance;
+        sample->density = (float)alpi_sun_density(&sun);
+        return is_lit(sun.radiance);
+    }
+    alpi_punctual_light at;
+    bool lit = alpi_punctual_at(light, point, &at);
+    sample->direction = at.direction;
+    sample->distance = at.distance;
+    sample->light = at.light;
+    return lit;
+}
+
+// --- draws ---------------------------------------------------------------------------------------
+
+/// Where light is asked for, and the probability of each class there.
+typedef struct place {
+    const alpi_lighting *lighting;
+    vec3 point, normal;
+    double weight[ALPI_LIGHT_CLASS_COUNT]; // sum 1, or all 0
+    double sun_sum;                        // importance of all suns
+} place;
+
+/// Of the emissive triangles together, not more than a sky of the brightest one would give: their
+/// hierarchy knows no bound for a point among them.
+static double emitters_importance(const alpi_emitters *emitters, vec3 point, vec3 normal)
+{
+    return emitters->tree == NULL ? 0.0
+                                  : fmin(alpi_light_tree_importance(emitters->tree, point, normal),
+                                         ALPI_PI * emitters->largest);
+}
+
+static place place_at(const alpi_lighting *lighting, vec3 point, vec3 normal)
+{
+    place p = {.lighting = lighting, .point = point, .normal = normal};
+    for (uint32_t i = 0; i < lighting->sun_count; i++) {
+        p.sun_sum += alpi_sun_importance(&lighting->suns[i], normal);
+    }
+    p.weight[ALPI_LIGHT_CLASS_PUNCTUAL] =
+        alpi_punctual_importance(&lighting->punctual, point, normal);
+    p.weight[ALPI_LIGHT_CLASS_SUN] = p.sun_sum;
+    p.weight[ALPI_LIGHT_CLASS_SURFACE] = emitters_importance(&lighting->emitters, point, normal);
+    p.weight[ALPI_LIGHT_CLASS_SKY] = lighting->sky_average;
+    double sum = 0.0;
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        sum += p.weight[i];
+    }
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        p.weight[i] = sum > 0.0 && isfinite(sum) ? p.weight[i] / sum : 0.0;
+    }
+    return p;
+}
+
+static double escape_density(const place *p, vec3 direction)
+{
+    const alpi_lighting *lighting = p->lighting;
+    double density = 0.0;
+    for (uint32_t i = 0; p->sun_sum > 0.0 && i < lighting->sun_count; i++) {
+        const alpi_sun *sun = &lighting->suns[i];
+        if (alpi_sun_holds(sun, direction)) {
+            density += p->weight[ALPI_LIGHT_CLASS_SUN] * alpi_sun_density(sun) *
+                       (alpi_sun_importance(sun, p->normal) / p->sun_sum);
+        }
+    }
+    if (lighting->sky != NULL) {
+        density +=
+            p->weight[ALPI_LIGHT_CLASS_SKY] * (double)alpi_sky_density(lighting->sky, direction);
+    }
+    return density;
+}
+
+static double surface_density(const place *p, uint32_t triangle, vec3 direction)
+{
+    const alpi_lighting *lighting = p->lighting;
+    uint32_t emitter = alpi_emitters_find(&lighting->emitters, triangle);
+    if (emitter == ALPI_NONE || !(p->weight[ALPI_LIGHT_CLASS_SURFACE] > 0.0)) {
+        return 0.0;
+    }
+    vec3 corner[3];
+    alpi_triangle_corners(lighting->scene, triangle, corner);
+    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
+    return p->weight[ALPI_LIGHT_CLASS_SURFACE] *
+           alpi_light_tree_probability(lighting->emitters.tree, p->point, p->normal, emitter) *
+           alpi_triangle_density(&view, double3_from(direction));
+}
+
+float alpi_lighting_density(const alpi_lighting *lighting, vec3 point, vec3 normal, vec3 direction,
+                            uint32_t triangle)
+{
+    place p = place_at(lighting, point, normal);
+    return (float)(triangle == ALPI_NONE ? escape_density(&p, direction)
+                                         : surface_density(&p, triangle, direction));
+}
+
+static bool sample_punctual(const place *p, double pick, alpi_light_sample *sample)
+{
+    uint32_t light = 0;
+    double part = alpi_punctual_sample(&p->lighting->punctual, p->point, p->normal, pick, &light);
+    alpi_punctual_light at;
+    if (!(part > 0.0) || !alpi_punctual_at(&p->lighting->lights[light], p->point, &at)) {
+        return false;
+    }
+    sample->direction = at.direction;
+    sample->distance = at.distance;
+    sample->light = at.light;
+    sample->density = (float)(p->weight[ALPI_LIGHT_CLASS_PUNCTUAL] * part);
+    return true;
+}
+
+static bool sample_surface(const place *p, double pick, vec2 u, alpi_light_sample *sample)
+{
+    const alpi_emitters *emitters = &p->lighting->emitters;
+    uint32_t emitter = 0;
+    double part = alpi_light_tree_sample(emitters->tree, p->point, p->normal, pick, &emitter);
+    if (!(part > 0.0)) {
+        return false;
+    }
+    uint32_t triangle = emitters->triangles[emitter];
+    vec3 corner[3];
+    alpi_triangle_corners(p->lighting->scene, triangle, corner);
+    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
+    // All that follows is of the direction as a float, so that alpi_lighting_density finds it
+    // again.
+    sample->direction = double3_to_vec3(alpi_triangle_sample(&view, u));
+    double3 direction = double3_from(sample->direction);
+    alpi_triangle_hit hit = alpi_triangle_hit_at(&view, direction);
+    sample->triangle = triangle;
+    sample->distance = (float)hit.distance;
+    sample->light = alpi_surface_emission(p->lighting->scene, triangle, hit.b1, hit.b2,
+                                          vec3_scale(sample->direction, -1.0f));
+    sample->density = (float)(p->weight[ALPI_LIGHT_CLASS_SURFACE] * part *
+                              alpi_triangle_density(&view, direction));
+    return true;
+}
+
+static bool sample_escape(const place *p, double pick, vec2 u, alpi_light_sample *sample)
+{
+    const alpi_lighting *lighting = p->lighting;
+    if (sample->kind == ALPI_LIGHT_CLASS_SKY) {
+        float density;
+        sample->direction = alpi_sky_sample(lighting->sky, u, &density);
+    } else {
+        double rest = pick * p->sun_sum;
+        const alpi_sun *sun = NULL; // the last one that gives light, if rounding leads past it
+        for (uint32_t i = 0; i < lighting->sun_count && rest >= 0.0; i++) {
+            double one = alpi_sun_importance(&lighting->suns[i], p->normal);
+            sun = one > 0.0 ? &lighting->suns[i] : sun;
+            rest -= one;
+        }
+        if (sun == NULL) {
+            return false;
+        }
+        sample->direction = alpi_sun_sample(sun, u);
+    }
+    sample->light = alpi_lighting_escaped(lighting, sample->direction);
+    sample->density = (float)escape_density(p, sample->direction);
+    return true;
+}
+
+/// `pick` with more digits: 24 of them cannot tell 2^24 lights apart, nor find one of less than a
+/// 2^-24th. The new ones are a hash of u, which they leave as even as it was.
+static double finer(float pick, vec2 u)
+{
+    uint32_t x, y;
+    memcpy(&x, &u.x, sizeof x);
+    memcpy(&y, &u.y, sizeof y);
+    return (double)pick + (double)alpi_hash32(alpi_hash32(x) ^ y) * 0x1p-32 * 0x1p-24;
+}
+
+bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal, float pick,
+                          vec2 u, alpi_light_sample *sample)
+{
+    place p = place_at(lighting, point, normal);
+    double rest = finer(pick, u);
+    int kind = -1;
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        if (p.weight[i] > 0.0) {
+            kind = i;
+            if (rest < p.weight[i]) {
+                break;
+            }
+            rest -= p.weight[i];
+        }
+    }
+    *sample = (alpi_light_sample){.distance = INFINITY, .triangle = ALPI_NONE};
+    if (kind < 0) {
+        return false;
+    }
+    sample->kind = (alpi_light_class)kind;
+    rest = fmin(rest / p.weight[kind], 1.0 - 0x1p-53);
+    bool drawn = sample->kind == ALPI_LIGHT_CLASS_PUNCTUAL  ? sample_punctual(&p, rest, sample)
+                 : sample->kind == ALPI_LIGHT_CLASS_SURFACE ? sample_surface(&p, rest, u, sample)
+                                                            : sample_escape(&p, rest, u, sample);
+    return drawn && sample->density > 0.0f && isfinite(sample->density) && is_lit(sample->light) &&
+           vec3_dot(sample->direction, normal) > 0.0f;
+}

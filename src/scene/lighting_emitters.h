@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The emissive triangles of a scene, and draws of one by the hierarchy over them.
+#ifndef ALPI_SCENE_LIGHTING_EMITTERS_H
+#define ALPI_SCENE_LIGHTING_EMITTERS_H
+
+#include "scene/light_tree.h"
+#include "scene/scene.h"
+
+typedef struct alpi_emitters {
+    uint32_t count;
+    uint32_t *triangles;   // [count], ascending
+    alpi_light_tree *tree; // NULL where there are none
+    double largest;        // radiance, mean of the channels, of the brightest triangle
+} alpi_emitters;
+
+/// Usable triangles whose material emits. The power of each is its area times the mean of a few
+/// looks at its texture, and never 0 where the factor is not. What was made is released by
+/// alpi_emitters_clear, also after a failure.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters);
+void alpi_emitters_clear(alp_context *context, alpi_emitters *emitters);
+
+/// Place of a triangle in `triangles`, ALPI_NONE if it is none of them.
+uint32_t alpi_emitters_find(const alpi_emitters *emitters, uint32_t triangle);
+
+#endif
