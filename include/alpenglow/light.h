@@ -17,10 +17,11 @@ typedef enum alp_sky_kind {
 
 /// The sky: radiance [W·sr⁻¹·m⁻² per channel, linear Rec.709] by direction.
 typedef struct alp_sky_options {
-    alp_sky_kind kind;      ///< default NONE
-    float up[3], down[3];   ///< radiance, ≥ 0; default 1 and 0
-    const alp_image *image; ///< float, 3 or 4 channels, twice as wide as high; borrowed until the
-                            ///< lighting is made. Row 0 is up (+Y); the middle column looks along −Z
+    alp_sky_kind kind;    ///< default NONE
+    float up[3], down[3]; ///< radiance, ≥ 0; default 1 and 0
+    const alp_image
+        *image;      ///< float, 3 or 4 channels, twice as wide as high; borrowed until the
+                     ///< lighting is made. Row 0 is up (+Y); the middle column looks along −Z
     float turn;      ///< radians about +Y, counter-clockwise seen from above; default 0
     float strength;  ///< factor on all of it, ≥ 0; default 1
     float turbidity; ///< of the clear sky, [1.7, 10]; default 3

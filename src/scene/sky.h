@@ -13,8 +13,8 @@ typedef struct alpi_sky alpi_sky; // immutable
 ///                      disk to the caller
 /// @return ALP_OK with NULL for a sky that is black; INVALID_ARGUMENT (a value out of range, not
 ///         finite; an image of the wrong kind or shape); OUT_OF_MEMORY
-alp_result alpi_sky_create(alp_context *context, const alp_sky_options *options,
-                           vec3 sun_direction, alpi_sky **sky);
+alp_result alpi_sky_create(alp_context *context, const alp_sky_options *options, vec3 sun_direction,
+                           alpi_sky **sky);
 void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
 
 /// Radiance from a unit direction. Images are bilinear between texel centres, wrapping around; what
