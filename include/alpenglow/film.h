@@ -47,7 +47,7 @@ typedef struct alp_film_options {
                                      ///< INFINITY: nothing is, and REINHARD is L / (1 + L);
                                      ///< 0 (default): 4 for REINHARD, 5.6 for FILMIC
     alp_white_balance white_balance; ///< default OFF
-    float kelvin;                    ///< [1667, 25000]; default 6504 (D65)
+    float kelvin;                    ///< [1000, 25000]; default 6504 (D65)
     alp_dither dither;               ///< default NONE
 } alp_film_options;
 /// Shows values from 0 to 1 as they are: no exposure, no curve, no white balance, no dithering.
@@ -55,7 +55,8 @@ ALP_API alp_film_options alp_film_options_default(void);
 
 /// 8-bit sRGB picture of a linear float image: white balance, exposure, tone curve, then mixed as
 /// light over a grey background (byte 96) where alpha is below 1, then encoded (IEC 61966-2-1).
-/// What is not a number shows as black, negative as 0, +infinity as the brightest there is.
+/// What is not a number, or −infinity, counts as 0, +infinity as the brightest there is; what is
+/// negative after white balance shows as 0.
 ///
 /// White balance scales the cone responses of Bradford's matrix so that the light becomes D65 of
 /// the same luminance. KELVIN: the light is a black body below 4000 K, CIE daylight above 5000 K,

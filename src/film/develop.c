@@ -36,8 +36,9 @@ alp_film_options alp_film_options_default(void)
 static void expose(const development *d, const float rgba[4], double values[3])
 {
     for (int k = 0; k < 3; k++) {
-        double light = isnan(rgba[k]) ? 0.0 : (double)rgba[k];
-        values[k] = fmin(fmax(light, -INFINITE_LIGHT), INFINITE_LIGHT);
+        // Finite negative parts are colours beyond Rec. 709, which a white balance may bring in.
+        double light = rgba[k] > -INFINITY ? (double)rgba[k] : 0.0;
+        values[k] = fmin(light, INFINITE_LIGHT);
     }
     if (d->balanced) {
         alpi_matrix3_apply(&d->balance, values, values);

@@ -161,8 +161,8 @@ static const char *find_fault(const alp_film_options *o)
     if (o->white_balance < ALP_WHITE_BALANCE_OFF || o->white_balance > ALP_WHITE_BALANCE_AUTO) {
         return "unknown white balance";
     }
-    if (!within((double)o->kelvin, 1667.0, 25000.0)) {
-        return "kelvin must be 1667 to 25000";
+    if (!within((double)o->kelvin, 1000.0, 25000.0)) {
+        return "kelvin must be 1000 to 25000";
     }
     return o->dither < ALP_DITHER_NONE || o->dither > ALP_DITHER_HASHED ? "unknown dithering"
                                                                         : NULL;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // White balance: colour temperature to chromaticity, and chromatic adaptation to D65.
 // Based on: K. M. Lam. Metamerism and colour constancy. University of Bradford 1985 (the matrix, as
-// in ICC.1:2022 annex E); CIE 15 (daylight); B. Kang, O. Moon, C. Hong, H. Lee, B. Cho, Y. Kim.
-// Design of advanced color-temperature control system for HDTV applications. J. Korean Physical
-// Society 41, 2002 (black body).
+// in ICC.1:2022 annex E); CIE 15 (daylight); M. Krystek. An algorithm to calculate correlated
+// colour temperature. Color Research & Application 10, 1985 (black body).
 #include "film/white_balance.h"
 
 #include <math.h>
@@ -98,16 +97,15 @@ void alpi_luminance_weights(double weights[3])
 
 // --- colour temperature --------------------------------------------------------------------------
 
-/// Cubic fits of Kang and others, 1667 to 4000 K, and on to 25000 K.
+/// Krystek's fit, 1000 to 15000 K, good to 1e-4 of CIE 1960 (u, v).
 static void black_body(double t, double xy[2])
 {
-    const double x = t < 4000.0
-                         ? ((-0.2661239e9 / t - 0.2343589e6) / t + 0.8776956e3) / t + 0.179910
-                         : ((-3.0258469e9 / t + 2.1070379e6) / t + 0.2226347e3) / t + 0.240390;
-    xy[0] = x;
-    xy[1] = t < 2222.0   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
-            : t < 4000.0 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
-                         : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
+    const double u = ((1.28641212e-7 * t + 1.54118254e-4) * t + 0.860117757) /
+                     ((7.08145163e-7 * t + 8.42420235e-4) * t + 1.0);
+    const double v = ((4.20481691e-8 * t + 4.22806245e-5) * t + 0.317398726) /
+                     ((1.61456053e-7 * t - 2.89741816e-5) * t + 1.0);
+    xy[0] = 3.0 * u / (2.0 * u - 8.0 * v + 4.0);
+    xy[1] = 2.0 * v / (2.0 * u - 8.0 * v + 4.0);
 }
 
 /// CIE daylight, 4000 to 25000 K.
@@ -123,7 +121,7 @@ void alpi_kelvin_chromaticity(double kelvin, double xy[2])
 {
     double body[2], day[2], body_xyz[3], day_xyz[3];
     const double share = fmin(fmax((kelvin - 4000.0) / 1000.0, 0.0), 1.0); // of daylight
-    black_body(kelvin, body);
+    black_body(fmin(kelvin, 5000.0), body);
     daylight(fmax(kelvin, 4000.0), day);
     unit_xyz(body, body_xyz);
     unit_xyz(day, day_xyz);

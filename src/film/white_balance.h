@@ -16,7 +16,7 @@ alpi_matrix3 alpi_rgb_to_xyz(void);
 /// Weights of red, green and blue in luminance Y.
 void alpi_luminance_weights(double weights[3]);
 
-/// CIE 1931 chromaticity of light of a colour temperature in [1667, 25000] K: black body below
+/// CIE 1931 chromaticity of light of a colour temperature in [1000, 25000] K: black body below
 /// 4000 K, daylight above 5000 K, between them mixed by spectra of equal luminance, as reference
 /// light is in ANSI/IES TM-30.
 void alpi_kelvin_chromaticity(double kelvin, double xy[2]);
