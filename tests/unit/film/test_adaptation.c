@@ -2,6 +2,8 @@
 // Metering, and adaptation to what is metered over time.
 #include "film_pictures.h"
 
+#include "film/white_balance.h"
+
 #include <math.h>
 
 static double metered(alp_context *context, alp_image *image, const alp_film_options *options,
@@ -55,6 +57,26 @@ static void extremes_are_left_out(void **state)
     options.meter_high = 0.75f; // and three
     ASSERT_NEAR(metered(context, picture(context, 4, 1, 1, four), &options, NULL), 3.0 / 2.5,
                 1e-12);
+    alp_context_destroy(context);
+}
+
+static void metering_sees_what_is_balanced(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_film_options options = alp_film_options_default();
+    options.white_balance = ALP_WHITE_BALANCE_KELVIN;
+    options.kelvin = 3000.0f;
+    const float color[] = {0.25f, 0.5f, 1.0f};
+    double xy[2], weights[3], out[3] = {0.25, 0.5, 1.0};
+    alpi_kelvin_chromaticity(3000.0, xy);
+    const alpi_matrix3 balance = alpi_balance_for_chromaticity(xy);
+    alpi_matrix3_apply(&balance, out, out);
+    alpi_luminance_weights(weights);
+    double luminance = out[0] * weights[0] + out[1] * weights[1] + out[2] * weights[2];
+    ASSERT_NEAR(metered(context, picture(context, 1, 1, 3, color), &options, NULL), log2(luminance),
+                1e-12);
+    assert_true(fabs(log2(luminance / (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722))) > 0.01);
     alp_context_destroy(context);
 }
 
@@ -182,6 +204,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_of_logarithms),
         cmocka_unit_test(extremes_are_left_out),
+        cmocka_unit_test(metering_sees_what_is_balanced),
         cmocka_unit_test(one_pixel_has_a_mean),
         cmocka_unit_test(half_is_gone_after_a_half_life),
         cmocka_unit_test(steps_do_not_matter),

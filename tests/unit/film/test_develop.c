@@ -67,6 +67,8 @@ static void automatic_exposure_forgets_the_scale(void **state)
         uint8_t *b = developed(context, lively_picture(context, 64, 48, 8.0f), &options, &eighth);
         ASSERT_NEAR(first - eighth, 3.0, 1e-12); // rounding of hundredths
         assert_memory_equal(a, b, 64 * 48 * 3);
+        // it is a whole number of hundredths, so that two printed digits say all
+        assert_true(first == round(first * 100.0) / 100.0);
         // what was used gives the same picture when it is asked for
         options.auto_exposure = false;
         options.exposure = first;

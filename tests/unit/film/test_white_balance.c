@@ -115,6 +115,28 @@ static void d65_stays_as_it_is(void **state)
     }
 }
 
+static void adaptation_is_by_bradford(void **state)
+{
+    (void)state;
+    // B. Lindbloom, Chromatic Adaptation: XYZ under A → XYZ under D65, by Bradford's matrix. His
+    // D65 has Z = 1.08883, and that of Rec. 709 1.08906: 2.1e-4 of Z, his A (of 5 digits) 5e-5.
+    const alpi_matrix3 published = {{{0.8446965, -0.1179225, 0.3948108},
+                                     {-0.1366303, 1.1041226, 0.1291718},
+                                     {0.0798489, -0.1348999, 3.1924009}}};
+    const double a[2] = {1.09850 / 2.45435, 1.0 / 2.45435};
+    const alpi_matrix3 balance = alpi_balance_for_chromaticity(a), xyz = alpi_rgb_to_xyz();
+    for (int k = 0; k < 3; k++) {
+        double expected[3] = {k == 0, k == 1, k == 2}, found[3] = {k == 0, k == 1, k == 2};
+        alpi_matrix3_apply(&xyz, expected, expected);
+        alpi_matrix3_apply(&published, expected, expected);
+        alpi_matrix3_apply(&balance, found, found);
+        alpi_matrix3_apply(&xyz, found, found);
+        for (int i = 0; i < 3; i++) {
+            ASSERT_NEAR(found[i], expected[i], 2.6e-4 * fmax(1.0, expected[i]));
+        }
+    }
+}
+
 static void luminance_of_the_light_is_kept(void **state)
 {
     (void)state;
@@ -176,6 +198,7 @@ int main(void)
         cmocka_unit_test(temperatures_have_no_seams),
         cmocka_unit_test(light_of_a_temperature_becomes_white),
         cmocka_unit_test(d65_stays_as_it_is),
+        cmocka_unit_test(adaptation_is_by_bradford),
         cmocka_unit_test(luminance_of_the_light_is_kept),
         cmocka_unit_test(gains_are_limited),
         cmocka_unit_test(a_lamp_develops_grey),
