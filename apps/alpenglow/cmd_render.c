@@ -126,6 +126,49 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
+/// Of film options, none has a meaning for linear values.
+static int refuse_film(const command_line *a, const char *output)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } film[] = {{OPTION_EXPOSURE, "--exposure"},
+                {OPTION_TONE, "--tone"},
+                {OPTION_WHITE_BALANCE, "--white-balance"}};
+    for (size_t i = 0; i < sizeof film / sizeof *film; i++) {
+        if (a->values[film[i].id].given) {
+            return usage_error(COMMAND_RENDER,
+                               "%s is for pictures to look at, and %s holds linear values; give "
+                               "-o IMAGE.png",
+                               film[i].name, output);
+        }
+    }
+    return EXIT_DONE;
+}
+
+/// How the picture is shown: as is best for the method, unless something else is asked for.
+static alp_film_options read_film(const command_line *a, alp_render_method method)
+{
+    enum { BALANCE_AUTO = 0 }; // of the choices of --white-balance, auto and off
+    const option_value *exposure = &a->values[OPTION_EXPOSURE];
+    const option_value *balance = &a->values[OPTION_WHITE_BALANCE];
+    alp_film_options film = alp_render_film_options(method);
+    if (exposure->given) {
+        film.auto_exposure = exposure->choice >= 0;
+        film.exposure = film.auto_exposure ? 0.0 : exposure->real;
+    }
+    if (a->values[OPTION_TONE].given) {
+        film.tone = (alp_tone)a->values[OPTION_TONE].choice;
+    }
+    if (balance->choice < 0) {
+        film.white_balance = ALP_WHITE_BALANCE_KELVIN;
+        film.kelvin = (float)balance->real;
+    } else if (balance->choice == BALANCE_AUTO) {
+        film.white_balance = ALP_WHITE_BALANCE_AUTO;
+    }
+    return film;
+}
+
 static int read_options(const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -134,7 +177,8 @@ static int read_options(const command_line *a, alp_render_options *o)
         return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png or "
                                            "-o IMAGE.exr");
     }
-    if (!path_ends(output, ".png") && !path_ends(output, ".exr")) {
+    bool linear = path_ends(output, ".exr");
+    if (!path_ends(output, ".png") && !linear) {
         return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png or .exr", output);
     }
     if (!a->values[OPTION_WITH].given) {
@@ -144,7 +188,10 @@ static int read_options(const command_line *a, alp_render_options *o)
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
     o->occluders = a->values[OPTION_OCCLUDERS].text;
-    int code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+    int code = linear ? refuse_film(a, output) : EXIT_DONE;
+    if (code == EXIT_DONE) {
+        code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+    }
     if (code == EXIT_DONE) {
         code = read_camera(a->values[OPTION_CAMERA].text, o);
     }
@@ -170,13 +217,15 @@ static int check_camera(const session *s, const command_line *a, const alp_rende
     return EXIT_DONE;
 }
 
-static alp_result save(const alp_image *linear, const char *path, bool overwrite)
+/// @param film what the picture is developed with; comes back with the exposure that was used
+static alp_result save(const alp_image *linear, const char *path, bool overwrite,
+                       alp_film_options *film)
 {
     if (path_ends(path, ".exr")) {
         return alp_image_save(linear, path, overwrite);
     }
     alp_image *display = NULL;
-    alp_result result = alp_image_to_display(linear, &display);
+    alp_result result = alp_film_develop(linear, film, &display, &film->exposure);
     if (result == ALP_OK) {
         result = alp_image_save(display, path, overwrite);
     }
@@ -187,6 +236,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
 static int render(session *s, const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
+    alp_film_options film = read_film(a, o->method);
     alp_image *image = NULL;
     double start = clock_seconds();
     o->progress = session_progress;
@@ -195,13 +245,16 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     alp_result result = alp_render(s->scene, o, &image);
     double seconds = clock_seconds() - start;
     if (result == ALP_OK) {
-        result = save(image, output, a->values[OPTION_FORCE].given);
+        result = save(image, output, a->values[OPTION_FORCE].given, &film);
     }
     alp_image_destroy(image);
     int code = session_end(s, result);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
         printf("wrote      %s, %u x %u, load %.2f s, render %.2f s\n", output, o->width, o->height,
                s->load_seconds, seconds);
+        if (film.auto_exposure && path_ends(output, ".png")) {
+            printf("exposure   %.2f EV\n", film.exposure);
+        }
     }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }

@@ -402,6 +402,42 @@ static const option options[] = {
      .unit = "degrees",
      .help = "Full angle of the disk of every sun, which makes shadows soft. Without it 0.53 for "
              "--sun and 0 for the directional lights of the scene."},
+    {.id = OPTION_EXPOSURE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--exposure",
+     .value = "EV|auto",
+     .choices = "auto",
+     .minimum = -64,
+     .maximum = 64,
+     .unit = "EV",
+     .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
+             "auto: the mean brightness becomes 18 % grey, without the darkest and brightest 5 %; "
+             "the EV used is printed. Default 0 for ao and constant."},
+    {.id = OPTION_TONE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--tone",
+     .value = "film|reinhard|filmic|none",
+     .choices = "film|reinhard|filmic|none",
+     .help = "Curve from exposed light L to a .png. film: 1 - e^-L. reinhard: L (1 + L/16) / "
+             "(1 + L), white at 4. filmic: Hable's, more contrast, white at 5.6. none: cut off at "
+             "1. Default none for ao and constant."},
+    {.id = OPTION_WHITE_BALANCE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--white-balance",
+     .value = "K|auto|off",
+     .choices = "auto|off",
+     .minimum = 1000,
+     .maximum = 25000,
+     .unit = "kelvin",
+     .initial = "off",
+     .help = "Which light is white in a .png. K: light of this colour temperature; low ones make "
+             "the picture bluer. auto: the mean of the picture. off: D65, as it is."},
     {.id = OPTION_SCALE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -620,9 +656,6 @@ static const option options[] = {
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
     LATER(IN_BAKE, "--report", "OUT.html", "--json writes a report"),
-    LATER(IN_RENDER, "--exposure", "EV|auto", "values 0 to 1 are shown as they are"),
-    LATER(IN_RENDER, "--tone", "film|reinhard|filmic|none", "values above 1 are cut off"),
-    LATER(IN_RENDER, "--white-balance", "K|auto|off", "white stays white"),
     LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
 };
 

@@ -5,6 +5,7 @@
 
 #include <alpenglow/bake.h>
 #include <alpenglow/display.h>
+#include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
 #include <alpenglow/scene.h>
@@ -52,6 +53,11 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
+
+/// How pictures of a method are best shown: accessibility and the albedo lie between 0 and 1 and
+/// are shown as they are (alp_film_options_default); radiance, which every other method gives, by
+/// film with automatic exposure and hashed dithering.
+ALP_API alp_film_options alp_render_film_options(alp_render_method method);
 
 ALP_END_DECLS
 
