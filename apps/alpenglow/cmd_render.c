@@ -174,12 +174,13 @@ static int read_options(const command_line *a, alp_render_options *o)
     const char *output = a->values[OPTION_OUTPUT].text;
     *o = alp_render_options_default();
     if (output == NULL) {
-        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png or "
-                                           "-o IMAGE.exr");
+        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png, "
+                                           "-o IMAGE.exr or -o IMAGE.hdr");
     }
-    bool linear = path_ends(output, ".exr");
-    if (!path_ends(output, ".png") && !linear) {
-        return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png or .exr", output);
+    bool linear = !path_ends(output, ".png");
+    if (linear && !path_ends(output, ".exr") && !path_ends(output, ".hdr")) {
+        return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png, .exr or .hdr",
+                           output);
     }
     if (!a->values[OPTION_WITH].given) {
         return usage_error(COMMAND_RENDER, "by which method? give --with reference, ao, constant "
@@ -221,7 +222,7 @@ static int check_camera(const session *s, const command_line *a, const alp_rende
 static alp_result save(const alp_image *linear, const char *path, bool overwrite,
                        alp_film_options *film)
 {
-    if (path_ends(path, ".exr")) {
+    if (!path_ends(path, ".png")) {
         return alp_image_save(linear, path, overwrite);
     }
     alp_image *display = NULL;

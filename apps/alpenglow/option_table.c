@@ -11,17 +11,18 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
          "open, and writes a copy of the scene with that occlusion map attached. What the bake "
          "does not touch comes out byte for byte as it was."},
-    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|IMAGE.exr --with METHOD [OPTIONS]",
+    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|.exr|.hdr --with METHOD [OPTIONS]",
                         "render a picture of a scene", 1, command_render,
                         "Renders SCENE from one of its cameras, or from an automatic one. A .png "
-                        "is for looking at, an .exr holds the linear values."},
+                        "is for looking at, an .exr or .hdr holds the linear values."},
     [COMMAND_INFO] = {"info", "SCENE [--json]", "say what is in a scene", 1, command_info,
                       "Prints what SCENE holds: triangles, surfaces with their texture "
                       "coordinate sets, materials, lights, cameras, size."},
     [COMMAND_COMPARE] =
         {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
          "say how two images differ", 2, command_compare,
-         "Compares the images A and B (.exr, .png, .jpg) of equal size, over the pixels that are "
+         "Compares the images A and B (.exr, .hdr, .png, .jpg) of equal size, over the pixels that "
+         "are "
          "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
          "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
          "largest of |A - B| and where it is."},
@@ -71,9 +72,9 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "-o",
      .alias = "--output",
-     .value = "IMAGE.png|IMAGE.exr",
-     .help = "The picture: .png 8-bit sRGB, .exr linear float with alpha = a surface is seen. "
-             "Needed."},
+     .value = "IMAGE.png|IMAGE.exr|IMAGE.hdr",
+     .help = "The picture: .png 8-bit sRGB, .exr linear float with alpha = a surface is seen, "
+             ".hdr linear without alpha. Needed."},
     {.id = OPTION_MAPS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

@@ -10,7 +10,7 @@ ALP_BEGIN_DECLS
 typedef enum alp_sky_kind {
     ALP_SKY_NONE = 0,       ///< black
     ALP_SKY_CONSTANT = 1,   ///< radiance `up` from everywhere
-    ALP_SKY_HEMISPHERE = 2, ///< `down` + (`up` − `down`)(1 + d·y)/2 in direction d
+    ALP_SKY_HEMISPHERE = 2, ///< `up` from above the horizon, `down` from below it
     ALP_SKY_IMAGE = 3,      ///< equirectangular `image`
     /// An analytic clear sky about the sun of these options, without the sun's disk, in absolute
     /// units: its luminance in cd/m² (some thousand) is the radiance's number. Below the horizon an

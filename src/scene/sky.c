@@ -313,8 +313,7 @@ vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction)
     if (sky->kind == ALP_SKY_CLEAR) {
         return clear_radiance(sky, direction);
     }
-    float upward = fminf(fmaxf(0.5f + 0.5f * direction.y, 0.0f), 1.0f);
-    return vec3_mad(vec3_scale(sky->down, 1.0f - upward), upward, sky->up);
+    return direction.y >= 0.0f ? sky->up : sky->down;
 }
 
 float alpi_sky_density(const alpi_sky *sky, vec3 direction)
@@ -323,17 +322,18 @@ float alpi_sky_density(const alpi_sky *sky, vec3 direction)
         return alpi_sky_table_density(&sky->table, direction);
     }
     double down = alpi_sky_brightness(sky->down), up = alpi_sky_brightness(sky->up);
-    double upward = fmin(fmax(0.5 + 0.5 * (double)direction.y, 0.0), 1.0);
-    return (float)(((1.0 - upward) * down + upward * up) / (2.0 * ALPI_PI * (up + down)));
+    return (float)((direction.y >= 0.0f ? up : down) / (2.0 * ALPI_PI * (up + down)));
 }
 
-/// The height above the ground is linear in solid angle, and so is the radiance in it.
+/// Height above the ground is even in solid angle.
 static vec3 sample_hemisphere(const alpi_sky *sky, vec2 u)
 {
-    double upward = alpi_sample_linear((double)u.x, alpi_sky_brightness(sky->down),
-                                       alpi_sky_brightness(sky->up));
-    double sine = 2.0 * sqrt(upward * (1.0 - upward)), phi = 2.0 * ALPI_PI * (double)u.y;
-    return (vec3){(float)(sine * sin(phi)), (float)(2.0 * upward - 1.0), (float)(sine * cos(phi))};
+    // One half or the other in proportion to its brightness, evenly within it.
+    double down = alpi_sky_brightness(sky->down), up = alpi_sky_brightness(sky->up);
+    double share = down / (up + down), x = (double)u.x;
+    double y = x < share ? x / share - 1.0 : (x - share) / (1.0 - share);
+    double sine = sqrt(fmax(1.0 - y * y, 0.0)), phi = 2.0 * ALPI_PI * (double)u.y;
+    return (vec3){(float)(sine * sin(phi)), (float)y, (float)(sine * cos(phi))};
 }
 
 vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density)
