@@ -58,8 +58,8 @@ static void one_triangle_from_any_side(void **state)
         double angle = ALPI_PI / 4.0 * i + 0.1;
         // Above and beside, partly below the horizon of `tilted`.
         const vec3 triangle[1][3] = {{turned((vec3){1.0f, 0.8f, -0.5f}, angle),
-                                      turned((vec3){1.0f, 1.0f, 0.7f}, angle),
-                                      turned((vec3){2.0f, 1.5f, 0.0f}, angle)}};
+                                      turned((vec3){1.2f, 1.0f, 0.9f}, angle),
+                                      turned((vec3){0.2f, 1.6f, 0.0f}, angle)}};
         const vec3 tilted = turned((vec3){-0.6f, 0.48f, 0.64f}, angle);
         stage s = start(triangle, 1, (vec3){2, 1, 1});
         double expected = 2.0 * closed_form(triangle, 1, ORIGIN, UP);
