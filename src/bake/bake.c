@@ -144,6 +144,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     }
     if (result == ALP_OK && report != NULL) {
         job.report.scene = alp_scene_get_info(scene);
+        job.report.maps = job.options.maps;
         job.report.threads = alp_context_worker_count(job.context);
         job.report.seed = job.options.occlusion.seed;
         job.report.input_hash = scene->input_hash;

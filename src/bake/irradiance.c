@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/stated_error.h"
 #include "transport/reference.h"
 
 #include <math.h>
@@ -23,23 +24,30 @@ static void warn_of_no_light(const alpi_bake_job *job, const alpi_lighting *ligh
 }
 
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
-static void take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
-                        const alpi_reference_value *values)
+/// @param errors [texels] scratch: of each texel, root mean square over its channels
+static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
+                              const alpi_reference_value *values, float *errors)
 {
-    double mean = 0.0, squares = 0.0;
+    double mean = 0.0, squares = 0.0, p99 = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const alpi_reference_value *v = &values[order[i]];
+        double square = 0.0;
         for (int k = 0; k < 3; k++) {
             job->irradiance[order[i]][k] = v->mean[k];
             job->irradiance_errors[order[i]][k] = sqrtf(v->variance[k]);
             mean += (double)v->mean[k];
-            squares += (double)v->variance[k];
+            square += (double)v->variance[k];
         }
+        errors[order[i]] = (float)sqrt(square / 3.0);
+        squares += square;
     }
+    ALP_TRY(alpi_percentile(job->context, errors, order, count, 0.99, &p99));
     const double all = 3.0 * fmax((double)count, 1.0);
-    job->report.light_mean = mean / all;
-    job->report.light_relative_error =
-        mean > 0.0 ? sqrt(squares / all) / (mean / all) : (double)NAN;
+    alp_bake_report *r = &job->report;
+    r->light_mean = mean / all;
+    r->light_relative_error = mean > 0.0 ? sqrt(squares / all) / r->light_mean : (double)NAN;
+    r->light_p99_error = mean > 0.0 ? p99 / r->light_mean : (double)NAN;
+    return ALP_OK;
 }
 
 static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
@@ -60,17 +68,19 @@ static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
         .seed = o->occlusion.seed,
     };
     alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, receivers->count);
-    if (values == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
+    float *errors = ALPI_NEW(job->context, float, receivers->count);
+    alp_result result = values != NULL && errors != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     alpi_task_progress told = *progress;
     told.stage = "light";
-    const alp_result result =
-        alpi_reference_irradiance(&reference, receivers, order, count, &told, values);
     if (result == ALP_OK) {
-        take_values(job, order, count, values);
+        result = alpi_reference_irradiance(&reference, receivers, order, count, &told, values);
+    }
+    if (result == ALP_OK) {
+        result = take_values(job, order, count, values, errors);
+        job->report.rays += (uint64_t)count * o->light.samples;
     }
     alpi_release(job->context, values);
+    alpi_release(job->context, errors);
     return result;
 }
 
