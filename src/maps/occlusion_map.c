@@ -152,6 +152,35 @@ static alp_result judge(map_job *job, uint32_t pass, bool flood)
                              job, NULL);
 }
 
+/// Interpolates anew what is interpolated.
+static alp_result renew_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = user;
+    alpi_lattice *l = job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
+            alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
+            alpi_lattice_stencil(l, t, &stencil)) {
+            l->values[t] = alpi_lattice_interpolate(l, &stencil);
+        }
+    }
+    return ALP_OK;
+}
+
+/// What was traced since may be in the stencils of what was interpolated before. Pass by pass: a
+/// stencil holds texels of coarser passes alone.
+static alp_result renew(map_job *job)
+{
+    for (job->pass = 1; job->pass < ALPI_LATTICE_PASSES; job->pass++) {
+        ALP_TRY(alpi_parallel_for(job->setup->context, job->order_count, TEXELS_PER_RANGE,
+                                  renew_range, job, NULL));
+    }
+    return ALP_OK;
+}
+
 /// Wants texels traced that have another surface near, those that touch it all, the others of every
 /// second row every second: a contact shadow may be smaller than the lattice. Ward's criterion:
 /// light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein, R. D. Clear. A
@@ -207,7 +236,7 @@ static alp_result run_lattice(map_job *job)
         ALP_TRY(judge(job, 0, true));
         ALP_TRY(trace_wanted(job));
     }
-    return ALP_OK;
+    return renew(job);
 }
 
 static void want_all(map_job *job)
