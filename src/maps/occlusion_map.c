@@ -249,6 +249,21 @@ static void want_all(map_job *job)
 
 // --- rounds --------------------------------------------------------------------------------------
 
+/// Readies sums for the samples of this round: quarters grow where that is a multiple of those
+/// before, else, in the last round, each gets its share of the new ones.
+/// @param list [count] receivers that have samples, NULL = all
+static void requarter(const map_job *job, uint32_t before, const uint32_t *list, uint32_t count,
+                      alpi_occlusion_sums *sums)
+{
+    if (job->samples % before != 0) {
+        sums->parted = before;
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        alpi_occlusion_requarter(sums, list != NULL ? list[i] : i, before, job->samples);
+    }
+}
+
 /// Gives the texels that were traced with `before` samples the rest.
 static alp_result extend_traced(map_job *job, uint32_t before)
 {
@@ -256,10 +271,10 @@ static alp_result extend_traced(map_job *job, uint32_t before)
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (job->lattice->states[t] == ALPI_TEXEL_TRACED) {
-            alpi_occlusion_requarter(&job->sums, t, before, job->samples);
             job->list[count++] = t;
         }
     }
+    requarter(job, before, job->list, count, &job->sums);
     alp_result result = trace_list(job, count, before, job->samples - before);
     take_values(job, count);
     return result;
@@ -301,9 +316,8 @@ static alp_result state_errors(map_job *job, uint32_t before)
                                    &job->probes));
     }
     const alpi_task_progress progress = {.callback = go_on, .user = job, .stage = "occlusion"};
-    for (uint32_t i = 0; i < job->probes.count && before > 0; i++) {
-        alpi_occlusion_requarter(&job->probes.sums[0], i, before, job->samples);
-        alpi_occlusion_requarter(&job->probes.sums[1], i, before, job->samples);
+    for (int k = 0; k < 2 && before > 0; k++) {
+        requarter(job, before, NULL, job->probes.count, &job->probes.sums[k]);
     }
     const uint32_t more = job->samples - before;
     alp_result result = alpi_probes_add(&job->probes, before, more, job->samples, &progress);
@@ -345,13 +359,12 @@ static alp_result run_rounds(map_job *job)
         job->report->samples = job->samples;
         ALP_TRY(state_errors(job, before));
         const bool good = job->report->relative <= wanted && job->report->p99 <= P99_LIMIT * wanted;
-        const uint32_t room = most / job->samples;
-        if (!rounds || good || room < 2) {
+        if (!rounds || good || job->samples == most) {
             return ALP_OK;
         }
         const uint32_t factor = wanted > 0.0 ? next_factor(job) : 2;
         before = job->samples;
-        job->samples *= factor < room ? factor : room;
+        job->samples = factor < most / before ? factor * before : most;
     }
 }
 

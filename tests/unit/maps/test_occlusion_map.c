@@ -251,6 +251,36 @@ static void rounds_stop_at_the_wanted_error(void **state)
     tear_down(&s);
 }
 
+static void the_last_round_uses_all_samples(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:torus-plane");
+    s.options.samples = 100; // no multiple of the 64 of the first round
+    float *once = calloc(s.texels.count, sizeof *once);
+    assert_non_null(once);
+    double stated[2];
+    for (int i = 0; i < 2; i++) {
+        const alpi_occlusion_map_options options = {
+            .accuracy = ALP_ADAPTIVE_OFF, .error = i == 0 ? 0.0f : 1e-4f, .deadline = HUGE_VAL};
+        alpi_lattice lattice;
+        alpi_occlusion_map_report report;
+        ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+        assert_int_equal(report.samples, 100);
+        stated[i] = report.relative;
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            ASSERT_NEAR(lattice.values[t], i == 0 ? lattice.values[t] : once[t], 0.0);
+            once[t] = lattice.values[t];
+        }
+        alpi_lattice_destroy(&lattice);
+    }
+    // The same values and held-out texels: the factors they give leave the mean of the squares as
+    // it is, up to what levels out where quarters happen to be equal.
+    ASSERT_NEAR(stated[1] / stated[0], 1.0, 0.05);
+    free(once);
+    tear_down(&s);
+}
+
 static bool stop_after(void *user, const alp_progress *progress)
 {
     (void)progress;
@@ -327,6 +357,7 @@ int main(void)
         cmocka_unit_test(interpolated_texels_hold_the_value_of_their_stencil),
         cmocka_unit_test(any_number_of_workers_gives_the_same_map),
         cmocka_unit_test(rounds_stop_at_the_wanted_error),
+        cmocka_unit_test(the_last_round_uses_all_samples),
         cmocka_unit_test(what_is_cut_off_keeps_what_it_has),
         cmocka_unit_test(percentiles_are_those_of_a_sort),
     };
