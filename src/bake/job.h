@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "maps/lightmap.h"
+#include "maps/validity.h"
 #include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
@@ -31,6 +32,8 @@ typedef struct alpi_bake_job {
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3]; // [texels] while sampling; NULL: not asked for
+    alpi_scratch scratch;               // while sampling
+    alpi_validity validity;             // while sampling
     alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;

@@ -129,28 +129,29 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                alpi_occlusion_map_report *report)
 {
     alpi_texels *texels = &job->lightmap->texels;
+    alpi_validity *validity = &job->validity;
     const alpi_receivers receivers = alpi_texels_receivers(texels);
     const alpi_task_progress progress = {
         .callback = options.progress, .user = options.progress_user, .stage = "validity"};
     const alpi_task_progress until = {
         .callback = is_in_time, .user = &options, .stage = progress.stage};
-    alpi_validity validity;
-    const alp_result looked = alpi_validity_create(
-        setup, &receivers, texels, lattice, object->texels, object->texel_count, &until, &validity);
+    const alp_result looked = alpi_validity_look(setup, &receivers, texels, lattice, object->texels,
+                                                 object->texel_count, &until, validity);
     if (looked == ALP_ERROR_CANCELLED && alpi_seconds() >= options.deadline) {
         report->cut_off = true;
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
                          "the time limit ended before any texel had a value; allow more time");
     }
     ALP_TRY(looked);
-    job->report.rays += validity.rays;
-    job->report.moved += validity.moved_count;
-    job->report.dropped += validity.dropped_count;
-    options.near = validity.near;
+    job->report.rays += validity->rays;
+    job->report.moved += validity->moved_count;
+    job->report.dropped += validity->dropped_count;
+    options.near = validity->near;
+    options.scratch = &job->scratch;
     uint32_t *order = ALPI_NEW(job->context, uint32_t, object->texel_count);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (order != NULL) {
-        const uint32_t count = drop(object, validity.dropped, order);
+        const uint32_t count = drop(object, validity->dropped, order);
         result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
                                     job->lightmap->errors, report);
         if (result == ALP_OK) {
@@ -159,7 +160,6 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
         }
     }
     alpi_release(job->context, order);
-    alpi_validity_destroy(&validity);
     return result;
 }
 
@@ -269,18 +269,32 @@ static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_l
     return result;
 }
 
+/// Arrays that all objects share: with arrays of its own for all texels, each of many objects would
+/// cost as much as the page.
+static alp_result gather_all(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
+                             alpi_occlusion_map_report *all)
+{
+    const uint32_t texels = job->lightmap->texels.count;
+    const bool vectors = job->bent != NULL || job->obscurance != NULL;
+    ALP_TRY(alpi_scratch_create(job->context, texels, vectors, &job->scratch));
+    alp_result result = alpi_validity_open(job->context, texels, &job->scratch, &job->validity);
+    if (result == ALP_OK && objects->count == 1) {
+        const alpi_occlusion_map_options options = map_options(job);
+        result = gather_object(job, objects, &objects->items[0], &options, lattice, all);
+    } else if (result == ALP_OK) {
+        result = gather_apart(job, objects, lattice, all);
+    }
+    alpi_validity_destroy(&job->validity);
+    alpi_scratch_destroy(&job->scratch);
+    return result;
+}
+
 static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
 {
     alpi_objects objects;
     alpi_occlusion_map_report all = {0};
     ALP_TRY(alpi_objects_create(job, lattice->order, &objects));
-    alp_result result;
-    if (objects.count == 1) {
-        const alpi_occlusion_map_options options = map_options(job);
-        result = gather_object(job, &objects, &objects.items[0], &options, lattice, &all);
-    } else {
-        result = gather_apart(job, &objects, lattice, &all);
-    }
+    alp_result result = gather_all(job, &objects, lattice, &all);
     alpi_objects_destroy(&objects);
     ALP_TRY(result);
     return fill_report(job, &all, lattice);

@@ -38,7 +38,7 @@ typedef struct map_job {
     uint32_t order_count;
     const alpi_occlusion_map_options *options;
     alpi_lattice *lattice;
-    alpi_occlusion_sums sums;
+    alpi_scratch *scratch;
     alpi_probes probes;
     float *errors;
     alpi_occlusion_map_report *report;
@@ -143,7 +143,7 @@ static alp_result trace_list(map_job *job, uint32_t list_count, uint32_t first, 
                                          .units_total = (double)job->report->rays +
                                                         (double)list_count * count};
     ALP_TRY(alpi_occlusion_add(job->setup, job->receivers, job->list, list_count, first, count,
-                               job->samples, &progress, &job->sums));
+                               job->samples, &progress, &job->scratch->sums));
     job->report->rays += (uint64_t)list_count * count;
     return ALP_OK;
 }
@@ -154,9 +154,9 @@ static alp_result take_range(void *user, uint32_t begin, uint32_t end, uint32_t 
     const map_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->list[i];
-        if (job->sums.done[t] > 0) {
+        if (job->scratch->sums.done[t] > 0) {
             job->lattice->states[t] = ALPI_TEXEL_TRACED;
-            job->lattice->values[t] = alpi_occlusion_value(&job->sums, t);
+            job->lattice->values[t] = alpi_occlusion_value(&job->scratch->sums, t);
         }
     }
     return ALP_OK;
@@ -273,7 +273,7 @@ static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sum
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
         if (job->lattice->states[t] == ALPI_TEXEL_TRACED) {
-            sums[0] += alpi_spread_variance(&job->sums, t);
+            sums[0] += alpi_spread_variance(&job->scratch->sums, t);
             sums[1] += 1.0;
         }
     }
@@ -334,7 +334,7 @@ static alp_result requarter_range(void *user, uint32_t begin, uint32_t end, uint
     (void)worker;
     map_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
-        alpi_occlusion_requarter(&job->sums, job->list[i], job->before, job->samples);
+        alpi_occlusion_requarter(&job->scratch->sums, job->list[i], job->before, job->samples);
     }
     return ALP_OK;
 }
@@ -355,7 +355,7 @@ static alp_result extend_traced(map_job *job)
         ALP_TRY(alpi_parallel_for(job->setup->context, count, TEXELS_PER_RANGE, requarter_range,
                                   job, NULL));
     } else {
-        job->sums.parted = job->before;
+        job->scratch->sums.parted = job->before;
     }
     return trace_and_take(job, count, job->before);
 }
@@ -412,8 +412,8 @@ static alp_result state_errors(map_job *job)
     }
     const alpi_task_progress between = brief(job);
     alpi_relative_error relative;
-    ALP_TRY(alpi_state_errors(&job->probes, job->lattice, &job->sums, job->order, job->order_count,
-                              &between, job->errors));
+    ALP_TRY(alpi_state_errors(&job->probes, job->lattice, &job->scratch->sums, job->order,
+                              job->order_count, &between, job->errors));
     ALP_TRY(alpi_find_relative_error(job->lattice, job->errors, job->order, job->order_count,
                                      &between, &relative));
     job->report->relative = relative.rms;
@@ -506,17 +506,14 @@ static alp_result finish(map_job *job, bool late)
     const alpi_task_progress progress = brief(job);
     return job->options->bent == NULL
                ? ALP_OK
-               : alpi_bent_normals(job->lattice, &job->sums, job->order, job->order_count,
+               : alpi_bent_normals(job->lattice, &job->scratch->sums, job->order, job->order_count,
                                    &progress, job->options->bent);
 }
 
 static alp_result run(map_job *job)
 {
-    const uint32_t texels = job->receivers->count;
-    alp_context *context = job->setup->context;
-    ALP_TRY(alpi_occlusion_sums_create(context, texels, job->setup->bent, &job->sums));
-    ALPI_TRY_NEW(context, job->wanted, texels);
-    ALPI_TRY_NEW(context, job->list, job->order_count);
+    ALPI_TRY_NEW(job->setup->context, job->list, job->order_count);
+    job->wanted = job->scratch->marks;
     alp_result result = run_rounds(job);
     const bool late = !job->refused && alpi_seconds() >= job->options->deadline;
     if (result == ALP_ERROR_CANCELLED && (late || job->options->keep_partial)) {
@@ -542,10 +539,15 @@ alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_rece
                    .told = {.stage = "occlusion", .seconds_left = -1.0},
                    .errors = errors,
                    .report = report};
+    alpi_scratch own = {0};
+    job.scratch = options->scratch;
+    if (job.scratch == NULL) {
+        ALP_TRY(alpi_scratch_create(setup->context, receivers->count, setup->bent, &own));
+        job.scratch = &own;
+    }
     alp_result result = run(&job);
     alpi_probes_destroy(&job.probes);
-    alpi_occlusion_sums_destroy(setup->context, &job.sums);
-    alpi_release(setup->context, job.wanted);
+    alpi_scratch_destroy(&own);
     alpi_release(setup->context, job.list);
     return result;
 }
