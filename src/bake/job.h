@@ -62,9 +62,9 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
-/// Bytes of ours that a bake of these maps on this atlas holds at its peak, the scene and the
+/// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps);
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
 /// LIMIT when that is more than nine tenths of the machine's memory.
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 
