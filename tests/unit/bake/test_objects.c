@@ -7,6 +7,7 @@
 #include "maps/lightmap.h"
 #include "scene/scene.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 // --- closed forms --------------------------------------------------------------------------------
@@ -336,6 +337,78 @@ static void many_objects_are_one_stage(void **state)
     alp_context_destroy(context);
 }
 
+static void *count_bytes(void *user, size_t size)
+{
+    atomic_fetch_add((_Atomic uint64_t *)user, size);
+    return calloc(1, size);
+}
+
+static void release_counted(void *user, void *block)
+{
+    (void)user;
+    free(block);
+}
+
+/// Cubes in a row, each an object.
+static alp_scene *many_cubes(alp_context *context, uint32_t count)
+{
+    alp_mesh *meshes = calloc(count, sizeof *meshes);
+    float(*corners)[8][3] = calloc(count, sizeof *corners);
+    assert_non_null(meshes);
+    assert_non_null(corners);
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(corners[i], CUBE, sizeof corners[i]);
+        for (int v = 0; v < 8; v++) {
+            corners[i][v][0] += 2.0f * (float)i;
+        }
+        meshes[i] = (alp_mesh){.vertex_count = 8,
+                               .positions = corners[i][0],
+                               .triangle_count = 12,
+                               .indices = CUBE_TRIANGLES[0]};
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, count, &scene));
+    free(meshes);
+    free(corners);
+    return scene;
+}
+
+static void an_object_takes_no_memory_of_the_page(void **state)
+{
+    (void)state;
+    // Bytes asked for and cleared in a bake of one page: what four times the objects add is theirs
+    // (a tracer, some probes, a histogram of 256 KiB: less than 10 bytes a texel of the page), and
+    // no arrays over all texels of the page (some 50 bytes each).
+    uint64_t bytes[2];
+    uint32_t texels = 0;
+    const uint32_t counts[2] = {16, 64};
+    for (int i = 0; i < 2; i++) {
+        _Atomic uint64_t asked = 0;
+        alp_context_options how = alp_context_options_default();
+        how.worker_count = 1;
+        how.allocate = count_bytes;
+        how.release = release_counted;
+        how.allocator_user = &asked;
+        alp_context *context = NULL;
+        assert_int_equal(alp_context_create(&how, &context), ALP_OK);
+        alp_scene *scene = many_cubes(context, counts[i]);
+        alp_bake_options options = small_options();
+        options.ao_self = true;
+        options.atlas.size = 256;
+        options.occlusion.samples = 16;
+        alp_bake_report report;
+        const uint64_t before = asked;
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+        bytes[i] = asked - before;
+        texels = (uint32_t)report.atlas.texels;
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+    print_message("objects: %.1f and %.1f MB for %u texels\n", 1e-6 * (double)bytes[0],
+                  1e-6 * (double)bytes[1], texels);
+    assert_true(bytes[1] < bytes[0] + (uint64_t)(counts[1] - counts[0]) * texels * 10);
+}
+
 static bool stop_half_way(void *user, const alp_progress *progress)
 {
     (void)user;
@@ -469,6 +542,7 @@ int main(void)
         cmocka_unit_test(wrong_choices_are_refused),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(many_objects_are_one_stage),
+        cmocka_unit_test(an_object_takes_no_memory_of_the_page),
         cmocka_unit_test(what_is_cut_off_is_unknown),
         cmocka_unit_test(the_stated_error_is_of_what_was_sampled),
         cmocka_unit_test(the_stated_error_is_of_all_objects),
