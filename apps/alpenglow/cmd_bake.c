@@ -340,7 +340,8 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
         code = write_report(s, lightmap, &report, a);
     }
-    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
+    const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
+    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
         print_summary(s, a, o, &report);
     }
     alp_lightmap_destroy(lightmap);
@@ -362,7 +363,7 @@ static int check_report(const command_line *a, const char *output)
         return usage_error(COMMAND_BAKE, "--json %s: is the name of %s too; give another", json,
                            output != NULL && output_is_same(json, output) ? "-o" : "SCENE");
     }
-    return output_check(json, a->values[OPTION_FORCE].given);
+    return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
 int command_bake(const command_line *a)

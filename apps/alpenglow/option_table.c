@@ -106,14 +106,14 @@ static const option options[] = {
      .name = "--json",
      .value = "FILE",
      .help = "Write a report: scene, atlas, seconds, rays, memory, objects with their rectangles, "
-             "warnings."},
+             "warnings. - is standard output, instead of the summary."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "--json",
      .value = "FILE",
-     .help = "Write the numbers as JSON."},
+     .help = "Write the numbers as JSON. - is standard output, instead of the table."},
     {.id = OPTION_JSON,
      .commands = IN_INFO,
      .group = GROUP_OUTPUT,
@@ -470,7 +470,8 @@ static const option options[] = {
      .maximum = 1048576,
      .unit = "rays per point",
      .initial = "512",
-     .help = "Time grows with N. The standard error of a texel is at most 0.5 / sqrt(N), and with "
+     .help = "Time grows with N, which is rounded up to a multiple of 4. The standard error of a "
+             "texel is at most 0.5 / sqrt(N), and with "
              "these samples mostly far less; powers of two serve best."},
     {.id = OPTION_AO_DISTANCE,
      .commands = RAY_COMMANDS,

@@ -137,7 +137,8 @@ typedef struct alp_bake_report {
     uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
     uint64_t dropped; ///< wholly inside, at the rim: filled like texels of no surface
     /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
-    /// over its mean; NaN when no round of rays came to its end.
+    /// over the mean value, of all texels that were sampled, each counting alike; NaN when no round
+    /// of rays came to its end.
     double ao_relative_error, ao_p99_error;
     bool cut_off;      ///< by the time limit or by cancelling: another run gives other bits
     double ao_mean;    ///< area-weighted mean accessibility

@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "maps/lightmap.h"
+#include "maps/validity.h"
 #include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
@@ -32,6 +33,8 @@ typedef struct alpi_bake_job {
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
     float (*irradiance)[3], (*irradiance_errors)[3]; // the same
+    alpi_scratch scratch;                            // while sampling
+    alpi_validity validity;                          // while sampling
     alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
@@ -67,9 +70,9 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
-/// Bytes of ours that a bake of these maps on this atlas holds at its peak, the scene and the
+/// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps);
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
 /// LIMIT when that is more than nine tenths of the machine's memory.
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 

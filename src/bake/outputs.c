@@ -171,6 +171,7 @@ static json_t *distance_value(const alpi_bake_job *job)
 static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
 {
     static const char *const existing[] = {"replace", "multiply", "keep"};
+    static const char *const into[] = {"separate", "orm"};
     const alp_sampling_options *s = &job->options.sampling;
     json_object_set_new(occlusion, "adaptive",
                         s->accuracy == ALP_ADAPTIVE_AUTO  ? json_string("auto")
@@ -180,6 +181,7 @@ static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
         json_object_set_new(occlusion, "wanted_relative_error", json_real((double)s->error));
     }
     json_object_set_new(occlusion, "existing_ao", json_string(existing[job->options.existing_ao]));
+    json_object_set_new(occlusion, "ao_into", json_string(into[job->options.ao_into]));
 }
 
 /// Version, options, quantity, input hash.

@@ -81,8 +81,9 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
     alpi_task_progress told = *progress;
     told.stage = "obscurance";
     job->report.rays += (uint64_t)order_count * samples;
+    ALP_TRY(alpi_scratch_clear(&job->scratch, order, order_count, &told));
     return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &told,
-                                  job->obscurance);
+                                  &job->scratch.sums, job->obscurance);
 }
 
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
