@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
+#include "film.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"
@@ -126,49 +127,6 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// Of film options, none has a meaning for linear values.
-static int refuse_film(const command_line *a, const char *output)
-{
-    static const struct {
-        option_id id;
-        const char *name;
-    } film[] = {{OPTION_EXPOSURE, "--exposure"},
-                {OPTION_TONE, "--tone"},
-                {OPTION_WHITE_BALANCE, "--white-balance"}};
-    for (size_t i = 0; i < sizeof film / sizeof *film; i++) {
-        if (a->values[film[i].id].given) {
-            return usage_error(COMMAND_RENDER,
-                               "%s is for pictures to look at, and %s holds linear values; give "
-                               "-o IMAGE.png",
-                               film[i].name, output);
-        }
-    }
-    return EXIT_DONE;
-}
-
-/// How the picture is shown: as is best for the method, unless something else is asked for.
-static alp_film_options read_film(const command_line *a, alp_render_method method)
-{
-    enum { BALANCE_AUTO = 0 }; // of the choices of --white-balance, auto and off
-    const option_value *exposure = &a->values[OPTION_EXPOSURE];
-    const option_value *balance = &a->values[OPTION_WHITE_BALANCE];
-    alp_film_options film = alp_render_film_options(method);
-    if (exposure->given) {
-        film.auto_exposure = exposure->choice >= 0;
-        film.exposure = film.auto_exposure ? 0.0 : exposure->real;
-    }
-    if (a->values[OPTION_TONE].given) {
-        film.tone = (alp_tone)a->values[OPTION_TONE].choice;
-    }
-    if (balance->choice < 0) {
-        film.white_balance = ALP_WHITE_BALANCE_KELVIN;
-        film.kelvin = (float)balance->real;
-    } else if (balance->choice == BALANCE_AUTO) {
-        film.white_balance = ALP_WHITE_BALANCE_AUTO;
-    }
-    return film;
-}
-
 static int read_options(const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -189,7 +147,7 @@ static int read_options(const command_line *a, alp_render_options *o)
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
     o->occluders = a->values[OPTION_OCCLUDERS].text;
-    int code = linear ? refuse_film(a, output) : EXIT_DONE;
+    int code = linear ? film_refuse(a, output) : EXIT_DONE;
     if (code == EXIT_DONE) {
         code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
     }
@@ -237,7 +195,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
 static int render(session *s, const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
-    alp_film_options film = read_film(a, o->method);
+    alp_film_options film = film_read(a, o->method);
     alp_image *image = NULL;
     double start = clock_seconds();
     o->progress = session_progress;

@@ -415,7 +415,7 @@ static const option options[] = {
      .unit = "EV",
      .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
              "auto: the mean brightness becomes 18 % grey, without the darkest and brightest 5 %; "
-             "the EV used is printed. Default 0 for ao and constant."},
+             "the EV used is printed. Default 0 for ao and constant, else auto."},
     {.id = OPTION_TONE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -425,7 +425,7 @@ static const option options[] = {
      .choices = "film|reinhard|filmic|none",
      .help = "Curve from exposed light L to a .png. film: 1 - e^-L. reinhard: L (1 + L/16) / "
              "(1 + L), white at 4. filmic: Hable's, more contrast, white at 5.6. none: cut off at "
-             "1. Default none for ao and constant."},
+             "1. Default none for ao and constant, else film."},
     {.id = OPTION_WHITE_BALANCE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

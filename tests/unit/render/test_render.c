@@ -293,10 +293,13 @@ static void methods_of_zero_to_one_are_shown_as_they_are(void **state)
         assert_int_equal(film.white_balance, ALP_WHITE_BALANCE_OFF);
         assert_true(film.exposure == 0.0);
     }
-    alp_film_options radiance =
-        alp_render_film_options((alp_render_method)(ALP_RENDER_CONSTANT + 1));
-    assert_true(radiance.auto_exposure);
-    assert_int_equal(radiance.tone, ALP_TONE_FILM);
+    const alp_render_method light[] = {ALP_RENDER_HEMISPHERE, ALP_RENDER_REFERENCE};
+    for (int i = 0; i < 2; i++) {
+        alp_film_options film = alp_render_film_options(light[i]);
+        assert_true(film.auto_exposure);
+        assert_int_equal(film.tone, ALP_TONE_FILM);
+        assert_int_equal(film.dither, ALP_DITHER_HASHED);
+    }
 }
 
 int main(void)
