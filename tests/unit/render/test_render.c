@@ -228,7 +228,7 @@ static void bad_cameras_are_refused(void **state)
     options.width = 0;
     assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
     options = look_ahead();
-    options.samples = 5000;
+    options.samples = 65537;
     assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
     assert_null(image);
     alp_scene_destroy(scene);
