@@ -101,17 +101,22 @@ static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
     };
 }
 
-/// Texels in an order without those that take their value from elsewhere. @return how many
-static uint32_t drop(const alpi_object *object, const uint8_t *dropped, uint32_t *order)
+/// Texels of an object without those that take their value from elsewhere.
+static alp_result drop(const alpi_bake_job *job, const alpi_object *object, uint32_t *order,
+                       uint32_t *kept)
 {
-    uint32_t kept = 0;
+    const uint32_t per_tick = 1u << 16;
+    *kept = 0;
     for (uint32_t i = 0; i < object->texel_count; i++) {
         const uint32_t t = object->texels[i];
-        if (!dropped[t]) {
-            order[kept++] = t;
+        if (!job->validity.dropped[t]) {
+            order[(*kept)++] = t;
+        }
+        if (i % per_tick == per_tick - 1) {
+            ALP_TRY(alpi_tick(job->context, "validity", i, object->texel_count));
         }
     }
-    return kept;
+    return ALP_OK;
 }
 
 /// Asks the user, and the clock.
@@ -164,9 +169,9 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     options.near = validity->near;
     options.scratch = &job->scratch;
     uint32_t *order = ALPI_NEW(job->context, uint32_t, object->texel_count);
-    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (order != NULL) {
-        const uint32_t count = drop(object, validity->dropped, order);
+    uint32_t count = 0;
+    alp_result result = order != NULL ? drop(job, object, order, &count) : ALP_ERROR_OUT_OF_MEMORY;
+    if (result == ALP_OK) {
         result = alpi_bake_wants_occlusion(job)
                      ? alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
                                           job->lightmap->errors, report)

@@ -181,9 +181,9 @@ static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
         json_object_set_new(occlusion, "wanted_relative_error", json_real((double)s->error));
     }
     json_object_set_new(occlusion, "existing_ao", json_string(existing[job->options.existing_ao]));
-    json_object_set_new(
-        occlusion, "ao_into",
-        json_string(into[job->packing.count > 0 ? ALP_AO_INTO_ORM : ALP_AO_INTO_SEPARATE]));
+    const bool packed = job->packing.count > 0; // asked for, and there is an image that holds it
+    json_object_set_new(occlusion, "ao_into",
+                        json_string(into[packed ? ALP_AO_INTO_ORM : ALP_AO_INTO_SEPARATE]));
 }
 
 /// Version, options, quantity, input hash.
