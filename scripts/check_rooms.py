@@ -33,7 +33,8 @@ ROOMS = {
 # which bake.h declares, live in maps.
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
-    "display": "film", "light": "scene", "scene": "scene", "atlas": "atlas", "occlusion": "transport",
+    "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
+    "occlusion": "transport",
     "bake": "maps", "render": "render", "alpenglow": "bake",
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
 #include "interrupt.h"
+#include "lighting.h"
 #include "output.h"
 #include "report.h"
 #include "session.h"
@@ -55,24 +56,54 @@ static int check_vertex_options(const option_value *values)
     return EXIT_DONE;
 }
 
+/// Options of light need light, which knows no limits yet.
+static int check_light(const option_value *values, bool light)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } of_light[] = {{OPTION_SAMPLES, "--samples"},  {OPTION_BOUNCES, "--bounces"},
+                    {OPTION_SKY, "--sky"},          {OPTION_SKY_TURN, "--sky-turn"},
+                    {OPTION_SUN, "--sun"},          {OPTION_SKY_STRENGTH, "--sky-strength"},
+                    {OPTION_SUN_SIZE, "--sun-size"}};
+    for (size_t i = 0; i < sizeof of_light / sizeof *of_light && !light; i++) {
+        if (values[of_light[i].id].given) {
+            return usage_error(COMMAND_BAKE, "%s: needs --maps light", of_light[i].name);
+        }
+    }
+    if (light && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
+        return usage_error(COMMAND_BAKE, "--maps light: is baked in one go; leave out --time-limit "
+                                         "and --keep-partial");
+    }
+    if (light && values[OPTION_AO_SELF].given) {
+        return usage_error(COMMAND_BAKE, "--maps light: falls on the whole scene; leave out "
+                                         "--ao-self");
+    }
+    return EXIT_DONE;
+}
+
 /// --maps and --ao-bleed, and what cannot stand beside them.
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
     const bool bleed = values[OPTION_AO_BLEED].given;
     o->maps = (unsigned)values[OPTION_MAPS].whole | (bleed ? ALP_MAP_OBSCURANCE : 0u);
     const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
-    if (o->atlas.mode == ALP_ATLAS_VERTEX && bent) {
-        return usage_error(COMMAND_BAKE, "--maps bent: has no meaning with --atlas vertex");
+    const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
+        return usage_error(COMMAND_BAKE, "--maps %s: has no meaning with --atlas vertex",
+                           bent ? "bent" : "light");
     }
-    if (o->maps_folder == NULL && (bent || bleed)) {
+    if (o->maps_folder == NULL && (bent || bleed || light)) {
         return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR",
-                           bent ? "--maps bent" : "--ao-bleed");
+                           bent    ? "--maps bent"
+                           : light ? "--maps light"
+                                   : "--ao-bleed");
     }
     if (o->output != NULL && !ao) {
         return usage_error(COMMAND_BAKE,
-                           "-o %s: glTF has no place for bent normals; bake --maps "
-                           "ao,bent, or give --maps-dir alone",
-                           o->output);
+                           "-o %s: glTF has no place for what is not ao; bake --maps ao,%s, or "
+                           "give --maps-dir alone",
+                           o->output, light ? "light" : "bent");
     }
     if (values[OPTION_EXISTING_AO].given && !ao) {
         return usage_error(COMMAND_BAKE, "--existing-ao: has no meaning without --maps ao");
@@ -82,7 +113,7 @@ static int read_maps(const option_value *values, alp_bake_options *o)
                            "--ao-bleed: is baked in one go; leave out --time-limit and "
                            "--keep-partial");
     }
-    return EXIT_DONE;
+    return check_light(values, light);
 }
 
 /// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
@@ -164,6 +195,9 @@ static int read_options(const command_line *a, alp_bake_options *o)
     }
     code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting) : code;
+    o->light.bounces = lighting_bounces(a);
+    o->light.samples = (uint32_t)values[OPTION_SAMPLES].whole;
     return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
 
@@ -183,6 +217,7 @@ static void print_maps(const alp_bake_options *o, uint32_t pages)
         const char *files;
     } of_maps[] = {{ALP_MAP_AO, "ao.exr, ao.png, ao.error.exr, ao.sampling.png"},
                    {ALP_MAP_BENT, "bent.exr, bent.png"},
+                   {ALP_MAP_LIGHT, "irradiance.exr, irradiance.error.exr"},
                    {ALP_MAP_OBSCURANCE, "obscurance.exr, obscurance.png"}};
     const char *separator = "";
     printf("maps       %s/", o->maps_folder);
@@ -236,6 +271,21 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     }
 }
 
+static void print_light(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("light      %u paths per texel, ", o->light.samples);
+    if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
+        printf("all bounces");
+    } else {
+        printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
+    }
+    printf("; mean irradiance %.4g W/m2", r->light_mean);
+    if (isfinite(r->light_relative_error)) {
+        printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);
+    }
+    putchar('\n');
+}
+
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
                           const alp_bake_report *r)
 {
@@ -253,7 +303,12 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
     } else {
         print_atlas(&r->atlas);
     }
-    print_occlusion(a, r);
+    if ((o->maps & ~(unsigned)ALP_MAP_LIGHT) != 0) {
+        print_occlusion(a, r);
+    }
+    if ((o->maps & ALP_MAP_LIGHT) != 0) {
+        print_light(o, r);
+    }
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
            r->seconds_bake, r->seconds_write);
@@ -285,7 +340,8 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
         code = write_report(s, lightmap, &report, a);
     }
-    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
+    const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
+    if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
         print_summary(s, a, o, &report);
     }
     alp_lightmap_destroy(lightmap);
@@ -307,7 +363,7 @@ static int check_report(const command_line *a, const char *output)
         return usage_error(COMMAND_BAKE, "--json %s: is the name of %s too; give another", json,
                            output != NULL && output_is_same(json, output) ? "-o" : "SCENE");
     }
-    return output_check(json, a->values[OPTION_FORCE].given);
+    return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
 int command_bake(const command_line *a)
@@ -326,9 +382,14 @@ int command_bake(const command_line *a)
     if (code == EXIT_DONE) {
         code = session_load(&s, a->operands[0]);
     }
+    alp_image *sky = NULL;
+    if (code == EXIT_DONE) {
+        code = lighting_load_sky(&s, a, &options.light.lighting, &sky);
+    }
     if (code == EXIT_DONE) {
         code = bake(&s, a, &options);
     }
+    alp_image_destroy(sky);
     session_close(&s);
     return code;
 }

@@ -79,7 +79,9 @@ static int compare(comparison *c, const command_line *arguments)
     if (compare_files(c, arguments) != ALP_OK) {
         return failure(alp_context_message(c->context));
     }
-    print_difference(&c->difference);
+    if (!output_is_stdout(json)) {
+        print_difference(&c->difference);
+    }
     if (json != NULL) {
         json_t *document = make_document(arguments, &c->difference);
         int code = document == NULL
@@ -105,7 +107,7 @@ static int check_outputs(const command_line *arguments)
         return usage_error(COMMAND_COMPARE, "--heatmap and --json name the same file: %s", json);
     }
     int code = heatmap != NULL ? output_check(heatmap, overwrite) : EXIT_DONE;
-    return code == EXIT_DONE && json != NULL ? output_check(json, overwrite) : code;
+    return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
 }
 
 int command_compare(const command_line *arguments)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
+#include "film.h"
 #include "interrupt.h"
+#include "lighting.h"
 #include "output.h"
 #include "session.h"
 
@@ -90,28 +92,73 @@ static int read_camera(const char *text, alp_render_options *o)
     return EXIT_DONE;
 }
 
+/// Light that a method does not look at is refused and never ignored.
+static int check_light(const command_line *a, const alp_render_options *o)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+        bool of_hemisphere;
+    } of_light[] = {{OPTION_BOUNCES, "--bounces", false},
+                    {OPTION_SUN, "--sun", false},
+                    {OPTION_SUN_SIZE, "--sun-size", false},
+                    {OPTION_SKY_TURN, "--sky-turn", false},
+                    {OPTION_SKY, "--sky", true},
+                    {OPTION_SKY_STRENGTH, "--sky-strength", true}};
+    for (size_t i = 0; i < sizeof of_light / sizeof *of_light; i++) {
+        const bool read = o->method == ALP_RENDER_REFERENCE ||
+                          (o->method == ALP_RENDER_HEMISPHERE && of_light[i].of_hemisphere);
+        if (!read && a->values[of_light[i].id].given) {
+            return usage_error(COMMAND_RENDER, "%s: has no meaning with --with %s",
+                               of_light[i].name, a->values[OPTION_WITH].text);
+        }
+    }
+    return EXIT_DONE;
+}
+
+/// The ambient light of two half skies has no picture in it.
+static int check_hemisphere(const alp_render_options *o)
+{
+    const alp_sky_kind kind = o->lighting.sky.kind;
+    if (o->method == ALP_RENDER_HEMISPHERE && (kind == ALP_SKY_IMAGE || kind == ALP_SKY_CLEAR)) {
+        return usage_error(COMMAND_RENDER,
+                           "--with hemisphere: takes a --sky of one or two colours");
+    }
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
     *o = alp_render_options_default();
     if (output == NULL) {
-        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png or "
-                                           "-o IMAGE.exr");
+        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png, "
+                                           "-o IMAGE.exr or -o IMAGE.hdr");
     }
-    if (!path_ends(output, ".png") && !path_ends(output, ".exr")) {
-        return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png or .exr", output);
+    bool linear = !path_ends(output, ".png");
+    if (linear && !path_ends(output, ".exr") && !path_ends(output, ".hdr")) {
+        return usage_error(COMMAND_RENDER, "-o %s: the name must end in .png, .exr or .hdr",
+                           output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "by which method? give --with ao or --with constant");
+        return usage_error(COMMAND_RENDER, "by which method? give --with reference, ao, constant "
+                                           "or hemisphere");
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
     o->occluders = a->values[OPTION_OCCLUDERS].text;
-    int code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+    int code = linear ? film_refuse(a, output) : EXIT_DONE;
+    if (code == EXIT_DONE) {
+        code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+    }
     if (code == EXIT_DONE) {
         code = read_camera(a->values[OPTION_CAMERA].text, o);
     }
-    return code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? check_light(a, o) : code;
+    o->bounces = lighting_bounces(a);
+    code = code == EXIT_DONE ? lighting_read(a, &o->lighting) : code;
+    return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
 /// A camera that was asked for by number must be there.
@@ -129,13 +176,15 @@ static int check_camera(const session *s, const command_line *a, const alp_rende
     return EXIT_DONE;
 }
 
-static alp_result save(const alp_image *linear, const char *path, bool overwrite)
+/// @param film what the picture is developed with; comes back with the exposure that was used
+static alp_result save(const alp_image *linear, const char *path, bool overwrite,
+                       alp_film_options *film)
 {
-    if (path_ends(path, ".exr")) {
+    if (!path_ends(path, ".png")) {
         return alp_image_save(linear, path, overwrite);
     }
     alp_image *display = NULL;
-    alp_result result = alp_image_to_display(linear, &display);
+    alp_result result = alp_film_develop(linear, film, &display, &film->exposure);
     if (result == ALP_OK) {
         result = alp_image_save(display, path, overwrite);
     }
@@ -146,6 +195,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
 static int render(session *s, const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
+    alp_film_options film = film_read(a, o->method);
     alp_image *image = NULL;
     double start = clock_seconds();
     o->progress = session_progress;
@@ -154,13 +204,16 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     alp_result result = alp_render(s->scene, o, &image);
     double seconds = clock_seconds() - start;
     if (result == ALP_OK) {
-        result = save(image, output, a->values[OPTION_FORCE].given);
+        result = save(image, output, a->values[OPTION_FORCE].given, &film);
     }
     alp_image_destroy(image);
     int code = session_end(s, result);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
         printf("wrote      %s, %u x %u, load %.2f s, render %.2f s\n", output, o->width, o->height,
                s->load_seconds, seconds);
+        if (film.auto_exposure && path_ends(output, ".png")) {
+            printf("exposure   %.2f EV\n", film.exposure);
+        }
     }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
@@ -184,9 +237,14 @@ int command_render(const command_line *a)
     if (code == EXIT_DONE) {
         code = check_camera(&s, a, &options);
     }
+    alp_image *sky = NULL;
+    if (code == EXIT_DONE) {
+        code = lighting_load_sky(&s, a, &options.lighting, &sky);
+    }
     if (code == EXIT_DONE) {
         code = render(&s, a, &options);
     }
+    alp_image_destroy(sky);
     session_close(&s);
     return code;
 }

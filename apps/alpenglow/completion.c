@@ -69,7 +69,7 @@ completion completion_of_operand(command_id command)
         }
         append(c.endings, "glb gltf", strlen("glb gltf"));
     } else if (command == COMMAND_COMPARE) {
-        append(c.endings, "exr png jpg jpeg", strlen("exr png jpg jpeg"));
+        append(c.endings, "exr hdr png jpg jpeg", strlen("exr hdr png jpg jpeg"));
     }
     return c;
 }

@@ -81,7 +81,11 @@ static void print_later(command_id command)
     }
     for (size_t i = 0; i < count; i++) {
         if (table[i].later_choices != NULL && (table[i].commands & (1u << command)) != 0) {
+            if (!any) {
+                printf("\n%s:", option_group_title(GROUP_LATER));
+            }
             printf("\n  %s %s", table[i].name, table[i].later_choices);
+            any = true;
         }
     }
     if (any) {

@@ -22,7 +22,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
     [COMMAND_RENDER] = {.failed = "A file could not be read or written, or a warning came under "
                                   "--warnings-as-errors. Nothing was written.",
                         .files = {{"IMAGE.png", "The picture as a screen shows it."},
-                                  {"IMAGE.exr", "Its linear values."}},
+                                  {"IMAGE.exr, IMAGE.hdr", "Its linear values."}},
                         .examples = {{"Look at a bake:",
                                       "alpenglow render baked.glb --with ao -o picture.png"},
                                      {"From a place of your own, in linear values:",
@@ -35,7 +35,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
     [COMMAND_COMPARE] =
         {.failed = "A file could not be read or written, the images differ in size, or they differ "
                    "by more than --max-rmse allows.",
-         .files = {{"A, B", "Images to read: .exr, .png or .jpg."},
+         .files = {{"A, B", "Images to read: .exr, .hdr, .png or .jpg."},
                    {"PNG", "The picture of the difference."}},
          .examples = {{"Hold two bakes against each other, as a test does:",
                        "alpenglow compare maps/ao.exr maps/ao.exr --max-rmse 0.01"},

@@ -11,17 +11,18 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
          "open, and writes a copy of the scene with that occlusion map attached. What the bake "
          "does not touch comes out byte for byte as it was."},
-    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|IMAGE.exr --with ao|constant [OPTIONS]",
+    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|.exr|.hdr --with METHOD [OPTIONS]",
                         "render a picture of a scene", 1, command_render,
                         "Renders SCENE from one of its cameras, or from an automatic one. A .png "
-                        "is for looking at, an .exr holds the linear values."},
+                        "is for looking at, an .exr or .hdr holds the linear values."},
     [COMMAND_INFO] = {"info", "SCENE [--json]", "say what is in a scene", 1, command_info,
                       "Prints what SCENE holds: triangles, surfaces with their texture "
                       "coordinate sets, materials, lights, cameras, size."},
     [COMMAND_COMPARE] =
         {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
          "say how two images differ", 2, command_compare,
-         "Compares the images A and B (.exr, .png, .jpg) of equal size, over the pixels that are "
+         "Compares the images A and B (.exr, .hdr, .png, .jpg) of equal size, over the pixels that "
+         "are "
          "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
          "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
          "largest of |A - B| and where it is."},
@@ -52,9 +53,7 @@ static const command_entry commands[COMMAND_COUNT] = {
         .name = (name_), .value = (value_), .help = (instead_)                                     \
     }
 
-static const char no_light[] = "only occlusion is baked (--maps ao)";
-static const char no_sky[] = "occlusion is baked under a uniform sky";
-static const char set_rays[] = "--ao-samples sets the rays of a texel";
+static const char no_light[] = "--maps light bakes irradiance, all of it together";
 
 static const option options[] = {
     // --- output ---------------------------------------------------------------------------------
@@ -73,21 +72,22 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "-o",
      .alias = "--output",
-     .value = "IMAGE.png|IMAGE.exr",
-     .help = "The picture: .png 8-bit sRGB, .exr linear float with alpha = a surface is seen. "
-             "Needed."},
+     .value = "IMAGE.png|IMAGE.exr|IMAGE.hdr",
+     .help = "The picture: .png 8-bit sRGB, .exr linear float with alpha = a surface is seen, "
+             ".hdr linear without alpha. Needed."},
     {.id = OPTION_MAPS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
-     .choices = "ao|bent",
-     .later_choices = "light|direction|sh|probes",
+     .choices = "ao|bent|light",
+     .later_choices = "direction|sh|probes",
      .initial = "ao",
      .help = "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
-             "the mean open direction in world space, from the same rays; glTF has no place for "
-             "them, so they go to --maps-dir alone, and -o needs ao."},
+             "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
+             "per channel, not divided by pi, without albedo, by path tracing from every texel. "
+             "What is not ao goes to --maps-dir alone, and -o needs ao."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -97,7 +97,7 @@ static const option options[] = {
      .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0), "
              "ao.png, ao.error.exr (standard error of each texel), ao.sampling.png (red traced, "
              "green interpolated, blue filled from beside); bent.exr (unit vectors) and bent.png "
-             "(n / 2 + 1/2); obscurance.exr and "
+             "(n / 2 + 1/2); irradiance.exr and irradiance.error.exr; obscurance.exr and "
              "obscurance.png; further pages ao.1.exr and so on. DIR is made if missing."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,
@@ -106,14 +106,14 @@ static const option options[] = {
      .name = "--json",
      .value = "FILE",
      .help = "Write a report: scene, atlas, seconds, rays, memory, objects with their rectangles, "
-             "warnings."},
+             "warnings. - is standard output, instead of the summary."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "--json",
      .value = "FILE",
-     .help = "Write the numbers as JSON."},
+     .help = "Write the numbers as JSON. - is standard output, instead of the table."},
     {.id = OPTION_JSON,
      .commands = IN_INFO,
      .group = GROUP_OUTPUT,
@@ -293,11 +293,13 @@ static const option options[] = {
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "ao|constant",
-     .choices = "ao|constant",
-     .later_choices = "reference|radiosity|lightmap|probes|ambience|lpv|hemisphere|cube",
-     .help = "ao: accessibility, from the scene's occlusion maps, and by rays where it has none. "
-             "constant: uniform light of radiance 1, which shows the base colour. Needed."},
+     .value = "reference|ao|constant|hemisphere",
+     .choices = "ao|constant|hemisphere|reference",
+     .later_choices = "radiosity|lightmap|probes|ambience|lpv|cube",
+     .help = "reference: all light by path tracing. ao: accessibility, from the scene's occlusion "
+             "maps, and by rays where it has none. constant: uniform light of radiance 1, which "
+             "shows the base colour. hemisphere: the two colours of --sky, nothing in their way. "
+             "Needed."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -324,10 +326,119 @@ static const option options[] = {
      .name = "--samples",
      .value = "N",
      .minimum = 1,
-     .maximum = 4096,
+     .maximum = 65536,
      .unit = "camera rays per pixel",
      .initial = "16",
-     .help = "More smooth the edges; time grows with N."},
+     .help = "More smooth the edges; time grows with N. With reference each is a path, and the "
+             "noise falls as 1 over the root of N."},
+    {.id = OPTION_SAMPLES,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 65536,
+     .unit = "paths per texel",
+     .initial = "256",
+     .help = "Of --maps light, rounded up to a multiple of 16; --ao-samples are those of ao."},
+    {.id = OPTION_BOUNCES,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--bounces",
+     .value = "N|converge",
+     .minimum = 0,
+     .maximum = 1000,
+     .choices = "converge",
+     .initial = "converge",
+     .help = "How often light is reflected on its way. 0: direct light alone. converge: as long as "
+             "it brings anything."},
+    {.id = OPTION_SKY,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_TEXT,
+     .name = "--sky",
+     .value = "FILE|R,G,B|R,G,B/R,G,B|clear",
+     .help = "Light from outside: an equirectangular .hdr or .exr, a radiance from everywhere, one "
+             "above and one below the horizon (W/(sr m2), linear), or a clear sky about the --sun, "
+             "which then is wanted. Without it the sky is black."},
+    {.id = OPTION_SKY_TURN,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_REAL,
+     .name = "--sky-turn",
+     .value = "DEG",
+     .minimum = -360,
+     .maximum = 360,
+     .unit = "degrees",
+     .initial = "0",
+     .help = "Turn the sky counter-clockwise, seen from above."},
+    {.id = OPTION_SKY_STRENGTH,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_REAL,
+     .name = "--sky-strength",
+     .value = "S",
+     .minimum = 0,
+     .maximum = 1e6,
+     .initial = "1",
+     .help = "Factor on the sky's radiance."},
+    {.id = OPTION_SUN,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_TEXT,
+     .name = "--sun",
+     .value = "AZ,EL,LUX",
+     .help = "A sun beside the lights of the scene: azimuth in degrees from +Z towards +X, "
+             "elevation in degrees, and the illuminance of a surface that faces it."},
+    {.id = OPTION_SUN_SIZE,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_REAL,
+     .name = "--sun-size",
+     .value = "DEG",
+     .minimum = 0,
+     .maximum = 90,
+     .unit = "degrees",
+     .help = "Full angle of the disk of every sun, which makes shadows soft. Without it 0.53 for "
+             "--sun and 0 for the directional lights of the scene."},
+    {.id = OPTION_EXPOSURE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--exposure",
+     .value = "EV|auto",
+     .choices = "auto",
+     .minimum = -64,
+     .maximum = 64,
+     .unit = "EV",
+     .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
+             "auto: the mean brightness becomes 18 % grey, without the darkest and brightest 5 %; "
+             "the EV used is printed. Default 0 for ao and constant, else auto."},
+    {.id = OPTION_TONE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--tone",
+     .value = "film|reinhard|filmic|none",
+     .choices = "film|reinhard|filmic|none",
+     .help = "Curve from exposed light L to a .png. film: 1 - e^-L. reinhard: L (1 + L/16) / "
+             "(1 + L), white at 4. filmic: Hable's, more contrast, white at 5.6. none: cut off at "
+             "1. Default none for ao and constant, else film."},
+    {.id = OPTION_WHITE_BALANCE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--white-balance",
+     .value = "K|auto|off",
+     .choices = "auto|off",
+     .minimum = 1000,
+     .maximum = 25000,
+     .unit = "kelvin",
+     .initial = "off",
+     .help = "Which light is white in a .png. K: light of this colour temperature; low ones make "
+             "the picture bluer. auto: the mean of the picture. off: D65, as it is."},
     {.id = OPTION_SCALE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -359,7 +470,8 @@ static const option options[] = {
      .maximum = 1048576,
      .unit = "rays per point",
      .initial = "512",
-     .help = "Time grows with N. The standard error of a texel is at most 0.5 / sqrt(N), and with "
+     .help = "Time grows with N, which is rounded up to a multiple of 4. The standard error of a "
+             "texel is at most 0.5 / sqrt(N), and with "
              "these samples mostly far less; powers of two serve best."},
     {.id = OPTION_AO_DISTANCE,
      .commands = RAY_COMMANDS,
@@ -535,17 +647,10 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(RAY_COMMANDS, "--bounces", "N|converge", no_light),
     LATER(IN_BAKE, "--direct", "on|off|only", no_light),
     LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),
-    LATER(IN_BAKE, "--samples", "N", set_rays),
     LATER(IN_BAKE, "--units", "irradiance|irradiance/pi|radiance", no_light),
     LATER(IN_BAKE, "--layers", NULL, no_light),
-    LATER(IN_BAKE, "--sky", "FILE|R,G,B|R,G,B/R,G,B|clear", no_sky),
-    LATER(IN_BAKE, "--sky-turn", "DEG", no_sky),
-    LATER(IN_BAKE, "--sky-strength", "S", no_sky),
-    LATER(IN_BAKE, "--sun", "AZ,EL,LUX", no_sky),
-    LATER(IN_BAKE, "--sun-size", "DEG", no_sky),
     LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",
           "occlusion is attached as the material's occlusion map"),
     LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
@@ -553,9 +658,6 @@ static const option options[] = {
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
     LATER(IN_BAKE, "--report", "OUT.html", "--json writes a report"),
-    LATER(IN_RENDER, "--exposure", "EV|auto", "values 0 to 1 are shown as they are"),
-    LATER(IN_RENDER, "--tone", "film|reinhard|filmic|none", "values above 1 are cut off"),
-    LATER(IN_RENDER, "--white-balance", "K|auto|off", "white stays white"),
     LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
 };
 
@@ -582,13 +684,10 @@ static const char *const builtin_scenes[] = {
 };
 
 static const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_OUTPUT] = "Output",
-    [GROUP_WHAT] = "What",
-    [GROUP_PICTURE] = "Picture",
-    [GROUP_AO] = "Ambient occlusion",
-    [GROUP_STOP] = "When to stop",
-    [GROUP_RUN] = "Run",
-    [GROUP_LATER] = "Not built yet (refused by name)",
+    [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "What",
+    [GROUP_PICTURE] = "Picture", [GROUP_AO] = "Ambient occlusion",
+    [GROUP_LIGHT] = "Light",     [GROUP_STOP] = "When to stop",
+    [GROUP_RUN] = "Run",         [GROUP_LATER] = "Not built yet (refused by name)",
 };
 
 const command_entry *command_table(void)

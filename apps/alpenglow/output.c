@@ -70,6 +70,16 @@ int output_check(const char *path, bool overwrite)
     return code;
 }
 
+bool output_is_stdout(const char *path)
+{
+    return path != NULL && strcmp(path, "-") == 0;
+}
+
+int output_check_json(const char *path, bool overwrite)
+{
+    return output_is_stdout(path) ? EXIT_DONE : output_check(path, overwrite);
+}
+
 bool output_is_same(const char *a, const char *b)
 {
     struct stat first, second;
@@ -108,7 +118,7 @@ static int write_and_rename(const char *text, const char *path, const char *temp
 
 int output_write_json(const json_t *document, const char *path, bool overwrite)
 {
-    int code = output_check(path, overwrite); // again: the work may have taken hours
+    int code = output_check_json(path, overwrite); // again: the work may have taken hours
     if (code != EXIT_DONE) {
         return code;
     }
@@ -116,11 +126,15 @@ int output_write_json(const json_t *document, const char *path, bool overwrite)
     if (text == NULL) {
         return failure("out of memory");
     }
-    size_t size = strlen(path) + 32;
-    char *temporary = allocate_or_exit(NULL, size);
-    snprintf(temporary, size, "%s.%ld.tmp", path, (long)getpid());
-    code = write_and_rename(text, path, temporary);
-    free(temporary);
+    if (output_is_stdout(path)) { // whether it got there is seen when the command ends
+        puts(text);
+    } else {
+        size_t size = strlen(path) + 32;
+        char *temporary = allocate_or_exit(NULL, size);
+        snprintf(temporary, size, "%s.%ld.tmp", path, (long)getpid());
+        code = write_and_rename(text, path, temporary);
+        free(temporary);
+    }
     free(text);
     return code;
 }

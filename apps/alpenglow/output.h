@@ -10,10 +10,15 @@
 /// Whether `path` can be written, before long work. @return EXIT_DONE, or EXIT_FAILED and a message
 int output_check(const char *path, bool overwrite);
 
+/// The same for a JSON document, whose path may also be "-": standard output.
+int output_check_json(const char *path, bool overwrite);
+bool output_is_stdout(const char *path); ///< also of NULL: false
+
 /// Whether two paths name one file, by their text or because both are there and are the same.
 bool output_is_same(const char *a, const char *b);
 
-/// Writes a JSON document; to a temporary file that is renamed when complete.
+/// Writes a JSON document: to standard output, or to a temporary file that is renamed when
+/// complete.
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int output_write_json(const json_t *document, const char *path, bool overwrite);
 

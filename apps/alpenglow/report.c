@@ -148,8 +148,18 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
         "input_hash", hash, "error", "ao", "relative", json_number(r->ao_relative_error), "p99",
         json_number(r->ao_p99_error), "peak_memory_bytes", (json_int_t)r->peak_memory_bytes,
         "objects", make_objects(s->scene, lightmap), "warnings", report_warnings(&s->messages));
+    json_t *error = json_object_get(document, "error");
     if (r->atlas.mode == ALP_ATLAS_VERTEX) { // no error is stated
-        json_object_clear(json_object_get(document, "error"));
+        json_object_clear(error);
+    }
+    if ((r->maps & ALP_MAP_LIGHT) != 0) {
+        json_object_set_new(error, "irradiance",
+                            json_pack("{s:o, s:o}", "relative",
+                                      json_number(r->light_relative_error), "p99",
+                                      json_number(r->light_p99_error)));
+    }
+    if ((r->maps & ~(unsigned)ALP_MAP_LIGHT) == 0) {
+        json_object_del(error, "ao");
     }
     json_object_set_new(document, "sampling", make_sampling(r));
     return document;

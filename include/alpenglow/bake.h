@@ -5,6 +5,7 @@
 
 #include <alpenglow/atlas.h>
 #include <alpenglow/image.h>
+#include <alpenglow/light.h>
 #include <alpenglow/occlusion.h>
 
 ALP_BEGIN_DECLS
@@ -41,10 +42,23 @@ typedef enum alp_vertex_attribute {
 
 /// What a bake makes: bits of alp_bake_options.maps. See alp_lightmap_map_page for their values.
 typedef enum alp_map {
-    ALP_MAP_AO = 1,        ///< accessibility: what an asset carries
-    ALP_MAP_BENT = 2,      ///< bent normals, from the rays of ALP_MAP_AO
-    ALP_MAP_OBSCURANCE = 4 ///< coloured obscurance, every texel with rays of its own
+    ALP_MAP_AO = 1,    ///< accessibility: what an asset carries
+    ALP_MAP_BENT = 2,  ///< bent normals, from the rays of ALP_MAP_AO
+    ALP_MAP_LIGHT = 4, ///< irradiance E [W·m⁻² per channel, linear Rec.709], without albedo,
+                       ///< without occlusion maps, not divided by π
+    ALP_MAP_OBSCURANCE = 8 ///< coloured obscurance, every texel with rays of its own
 } alp_map;
+
+/// `bounces` of light that goes on as long as it brings anything.
+#define ALP_BOUNCES_CONVERGE UINT32_MAX
+
+/// How ALP_MAP_LIGHT is gathered: by the reference path tracer.
+typedef struct alp_light_options {
+    alp_lighting_options lighting; ///< beside the lights and emissive materials of the scene
+    uint32_t bounces;              ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
+    uint32_t samples; ///< paths of a texel, [1, 65536], rounded up to a multiple of 16;
+                      ///< default 256
+} alp_light_options;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
 #define ALP_ADAPTIVE_OFF 0.0f
@@ -71,11 +85,13 @@ typedef struct alp_bake_options {
     size_t struct_size;
     alp_atlas_options atlas;         ///< its progress is ignored
     alp_occlusion_options occlusion; ///< its progress is ignored
+    alp_light_options light;         ///< for ALP_MAP_LIGHT
     alp_sampling_options sampling;
     /// Bits of alp_map, at least one; default ALP_MAP_AO. An asset needs ALP_MAP_AO: glTF has no
-    /// place for the others. Occlusion is gathered and reported in any case, and without
-    /// ALP_MAP_AO not written. ALP_ATLAS_VERTEX: ALP_MAP_AO alone. ALP_MAP_OBSCURANCE takes no
-    /// time_limit and no keep_partial; existing_ao changes ALP_MAP_AO alone.
+    /// place for the others. For BENT and OBSCURANCE occlusion is gathered and reported, and
+    /// without ALP_MAP_AO not written. ALP_ATLAS_VERTEX: ALP_MAP_AO alone. OBSCURANCE and LIGHT
+    /// take no time_limit and no keep_partial; LIGHT no ao_self; existing_ao changes ALP_MAP_AO
+    /// alone.
     unsigned maps;
     alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
@@ -95,13 +111,15 @@ typedef struct alp_bake_options {
     const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
-    /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_ATLAS_VERTEX:
+    /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
+    /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_ATLAS_VERTEX:
     /// NULL.
     const char *maps_folder;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "dilation"; "write". With ALP_ATLAS_VERTEX
-    /// "vertices", "build", "occlusion", "detail", "write". Parts of short work may stay unheard.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
+    /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work
+    /// may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
@@ -109,6 +127,7 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 
 /// What was done.
 typedef struct alp_bake_report {
+    unsigned maps; ///< that were made: bits of alp_map
     alp_scene_info scene;
     alp_atlas_info atlas;
     uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
@@ -118,12 +137,17 @@ typedef struct alp_bake_report {
     uint64_t moved;   ///< texels partly inside other geometry: only the rest of them was gathered
     uint64_t dropped; ///< wholly inside, at the rim: filled like texels of no surface
     /// Stated error of the map: √(mean of squared standard errors) and their 99th percentile, both
-    /// over its mean; NaN when no round of rays came to its end.
+    /// over the mean value, of all texels that were sampled, each counting alike; NaN when no round
+    /// of rays came to its end.
     double ao_relative_error, ao_p99_error;
-    bool cut_off;   ///< by the time limit or by cancelling: another run gives other bits
-    double ao_mean; ///< area-weighted mean accessibility
+    bool cut_off;      ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean;    ///< area-weighted mean accessibility
+    double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
+    /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
+    /// texel's, both over light_mean; NaN if dark.
+    double light_relative_error, light_p99_error;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
-    uint64_t rays;
+    uint64_t rays;           ///< of occlusion; of light the paths, which are several rays each
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
     uint64_t seed;

@@ -34,15 +34,19 @@ ALP_API alp_image_info alp_image_get_info(const alp_image *image);
 ALP_API uint8_t *alp_image_bytes(alp_image *image);
 ALP_API float *alp_image_floats(alp_image *image);
 
-/// Reads a .png, .jpg or .exr; the kind is known by its first bytes, not its name. PNG of 16 bits
-/// is rounded to 8; a palette is expanded. EXR: one part, channels R G B A or Y, half or float.
-/// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); UNSUPPORTED (an EXR of another
-///         kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
+/// Reads a .png, .jpg, .exr or .hdr; the kind is known by its first bytes, not its name. PNG of 16
+/// bits is rounded to 8; a palette is expanded. EXR: one part, channels R G B A or Y, half or
+/// float, any compression but DWAA and DWAB. HDR (Radiance RGBE): flat or in runs, any orientation;
+/// an EXPOSURE or COLORCORR of its header is taken out again.
+/// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); UNSUPPORTED (an EXR or HDR of
+///         another kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_load(alp_context *context, const char *path,
                                                 alp_image **image);
 
-/// Writes a .png (8-bit images only) or .exr (float images only: scanline, ZIP, 32-bit float), by
-/// the ending of `path`; written to a temporary file that is renamed when complete.
+/// Writes a .png (8-bit images only), .exr (float images only: scanline, ZIP, 32-bit float) or .hdr
+/// (float images only: RGBE, to about 0.4 % of a pixel's largest channel, without alpha; negative
+/// values become 0, with a warning, hdr-range), by the ending of `path`; written to a temporary
+/// file that is renamed when complete.
 /// @param overwrite false: an existing file is an error
 /// @return ALP_OK; INVALID_ARGUMENT (ending or component does not fit); IO; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_save(const alp_image *image, const char *path,

@@ -10,21 +10,30 @@ ALP_BEGIN_DECLS
 typedef enum alp_sky_kind {
     ALP_SKY_NONE = 0,       ///< black
     ALP_SKY_CONSTANT = 1,   ///< radiance `up` from everywhere
-    ALP_SKY_HEMISPHERE = 2, ///< `down` + (`up` − `down`)(1 + d·y)/2 in direction d
+    ALP_SKY_HEMISPHERE = 2, ///< `up` from above the horizon, `down` from below it
     ALP_SKY_IMAGE = 3,      ///< equirectangular `image`
-    ALP_SKY_CLEAR = 4       ///< an analytic clear sky about the sun of these options
+    /// An analytic clear sky about the sun of these options, without the sun's disk, in absolute
+    /// units: its luminance in cd/m² (some thousand) is the radiance's number. Below the horizon an
+    /// even ground of albedo 0.2 lit by this sky alone. A sun below the horizon lets it fade, by
+    /// ten for every 3°, with a warning (sun-below-horizon); below −18° it is black.
+    /// Preetham, Shirley, Smits: A Practical Analytic Model for Daylight. SIGGRAPH 1999.
+    ALP_SKY_CLEAR = 4
 } alp_sky_kind;
 
 /// The sky: radiance [W·sr⁻¹·m⁻² per channel, linear Rec.709] by direction.
 typedef struct alp_sky_options {
-    alp_sky_kind kind;    ///< default NONE
-    float up[3], down[3]; ///< radiance, ≥ 0; default 1 and 0
-    const alp_image
-        *image;      ///< float, 3 or 4 channels, twice as wide as high; borrowed until the
-                     ///< lighting is made. Row 0 is up (+Y); the middle column looks along −Z
-    float turn;      ///< radians about +Y, counter-clockwise seen from above; default 0
-    float strength;  ///< factor on all of it, ≥ 0; default 1
-    float turbidity; ///< of the clear sky, [1.7, 10]; default 3
+    alp_sky_kind kind;      ///< default NONE
+    float up[3], down[3];   ///< radiance, [0, 1e30]; default 1 and 0
+    const alp_image *image; ///< float, 3 or 4 channels, twice as wide as high; borrowed until the
+                            ///< lighting is made. Row 0 is up (+Y); the middle column looks along
+                            ///< −Z, columns to its right towards +X. Negative values and NaN count
+                            ///< as 0, infinite ones (beyond 1e30 too) as its brightest, with a
+                            ///< warning (sky-image). Alpha is not looked at
+    float turn;      ///< of the image, radians about +Y, counter-clockwise seen from above;
+                     ///< default 0. The clear sky turns with the sun's azimuth
+    float strength;  ///< factor on all of it, [0, 1e30], and no radiance may become more
+                     ///< than 1e30; default 1
+    float turbidity; ///< of the clear sky, [1.7, 10]: 2 clear, 3 usual, 6 hazy; default 3
 } alp_sky_options;
 
 /// A sun: a disk of even radiance at infinity.

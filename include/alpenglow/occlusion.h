@@ -22,9 +22,9 @@ typedef enum alp_distribution {
 
 typedef struct alp_occlusion_options {
     size_t struct_size;
-    uint32_t samples;    ///< rays per receiver, [1, 2^20]; default 512
-    float distance;      ///< metres, > 0; INFINITY = no limit; 0 (default) = auto: 20 % of
-                         ///< the diagonal of the scene's bounding box
+    uint32_t samples; ///< rays per receiver, [1, 2^20], rounded up to a multiple of 4; default 512
+    float distance;   ///< metres, > 0; INFINITY = no limit; 0 (default) = auto: 20 % of
+                      ///< the diagonal of the scene's bounding box
     alp_falloff falloff; ///< default SMOOTH; with no limit only NONE has a meaning
     float cone;          ///< half-angle about the normal, radians, (0, π/2]; default π/2
     alp_distribution distribution; ///< default COSINE

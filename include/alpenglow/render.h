@@ -5,7 +5,9 @@
 
 #include <alpenglow/bake.h>
 #include <alpenglow/display.h>
+#include <alpenglow/film.h>
 #include <alpenglow/image.h>
+#include <alpenglow/light.h>
 #include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS
@@ -13,14 +15,19 @@ ALP_BEGIN_DECLS
 typedef enum alp_render_method {
     ALP_RENDER_AO = 0, ///< accessibility, from the scene's occlusion maps; surfaces without one,
                        ///< and scenes without any, by rays at each pixel
-    ALP_RENDER_CONSTANT = 1 ///< constant ambient light of radiance 1: the albedo
+    ALP_RENDER_CONSTANT = 1,   ///< constant ambient light of radiance 1: the albedo
+    ALP_RENDER_HEMISPHERE = 2, ///< ambient light of a sky of radiance `lighting.sky.up` above the
+                               ///< horizon and `down` below it, nothing in its way: radiance
+                               ///< ρ (up (1 + n·y) + down (1 − n·y)) / 2
+    ALP_RENDER_REFERENCE = 3   ///< path tracing: all light of the scene and of `lighting`
 } alp_render_method;
 
 typedef struct alp_render_options {
     size_t struct_size;
     alp_render_method method;
     uint32_t width, height; ///< pixels, [1, 16384]; default 960 × 540
-    uint32_t samples;       ///< camera rays per pixel, [1, 4096]; default 16
+    uint32_t samples;       ///< camera rays per pixel, [1, 65536]; default 16. REFERENCE: paths,
+                            ///< rounded up to a multiple of 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     uint32_t camera_index;  ///< default 0; past the last: the automatic camera
     alp_occlusion_options
@@ -28,16 +35,29 @@ typedef struct alp_render_options {
     const char *occluders; ///< which surfaces occlude, as in alp_bake_options; NULL (default) = all
     const alp_lightmap
         *lightmap; ///< NULL, or maps of this scene that are read instead of its textures
+    alp_lighting_options lighting; ///< for HEMISPHERE, whose sky is always of two colours (default
+                                   ///< there: up 1, down 0), and REFERENCE
+    uint32_t bounces;   ///< REFERENCE: 0 = direct light alone; default ALP_BOUNCES_CONVERGE
+    bool no_next_event; ///< REFERENCE: light is found by chance alone, a slow cross-check that
+                        ///< never finds lights without extent
+    alp_image **error;  ///< NULL, or out: REFERENCE: the standard error of each pixel, float RGBA,
+                        ///< which the caller destroys
     alp_progress_fn *progress;
     void *progress_user;
 } alp_render_options;
 ALP_API alp_render_options alp_render_options_default(void);
 
-/// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen.
+/// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen;
+/// REFERENCE with a sky: 1 everywhere.
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match among them); OUT_OF_MEMORY;
 /// CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
+
+/// How pictures of a method are best shown: accessibility and the albedo lie between 0 and 1 and
+/// are shown as they are (alp_film_options_default); radiance, which every other method gives, by
+/// film with automatic exposure and hashed dithering.
+ALP_API alp_film_options alp_render_film_options(alp_render_method method);
 
 ALP_END_DECLS
 

@@ -15,6 +15,9 @@ alp_bake_options alp_bake_options_default(void)
     return (alp_bake_options){.struct_size = sizeof(alp_bake_options),
                               .atlas = alp_atlas_options_default(),
                               .occlusion = alp_occlusion_options_default(),
+                              .light = {.lighting = alp_lighting_options_default(),
+                                        .bounces = ALP_BOUNCES_CONVERGE,
+                                        .samples = 256},
                               .maps = ALP_MAP_AO,
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }
@@ -141,6 +144,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     }
     if (result == ALP_OK && report != NULL) {
         job.report.scene = alp_scene_get_info(scene);
+        job.report.maps = job.options.maps;
         job.report.threads = alp_context_worker_count(job.context);
         job.report.seed = job.options.occlusion.seed;
         job.report.input_hash = scene->input_hash;

@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "maps/lightmap.h"
+#include "maps/validity.h"
 #include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
@@ -30,7 +31,10 @@ typedef struct alpi_bake_job {
     bool *only, *occluders; // [surface_count] those of the patterns, NULL = all
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
-    float (*bent)[3], (*obscurance)[3]; // [texels] while sampling; NULL: not asked for
+    float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
+    float (*irradiance)[3], (*irradiance_errors)[3]; // the same
+    alpi_scratch scratch;                            // while sampling
+    alpi_validity validity;                          // while sampling
     alpi_packing packing;
     alp_bake_report report;
 } alpi_bake_job;
@@ -56,12 +60,19 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
                                 const alpi_receivers *receivers, const uint32_t *order,
                                 uint32_t order_count, uint32_t samples,
                                 const alpi_task_progress *progress);
+/// Whether any map is asked for that needs occlusion.
+bool alpi_bake_wants_occlusion(const alpi_bake_job *job);
+/// Irradiance of the texels in `order`, if it was asked for; fills the report. The stage of
+/// `progress` is set here.
+alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
+                                const alpi_receivers *receivers, const uint32_t *order,
+                                uint32_t count, const alpi_task_progress *progress);
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
-/// Bytes of ours that a bake of these maps on this atlas holds at its peak, the scene and the
+/// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps);
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
 /// LIMIT when that is more than nine tenths of the machine's memory.
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 

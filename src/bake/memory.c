@@ -6,34 +6,45 @@
 #include <unistd.h>
 
 enum {
-    // alpi_texels 49, a piece 8, lattice 9, error 4, state 1, sums 20, lists 5
-    BYTES_PER_TEXEL = 96,
-    BYTES_OF_SUMS = 20,        // of these, gone when the maps are stored
+    // alpi_texels 51 and a piece 8, lattice 9, error 4, state 1
+    BYTES_PER_TEXEL = 73,
+    // While rays are sent: sums 20, marks 1, inside 2, near 1, dropped 1, order 4, list 4. The
+    // packets of a worker, 25 KiB, are on its stack.
+    RAY_BYTES_PER_TEXEL = 33,
+    RAY_BYTES_OF_VECTORS = 12,  // of sums, if a map beside occlusion is made
+    OBJECT_BYTES_PER_TEXEL = 4, // the texels dealt out to objects
+    BYTES_PER_SAMPLE = 3 * 13,  // sequence 12, places 1: of the map and of two held-out estimates
+    BYTES_OF_PROBES = 8192 * 44,
     BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
     BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
     // Of each map beside occlusion.
     SIDE_BYTES_PER_TEXEL = 12,
-    SIDE_BYTES_OF_SUMS = 12,
+    LIGHT_BYTES_PER_TEXEL = 28,    // while paths are traced: mean and variance, and an error
     SIDE_BYTES_PER_PAGE_TEXEL = 16 // its pages are made when it is stored
 };
 
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, unsigned maps)
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *options)
 {
     const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
-    const uint64_t sides =
-        ((maps & ALP_MAP_BENT) != 0 ? 1u : 0u) + ((maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u);
-    const uint64_t of_texel = BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides;
-    const uint64_t rays = (of_texel + SIDE_BYTES_OF_SUMS * sides) * atlas->texels;
-    const uint64_t store =
-        (of_texel - BYTES_OF_SUMS) * atlas->texels + SIDE_BYTES_PER_PAGE_TEXEL * sides * pages;
-    return (rays > store ? rays : store) + BYTES_PER_PAGE_TEXEL * pages + BYTES_TO_DILATE * page;
+    const uint64_t sides = ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+                           ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
+                           ((options->maps & ALP_MAP_LIGHT) != 0 ? 2u : 0u); // and its errors
+    const uint64_t kept = (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels;
+    uint64_t of_texel = RAY_BYTES_PER_TEXEL;
+    of_texel += (options->maps & ALP_MAP_LIGHT) != 0 ? LIGHT_BYTES_PER_TEXEL : 0u;
+    of_texel += sides > 0 ? RAY_BYTES_OF_VECTORS : 0u;
+    of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
+    const uint64_t rays = of_texel * atlas->texels + BYTES_OF_PROBES +
+                          (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;
+    const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * sides * pages + BYTES_TO_DILATE * page;
+    return kept + (rays > store ? rays : store) + BYTES_PER_PAGE_TEXEL * pages;
 }
 
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
     double needed =
-        (double)alpi_bake_memory(atlas, job->options.maps) + (double)alpi_bake_packing_memory(job);
+        (double)alpi_bake_memory(atlas, &job->options) + (double)alpi_bake_packing_memory(job);
     double present = (double)pages * (double)page_size;
     const uint64_t limit = job->options.sampling.memory_limit;
     if (limit > 0 && needed > (double)limit) {

@@ -148,6 +148,13 @@ static alp_result list_objects(const alpi_bake_job *job, alpi_objects *objects, 
     return ALP_OK;
 }
 
+/// Asks the user whether to go on, once in a while.
+static alp_result tick(const alpi_bake_job *job, uint32_t i)
+{
+    const uint32_t per_tick = 1u << 16;
+    return i % per_tick == per_tick - 1 ? alpi_tick(job->context, "build", 0, 1) : ALP_OK;
+}
+
 /// Deals the texels out to the objects; each keeps the order. Objects without any are dropped.
 static alp_result deal_texels(const alpi_bake_job *job, const uint32_t *order,
                               const uint32_t *owner, alpi_objects *objects)
@@ -157,6 +164,7 @@ static alp_result deal_texels(const alpi_bake_job *job, const uint32_t *order,
     for (uint32_t i = 0; i < texels->count; i++) {
         const uint32_t surface = job->scene->triangle_surface[texels->triangles[i]];
         objects->items[owner[surface]].texel_count++;
+        ALP_TRY(tick(job, i));
     }
     uint32_t first = 0;
     for (uint32_t i = 0; i < objects->count; i++) {
@@ -168,6 +176,7 @@ static alp_result deal_texels(const alpi_bake_job *job, const uint32_t *order,
         const uint32_t surface = job->scene->triangle_surface[texels->triangles[order[i]]];
         alpi_object *o = &objects->items[owner[surface]];
         objects->texels[(size_t)(o->texels - objects->texels) + o->texel_count++] = order[i];
+        ALP_TRY(tick(job, i));
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < objects->count; i++) {

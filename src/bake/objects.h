@@ -26,7 +26,7 @@ typedef struct alpi_objects {
 
 /// The groups that hold texels of the job's atlas, in the order of their nodes.
 /// @param order [texels] all texels, neighbours together; borrowed
-/// @return ALP_OK; OUT_OF_MEMORY
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_objects_create(const alpi_bake_job *job, const uint32_t *order,
                                alpi_objects *objects);
 void alpi_objects_destroy(alpi_objects *objects);

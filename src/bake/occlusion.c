@@ -11,17 +11,25 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Mean over the surface: each texel of known value counts by its area.
-static double area_mean(const alpi_texels *texels, const alpi_lattice *lattice)
+static void sum_areas(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
-    double sum = 0.0, area = 0.0;
-    for (uint32_t i = 0; i < texels->count; i++) {
-        if (lattice->states[i] != ALPI_TEXEL_OPEN) {
-            sum += (double)texels->areas[i] * (double)lattice->values[i];
-            area += (double)texels->areas[i];
+    const alpi_lattice *l = user;
+    for (uint32_t i = begin; i < end; i++) {
+        if (l->states[i] != ALPI_TEXEL_OPEN) {
+            sums[0] += (double)l->texels->areas[i] * (double)l->values[i];
+            sums[1] += (double)l->texels->areas[i];
         }
     }
-    return area > 0.0 ? sum / area : 0.0;
+}
+
+/// Mean over the surface: each texel of known value counts by its area.
+static alp_result find_area_mean(const alpi_lattice *lattice, double *mean)
+{
+    double sums[ALPI_SUM_LIMIT];
+    ALP_TRY(alpi_parallel_sum(lattice->context, lattice->texels->count, sum_areas, lattice, NULL,
+                              sums));
+    *mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    return ALP_OK;
 }
 
 void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
@@ -58,8 +66,8 @@ static void warn_of_error(const alpi_bake_job *job)
     }
 }
 
-static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map,
-                        const alpi_lattice *lattice)
+static alp_result fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map,
+                              const alpi_lattice *lattice)
 {
     alp_bake_report *r = &job->report;
     r->rays += map->rays;
@@ -70,9 +78,12 @@ static void fill_report(alpi_bake_job *job, const alpi_occlusion_map_report *map
     r->ao_relative_error = map->relative;
     r->ao_p99_error = map->p99;
     r->cut_off = map->cut_off;
-    r->ao_mean = area_mean(&job->lightmap->texels, lattice);
-    alpi_bake_warn_of_darkness(job);
-    warn_of_error(job);
+    ALP_TRY(find_area_mean(lattice, &r->ao_mean));
+    if (alpi_bake_wants_occlusion(job)) {
+        alpi_bake_warn_of_darkness(job);
+        warn_of_error(job);
+    }
+    return ALP_OK;
 }
 
 /// Options of the map that are the same for all objects.
@@ -90,17 +101,22 @@ static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
     };
 }
 
-/// Texels in an order without those that take their value from elsewhere. @return how many
-static uint32_t drop(const alpi_object *object, const uint8_t *dropped, uint32_t *order)
+/// Texels of an object without those that take their value from elsewhere.
+static alp_result drop(const alpi_bake_job *job, const alpi_object *object, uint32_t *order,
+                       uint32_t *kept)
 {
-    uint32_t kept = 0;
+    const uint32_t per_tick = 1u << 16;
+    *kept = 0;
     for (uint32_t i = 0; i < object->texel_count; i++) {
         const uint32_t t = object->texels[i];
-        if (!dropped[t]) {
-            order[kept++] = t;
+        if (!job->validity.dropped[t]) {
+            order[(*kept)++] = t;
+        }
+        if (i % per_tick == per_tick - 1) {
+            ALP_TRY(alpi_tick(job->context, "validity", i, object->texel_count));
         }
     }
-    return kept;
+    return ALP_OK;
 }
 
 /// Asks the user, and the clock.
@@ -113,6 +129,19 @@ static bool is_in_time(void *user, const alp_progress *progress)
     return alpi_seconds() < o->deadline;
 }
 
+/// Every texel is open where nobody asks for occlusion.
+static alp_result skip_occlusion(const uint32_t *order, uint32_t count, alpi_lattice *lattice,
+                                 alpi_occlusion_map_report *report)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        lattice->states[order[i]] = ALPI_TEXEL_TRACED;
+        lattice->values[order[i]] = 1.0f;
+    }
+    *report =
+        (alpi_occlusion_map_report){.traced = count, .relative = (double)NAN, .p99 = (double)NAN};
+    return ALP_OK;
+}
+
 /// Looks for texels of an object that are inside other geometry, then gathers the others.
 static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                const alpi_occlusion_setup *setup,
@@ -120,36 +149,42 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                alpi_occlusion_map_report *report)
 {
     alpi_texels *texels = &job->lightmap->texels;
+    alpi_validity *validity = &job->validity;
     const alpi_receivers receivers = alpi_texels_receivers(texels);
     const alpi_task_progress progress = {
         .callback = options.progress, .user = options.progress_user, .stage = "validity"};
     const alpi_task_progress until = {
         .callback = is_in_time, .user = &options, .stage = progress.stage};
-    alpi_validity validity;
-    const alp_result looked = alpi_validity_create(
-        setup, &receivers, texels, lattice, object->texels, object->texel_count, &until, &validity);
+    const alp_result looked = alpi_validity_look(setup, &receivers, texels, lattice, object->texels,
+                                                 object->texel_count, &until, validity);
     if (looked == ALP_ERROR_CANCELLED && alpi_seconds() >= options.deadline) {
+        report->cut_off = true;
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
                          "the time limit ended before any texel had a value; allow more time");
     }
     ALP_TRY(looked);
-    job->report.rays += validity.rays;
-    job->report.moved += validity.moved_count;
-    job->report.dropped += validity.dropped_count;
-    options.near = validity.near;
+    job->report.rays += validity->rays;
+    job->report.moved += validity->moved_count;
+    job->report.dropped += validity->dropped_count;
+    options.near = validity->near;
+    options.scratch = &job->scratch;
     uint32_t *order = ALPI_NEW(job->context, uint32_t, object->texel_count);
-    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (order != NULL) {
-        const uint32_t count = drop(object, validity.dropped, order);
-        result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
-                                    job->lightmap->errors, report);
+    uint32_t count = 0;
+    alp_result result = order != NULL ? drop(job, object, order, &count) : ALP_ERROR_OUT_OF_MEMORY;
+    if (result == ALP_OK) {
+        result = alpi_bake_wants_occlusion(job)
+                     ? alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
+                                          job->lightmap->errors, report)
+                     : skip_occlusion(order, count, lattice, report);
         if (result == ALP_OK) {
             result = alpi_bake_obscurance(job, setup, &receivers, order, count, report->samples,
                                           &progress);
         }
+        if (result == ALP_OK) {
+            result = alpi_bake_irradiance(job, setup->tracer, &receivers, order, count, &progress);
+        }
     }
     alpi_release(job->context, order);
-    alpi_validity_destroy(&validity);
     return result;
 }
 
@@ -195,24 +230,54 @@ static void add_report(alpi_occlusion_map_report *all, const alpi_occlusion_map_
 
 /// The stated error of all objects together.
 static alp_result join_errors(const alpi_bake_job *job, const alpi_lattice *lattice,
-                              alpi_occlusion_map_report *all)
+                              alpi_part_progress *part, alpi_occlusion_map_report *all)
 {
-    const float *errors = job->lightmap->errors;
-    const uint32_t count = job->lightmap->texels.count;
-    const double mean = fmax(area_mean(&job->lightmap->texels, lattice), 1e-30);
-    double sum = 0.0, p99 = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        sum += (double)errors[i] * (double)errors[i];
+    const alpi_task_progress progress = {
+        .callback = alpi_tell_part, .user = part, .stage = part->stage};
+    part->begin = part->end;
+    all->relative = all->p99 = (double)NAN;
+    if (all->cut_off) { // an object without its first round has no error
+        return ALP_OK;
     }
-    ALP_TRY(alpi_percentile(job->context, errors, lattice->order, count, 0.99, &p99));
-    const bool known = !all->cut_off; // an object without its first round has no error
-    all->relative = known ? sqrt(sum / fmax((double)count, 1.0)) / mean : (double)NAN;
-    all->p99 = known ? p99 / mean : (double)NAN;
+    alpi_relative_error relative;
+    ALP_TRY(alpi_find_relative_error(lattice, job->lightmap->errors, lattice->order,
+                                     lattice->texels->count, &progress, &relative));
+    all->relative = relative.rms;
+    all->p99 = relative.p99;
     return ALP_OK;
 }
 
 /// Several objects, one after the other; told as one stage. After a cut-off the others stay
 /// unknown.
+static alp_result gather_parts(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
+                               alpi_part_progress *part, alpi_occlusion_map_report *all)
+{
+    const double texels = (double)job->lightmap->texels.count;
+    alpi_occlusion_map_options options = map_options(job);
+    options.progress = alpi_tell_part;
+    options.progress_user = part;
+    for (uint32_t i = 0; i < objects->count; i++) {
+        const alpi_object *object = &objects->items[i];
+        alpi_occlusion_map_report one = {.unknown = object->texel_count};
+        part->begin = part->end;
+        part->end += (double)object->texel_count / texels;
+        if (!all->cut_off) {
+            alp_result result = gather_object(job, objects, object, &options, lattice, &one);
+            const bool by_user =
+                result == ALP_ERROR_CANCELLED && job->options.sampling.keep_partial;
+            const bool by_clock = result == ALP_ERROR_LIMIT && one.cut_off; // not another limit
+            const bool stopped = by_user || by_clock;
+            if (stopped && all->traced > 0) { // before its rays: others have theirs
+                one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
+            } else {
+                ALP_TRY(result);
+            }
+        }
+        add_report(all, &one);
+    }
+    return join_errors(job, lattice, part, all);
+}
+
 static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
                                alpi_occlusion_map_report *all)
 {
@@ -222,27 +287,31 @@ static alp_result gather_apart(alpi_bake_job *job, alpi_objects *objects, alpi_l
                                .stage = "occlusion",
                                .started = alpi_seconds(),
                                .rays = (uint64_t)(texels * job->options.occlusion.samples)};
-    alpi_occlusion_map_options options = map_options(job);
-    options.progress = alpi_tell_part;
-    options.progress_user = &part;
-    for (uint32_t i = 0; i < objects->count; i++) {
-        const alpi_object *object = &objects->items[i];
-        alpi_occlusion_map_report one = {.unknown = object->texel_count};
-        part.begin = part.end;
-        part.end += (double)object->texel_count / texels;
-        if (!all->cut_off) {
-            alp_result result = gather_object(job, objects, object, &options, lattice, &one);
-            const bool stopped = result == ALP_ERROR_CANCELLED ? job->options.sampling.keep_partial
-                                                               : result == ALP_ERROR_LIMIT;
-            if (stopped && all->traced > 0) { // before its rays: others have theirs
-                one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
-            } else {
-                ALP_TRY(result);
-            }
-        }
-        add_report(all, &one);
+    const alpi_watch former =
+        alpi_set_watch(job->context, (alpi_watch){.callback = alpi_tell_part, .user = &part});
+    alp_result result = gather_parts(job, objects, lattice, &part, all);
+    alpi_set_watch(job->context, former);
+    return result;
+}
+
+/// Arrays that all objects share: with arrays of its own for all texels, each of many objects would
+/// cost as much as the page.
+static alp_result gather_all(alpi_bake_job *job, alpi_objects *objects, alpi_lattice *lattice,
+                             alpi_occlusion_map_report *all)
+{
+    const uint32_t texels = job->lightmap->texels.count;
+    const bool vectors = job->bent != NULL || job->obscurance != NULL;
+    ALP_TRY(alpi_scratch_create(job->context, texels, vectors, &job->scratch));
+    alp_result result = alpi_validity_open(job->context, texels, &job->scratch, &job->validity);
+    if (result == ALP_OK && objects->count == 1) {
+        const alpi_occlusion_map_options options = map_options(job);
+        result = gather_object(job, objects, &objects->items[0], &options, lattice, all);
+    } else if (result == ALP_OK) {
+        result = gather_apart(job, objects, lattice, all);
     }
-    return join_errors(job, lattice, all);
+    alpi_validity_destroy(&job->validity);
+    alpi_scratch_destroy(&job->scratch);
+    return result;
 }
 
 static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
@@ -250,17 +319,10 @@ static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
     alpi_objects objects;
     alpi_occlusion_map_report all = {0};
     ALP_TRY(alpi_objects_create(job, lattice->order, &objects));
-    alp_result result;
-    if (objects.count == 1) {
-        const alpi_occlusion_map_options options = map_options(job);
-        result = gather_object(job, &objects, &objects.items[0], &options, lattice, &all);
-    } else {
-        result = gather_apart(job, &objects, lattice, &all);
-    }
+    alp_result result = gather_all(job, &objects, lattice, &all);
     alpi_objects_destroy(&objects);
     ALP_TRY(result);
-    fill_report(job, &all, lattice);
-    return ALP_OK;
+    return fill_report(job, &all, lattice);
 }
 
 static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)

@@ -21,6 +21,8 @@ typedef enum map_kind {
     MAP_BENT,
     MAP_OBSCURANCE_PNG,
     MAP_OBSCURANCE,
+    MAP_IRRADIANCE,
+    MAP_IRRADIANCE_ERROR,
     MAP_COUNT
 } map_kind;
 
@@ -34,7 +36,9 @@ static const struct {
                           [MAP_BENT_PNG] = {ALP_MAP_BENT, "bent", ".png"},
                           [MAP_BENT] = {ALP_MAP_BENT, "bent", ".exr"},
                           [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
-                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"}};
+                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"},
+                          [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
+                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -167,6 +171,7 @@ static json_t *distance_value(const alpi_bake_job *job)
 static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
 {
     static const char *const existing[] = {"replace", "multiply", "keep"};
+    static const char *const into[] = {"separate", "orm"};
     const alp_sampling_options *s = &job->options.sampling;
     json_object_set_new(occlusion, "adaptive",
                         s->accuracy == ALP_ADAPTIVE_AUTO  ? json_string("auto")
@@ -176,6 +181,9 @@ static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
         json_object_set_new(occlusion, "wanted_relative_error", json_real((double)s->error));
     }
     json_object_set_new(occlusion, "existing_ao", json_string(existing[job->options.existing_ao]));
+    const bool packed = job->packing.count > 0; // asked for, and there is an image that holds it
+    json_object_set_new(occlusion, "ao_into",
+                        json_string(into[packed ? ALP_AO_INTO_ORM : ALP_AO_INTO_SEPARATE]));
 }
 
 /// Version, options, quantity, input hash.
@@ -239,10 +247,12 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                              encoded_page *out)
 {
     const alp_lightmap *l = job->lightmap;
-    float *const *pages = kind == MAP_AO           ? l->pages
-                          : kind == MAP_BENT       ? l->bent_pages
-                          : kind == MAP_OBSCURANCE ? l->obscurance_pages
-                                                   : NULL;
+    float *const *pages = kind == MAP_AO                 ? l->pages
+                          : kind == MAP_BENT             ? l->bent_pages
+                          : kind == MAP_OBSCURANCE       ? l->obscurance_pages
+                          : kind == MAP_IRRADIANCE       ? l->irradiance_pages
+                          : kind == MAP_IRRADIANCE_ERROR ? l->irradiance_error_pages
+                                                         : NULL;
     if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,
                                 .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Maps beside occlusion: bent normals, which its rays give, and coloured obscurance, which has rays
-// of its own.
+// Maps beside occlusion: bent normals, which its rays give, coloured obscurance and irradiance,
+// which have rays of their own.
 #include "bake/job.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "transport/obscurance.h"
 
-enum { ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE };
+enum { ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT };
+enum { PATH_LIMIT = 65536 };
 
 alp_result alpi_bake_check_maps(const alpi_bake_job *job)
 {
@@ -25,11 +26,19 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
                          "%s: glTF has a place for occlusion alone; bake it too, or give no output",
                          o->output);
     }
-    if ((o->maps & ALP_MAP_OBSCURANCE) != 0 &&
+    if ((o->maps & (ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT)) != 0 &&
         (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
         return alpi_fail(job->context, code,
-                         "bake: coloured obscurance is gathered in one go: no time limit, no "
-                         "partial result");
+                         "bake: %s is gathered in one go: no time limit, no partial result",
+                         (o->maps & ALP_MAP_LIGHT) != 0 ? "light" : "coloured obscurance");
+    }
+    if ((o->maps & ALP_MAP_LIGHT) != 0 && o->ao_self) {
+        return alpi_fail(job->context, code,
+                         "bake: light falls on the whole scene, not on each object alone");
+    }
+    if ((o->maps & ALP_MAP_LIGHT) != 0 && (o->light.samples < 1 || o->light.samples > PATH_LIMIT)) {
+        return alpi_fail(job->context, code, "bake: %u paths of a texel, need 1 to %d",
+                         o->light.samples, PATH_LIMIT);
     }
     return ALP_OK;
 }
@@ -43,11 +52,18 @@ alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
     if ((job->options.maps & ALP_MAP_OBSCURANCE) != 0) {
         ALPI_TRY_NEW(job->context, job->obscurance, count);
     }
+    if ((job->options.maps & ALP_MAP_LIGHT) != 0) {
+        ALPI_TRY_NEW(job->context, job->irradiance, count);
+        ALPI_TRY_NEW(job->context, job->irradiance_errors, count);
+    }
     return ALP_OK;
 }
 
 void alpi_bake_end_side_maps(alpi_bake_job *job)
 {
+    alpi_release(job->context, job->irradiance);
+    alpi_release(job->context, job->irradiance_errors);
+    job->irradiance = job->irradiance_errors = NULL;
     alpi_release(job->context, job->bent);
     alpi_release(job->context, job->obscurance);
     job->bent = NULL;
@@ -65,8 +81,9 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
     alpi_task_progress told = *progress;
     told.stage = "obscurance";
     job->report.rays += (uint64_t)order_count * samples;
+    ALP_TRY(alpi_scratch_clear(&job->scratch, order, order_count, &told));
     return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &told,
-                                  job->obscurance);
+                                  &job->scratch.sums, job->obscurance);
 }
 
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
@@ -78,6 +95,12 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
     if (job->obscurance != NULL) {
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->obscurance,
                                             &l->obscurance_pages));
+    }
+    if (job->irradiance != NULL) {
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->irradiance,
+                                            &l->irradiance_pages));
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->irradiance_errors,
+                                            &l->irradiance_error_pages));
     }
     return ALP_OK;
 }

@@ -283,3 +283,47 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
     }
     return l.failure;
 }
+
+// --- sums ----------------------------------------------------------------------------------------
+
+enum { ITEMS_PER_SUM = 1 << 12 };
+
+typedef struct sum_job {
+    alpi_sum_fn *body;
+    const void *user;
+    uint32_t count;
+    double (*parts)[ALPI_SUM_LIMIT]; // [ranges]
+} sum_job;
+
+static alp_result sum_ranges(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const sum_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t first = i * ITEMS_PER_SUM, left = job->count - first;
+        const uint32_t items = left < ITEMS_PER_SUM ? left : ITEMS_PER_SUM;
+        job->body(job->user, first, first + items, job->parts[i]);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_parallel_sum(alp_context *context, uint32_t count, alpi_sum_fn *body,
+                             const void *user, const alpi_task_progress *progress,
+                             double sums[ALPI_SUM_LIMIT])
+{
+    const uint32_t ranges = count / ITEMS_PER_SUM + (count % ITEMS_PER_SUM != 0);
+    sum_job job = {.body = body, .user = user, .count = count};
+    job.parts = alpi_allocate(context, ranges, sizeof *job.parts);
+    if (job.parts == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = alpi_parallel_for(context, ranges, 1, sum_ranges, &job, progress);
+    for (int k = 0; k < ALPI_SUM_LIMIT; k++) {
+        sums[k] = 0.0;
+        for (uint32_t i = 0; i < ranges; i++) {
+            sums[k] += job.parts[i][k];
+        }
+    }
+    alpi_release(context, job.parts);
+    return result;
+}

@@ -29,6 +29,17 @@ typedef struct alpi_task_progress {
 alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grain,
                              alpi_task_fn *body, void *user, const alpi_task_progress *progress);
 
+enum { ALPI_SUM_LIMIT = 3 };
+/// Adds items [begin, end) to sums that begin at 0.
+typedef void alpi_sum_fn(const void *user, uint32_t begin, uint32_t end,
+                         double sums[ALPI_SUM_LIMIT]);
+/// Sums over [0, count) on all workers: of ranges that are always the same, added in their order,
+/// so that any number of workers gives the same bits.
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_parallel_sum(alp_context *context, uint32_t count, alpi_sum_fn *body,
+                             const void *user, const alpi_task_progress *progress,
+                             double sums[ALPI_SUM_LIMIT]);
+
 /// Who is asked whether to go on while a call works on one thread alone.
 typedef struct alpi_watch {
     alp_progress_fn *callback; // NULL: nobody

@@ -179,8 +179,10 @@ static alp_result check_kind(const exr_reader *reader)
         fault = "has several parts; store one part";
     } else if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
         fault = "holds deep data; flatten it";
-    } else if (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB) {
-        fault = "is compressed with DWAA or DWAB, which cannot be read here; store it as ZIP";
+    } else if (compression == EXR_COMPRESSION_DWAA) {
+        fault = "DWAA compression is not supported; convert it to ZIP";
+    } else if (compression == EXR_COMPRESSION_DWAB) {
+        fault = "DWAB compression is not supported; convert it to ZIP";
     }
     return fault == NULL ? ALP_OK
                          : alpi_fail(reader->stream->context, ALP_ERROR_UNSUPPORTED, "%s: %s",

@@ -50,12 +50,17 @@ alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_
                             size_t size, alp_image **image);
 alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);
+/// Three channels; an exposure that the header states is taken out again.
+alp_result alpi_hdr_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                           size_t size, alp_image **image);
 /// By the first bytes.
 alp_result alpi_image_decode(alp_context *context, const char *name, const uint8_t *bytes,
                              size_t size, alp_image **image);
 
-/// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR floats.
+/// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR and HDR floats.
 alp_result alpi_png_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
+/// Without alpha; what the format cannot hold is clamped, with a warning (hdr-range).
+alp_result alpi_hdr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 
 #endif

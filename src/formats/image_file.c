@@ -28,8 +28,13 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
     if (begins_with(bytes, size, "\x76\x2f\x31\x01", 4)) {
         return alpi_exr_decode(context, name, bytes, size, image);
     }
+    if (begins_with(bytes, size, "#?", 2)) {
+        return alpi_hdr_decode(context, name, bytes, size, image);
+    }
     return alpi_fail(context, ALP_ERROR_INVALID_DATA,
-                     "%s: is not a PNG, JPEG or OpenEXR image (by its first bytes)", name);
+                     "%s: is not a PNG, JPEG, OpenEXR or Radiance (.hdr) image (by its first "
+                     "bytes)",
+                     name);
 }
 
 alp_result alp_image_load(alp_context *context, const char *path, alp_image **image)
@@ -55,17 +60,20 @@ alp_result alp_image_load(alp_context *context, const char *path, alp_image **im
 static alp_result encode(const alp_image *image, const char *path, uint8_t **bytes, size_t *size)
 {
     bool png = alpi_path_has_ending(path, ".png"), exr = alpi_path_has_ending(path, ".exr");
-    if (!png && !exr) {
+    if (!png && !exr && !alpi_path_has_ending(path, ".hdr")) {
         return alpi_fail(image->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "%s: images are written as .png or .exr", path);
+                         "%s: images are written as .png, .exr or .hdr", path);
     }
     if (png != (image->info.component == ALP_COMPONENT_U8)) {
         return alpi_fail(image->context, ALP_ERROR_INVALID_ARGUMENT,
-                         png ? "%s: a float image is saved as .exr; make 8 bits of it for .png"
-                             : "%s: an 8-bit image is saved as .png, a float one as .exr",
+                         png ? "%s: a float image is saved as .exr or .hdr; make 8 bits of it for "
+                               ".png"
+                             : "%s: an 8-bit image is saved as .png, a float one as .exr or .hdr",
                          path);
     }
-    return png ? alpi_png_encode(image, bytes, size) : alpi_exr_encode(image, bytes, size);
+    return png   ? alpi_png_encode(image, bytes, size)
+           : exr ? alpi_exr_encode(image, bytes, size)
+                 : alpi_hdr_encode(image, bytes, size);
 }
 
 alp_result alp_image_save(const alp_image *image, const char *path, bool overwrite)

@@ -51,14 +51,15 @@ static alp_result fill_range(void *user, uint32_t begin, uint32_t end, uint32_t 
 }
 
 alp_result alpi_bent_normals(const alpi_lattice *lattice, const alpi_occlusion_sums *sums,
-                             const uint32_t *order, uint32_t order_count, float (*bent)[3])
+                             const uint32_t *order, uint32_t order_count,
+                             const alpi_task_progress *progress, float (*bent)[3])
 {
     bent_job job = {.lattice = lattice, .sums = sums, .order = order, .bent = bent};
     // The traced, then pass by pass as the values were found: a stencil reaches for coarser passes
     // and for traced texels alone.
     for (job.pass = 0; job.pass <= ALPI_LATTICE_PASSES; job.pass++) {
         ALP_TRY(alpi_parallel_for(lattice->context, order_count, TEXELS_PER_RANGE, fill_range, &job,
-                                  NULL));
+                                  progress));
     }
     return ALP_OK;
 }

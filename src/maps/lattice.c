@@ -7,7 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { TILE_WIDTH = 16, TILE_HEIGHT = 8, BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2 };
+enum {
+    TEXELS_PER_TICK = 1 << 16,
+    TILE_WIDTH = 16,
+    TILE_HEIGHT = 8,
+    BLOCK_WIDTH = 4,
+    BLOCK_HEIGHT = 2
+};
 
 // Across a larger angle light changes at once: cos 16°. Texels that tell each other's noise must be
 // more alike: cos 8°.
@@ -23,14 +29,18 @@ uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int
     return l->grid[((size_t)page * l->height + (size_t)y) * l->width + (size_t)x];
 }
 
-static void fill_grid(alpi_lattice *l)
+static alp_result fill_grid(alpi_lattice *l)
 {
     const size_t pixels = (size_t)l->page_count * l->width * l->height;
     memset(l->grid, 0xff, pixels * sizeof *l->grid);
     for (uint32_t t = 0; t < l->texels->count; t++) {
         const uint16_t *p = l->texels->pixels[t];
         l->grid[((size_t)l->texels->pages[t] * l->height + p[1]) * l->width + p[0]] = t;
+        if (t % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
+            ALP_TRY(alpi_tick(l->context, "build", 0, 1));
+        }
     }
+    return ALP_OK;
 }
 
 /// Appends the texels of one rectangle, row by row.
@@ -64,7 +74,7 @@ static void sort_by_chart(const alpi_lattice *l, uint32_t first, uint32_t end)
 
 /// Tiles of 16 × 8 texels, in them chart by chart, blocks of 4 × 2: eight texels in a row of the
 /// order are one block of the page, and eight of every fourth texel are one tile.
-static void fill_order(alpi_lattice *l)
+static alp_result fill_order(alpi_lattice *l)
 {
     uint32_t count = 0;
     for (uint32_t page = 0; page < l->page_count; page++) {
@@ -78,8 +88,10 @@ static void fill_order(alpi_lattice *l)
                 }
                 sort_by_chart(l, first, count);
             }
+            ALP_TRY(alpi_tick(l->context, "build", 0, 1));
         }
     }
+    return ALP_OK;
 }
 
 static alp_result create(alpi_lattice *l)
@@ -89,9 +101,8 @@ static alp_result create(alpi_lattice *l)
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    fill_grid(l);
-    fill_order(l);
-    return ALP_OK;
+    ALP_TRY(fill_grid(l));
+    return fill_order(l);
 }
 
 alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,

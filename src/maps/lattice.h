@@ -27,6 +27,7 @@ typedef struct alpi_lattice {
     float *values;   // [count] where the state is not OPEN
 } alpi_lattice;
 
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
 alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,
                                alpi_lattice *lattice);
 void alpi_lattice_destroy(alpi_lattice *lattice);

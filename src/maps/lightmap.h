@@ -20,8 +20,9 @@ struct alp_lightmap {
     uint8_t *states; // [texels] alpi_texel_state: how its value was found
     float **pages;   // [page_count] → [height][width][4]: value in RGB, coverage in A
     // Laid out like `pages`; NULL where the bake made none.
-    float **bent_pages;       // bent normals: unit, world space
-    float **obscurance_pages; // coloured obscurance
+    float **bent_pages;                                 // bent normals: unit, world space
+    float **obscurance_pages;                           // coloured obscurance
+    float **irradiance_pages, **irradiance_error_pages; // W·m⁻², and its standard error
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.

@@ -11,6 +11,7 @@
 
 enum {
     TEXELS_PER_RANGE = 1 << 12,
+    TEXELS_PER_TICK = 1 << 16,
     FLOOD_ROUNDS = 4,
     FIRST_SAMPLES = 64, // of the first round of a bake that goes for an error
     LEAST_PROBES = 512,
@@ -37,15 +38,19 @@ typedef struct map_job {
     uint32_t order_count;
     const alpi_occlusion_map_options *options;
     alpi_lattice *lattice;
-    alpi_occlusion_sums sums;
+    alpi_scratch *scratch;
     alpi_probes probes;
     float *errors;
     alpi_occlusion_map_report *report;
-    uint8_t *wanted;  // [texels] to be traced next
-    uint32_t *list;   // [order_count]
-    uint32_t samples; // of this round
-    double started;   // alpi_seconds()
-    float noise;      // standard deviation of a traced texel by its spread, root mean square
+    uint8_t *wanted;   // [texels] to be traced next
+    uint32_t *list;    // [order_count]
+    uint32_t samples;  // of this round
+    uint32_t before;   // of the round before, 0 in the first
+    double started;    // alpi_seconds()
+    alp_progress told; // last
+    double asked;      // alpi_seconds() when the user was
+    bool refused;      // by the user
+    float noise;       // standard deviation of a traced texel by its spread, root mean square
 
     // Of the pass that runs.
     uint32_t pass;
@@ -55,14 +60,76 @@ typedef struct map_job {
 
 // --- progress and the deadline -------------------------------------------------------------------
 
+/// Asks the user, and the clock.
 static bool go_on(void *user, const alp_progress *progress)
 {
-    const map_job *job = user;
+    map_job *job = user;
     alp_progress_fn *callback = job->options->progress;
+    job->told = *progress;
+    job->asked = alpi_seconds();
     if (callback != NULL && !callback(job->options->progress_user, progress)) {
-        return false;
+        job->refused = true;
     }
-    return alpi_seconds() < job->options->deadline;
+    return !job->refused && alpi_seconds() < job->options->deadline;
+}
+
+/// Asks the user between rays, in work that is short and of no use by halves: not the clock, and
+/// nobody where what there is will be kept.
+static bool go_on_briefly(void *user, const alp_progress *progress)
+{
+    map_job *job = user;
+    const double interval = 0.05; // seconds
+    (void)progress;
+    if (job->options->keep_partial || alpi_seconds() - job->asked < interval) {
+        return true;
+    }
+    const alp_progress told = job->told;
+    (void)go_on(job, &told);
+    return !job->refused;
+}
+
+/// What loops over texels between the rays tell.
+static alpi_task_progress brief(map_job *job)
+{
+    return (alpi_task_progress){.callback = go_on_briefly, .user = job, .stage = "occlusion"};
+}
+
+static alp_result for_texels(map_job *job, alpi_task_fn *body)
+{
+    const alpi_task_progress progress = brief(job);
+    return alpi_parallel_for(job->setup->context, job->order_count, TEXELS_PER_RANGE, body, job,
+                             &progress);
+}
+
+static alp_result sum_texels(map_job *job, alpi_sum_fn *body, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_task_progress progress = brief(job);
+    return alpi_parallel_sum(job->setup->context, job->order_count, body, job, &progress, sums);
+}
+
+static alp_result tick(map_job *job)
+{
+    alp_result result =
+        alpi_tick(job->setup->context, "occlusion", job->told.done, job->told.total);
+    job->refused = job->refused || result == ALP_ERROR_CANCELLED;
+    return result;
+}
+
+/// Lists the texels that are wanted, or those that are traced already, in their order.
+static alp_result list_texels(map_job *job, bool traced, uint32_t *count)
+{
+    *count = 0;
+    for (uint32_t i = 0; i < job->order_count; i++) {
+        const uint32_t t = job->order[i];
+        if (traced ? job->lattice->states[t] == ALPI_TEXEL_TRACED : job->wanted[t] != 0) {
+            job->wanted[t] = 0;
+            job->list[(*count)++] = t;
+        }
+        if (i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
+            ALP_TRY(tick(job));
+        }
+    }
+    return ALP_OK;
 }
 
 /// Samples [first, first + count) for the texels in job->list; they will have job->samples.
@@ -76,36 +143,39 @@ static alp_result trace_list(map_job *job, uint32_t list_count, uint32_t first, 
                                          .units_total = (double)job->report->rays +
                                                         (double)list_count * count};
     ALP_TRY(alpi_occlusion_add(job->setup, job->receivers, job->list, list_count, first, count,
-                               job->samples, &progress, &job->sums));
+                               job->samples, &progress, &job->scratch->sums));
     job->report->rays += (uint64_t)list_count * count;
     return ALP_OK;
 }
 
-/// Takes the values of the listed texels that have been traced, be it in part.
-static void take_values(map_job *job, uint32_t list_count)
+static alp_result take_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    for (uint32_t i = 0; i < list_count; i++) {
+    (void)worker;
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->list[i];
-        if (job->sums.done[t] > 0) {
+        if (job->scratch->sums.done[t] > 0) {
             job->lattice->states[t] = ALPI_TEXEL_TRACED;
-            job->lattice->values[t] = alpi_occlusion_value(&job->sums, t);
+            job->lattice->values[t] = alpi_occlusion_value(&job->scratch->sums, t);
         }
     }
+    return ALP_OK;
+}
+
+/// Traces the list and takes the values of those that got rays, be it in part.
+static alp_result trace_and_take(map_job *job, uint32_t count, uint32_t before)
+{
+    const alp_result traced = trace_list(job, count, before, job->samples - before);
+    const alp_result taken =
+        alpi_parallel_for(job->setup->context, count, TEXELS_PER_RANGE, take_range, job, NULL);
+    return traced != ALP_OK ? traced : taken;
 }
 
 static alp_result trace_wanted(map_job *job)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (job->wanted[t]) {
-            job->wanted[t] = 0;
-            job->list[count++] = t;
-        }
-    }
-    alp_result result = trace_list(job, count, 0, job->samples);
-    take_values(job, count);
-    return result;
+    ALP_TRY(list_texels(job, false, &count));
+    return trace_and_take(job, count, 0);
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -148,38 +218,74 @@ static alp_result judge(map_job *job, uint32_t pass, bool flood)
 {
     job->pass = pass;
     job->flood = flood;
-    return alpi_parallel_for(job->setup->context, job->order_count, TEXELS_PER_RANGE, judge_range,
-                             job, NULL);
+    return for_texels(job, judge_range);
+}
+
+/// Interpolates anew what is interpolated.
+static alp_result renew_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = user;
+    alpi_lattice *l = job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
+            alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
+            alpi_lattice_stencil(l, t, &stencil)) {
+            l->values[t] = alpi_lattice_interpolate(l, &stencil);
+        }
+    }
+    return ALP_OK;
+}
+
+/// What was traced since may be in the stencils of what was interpolated before. Pass by pass: a
+/// stencil holds texels of coarser passes alone.
+static alp_result renew(map_job *job)
+{
+    for (job->pass = 1; job->pass < ALPI_LATTICE_PASSES; job->pass++) {
+        ALP_TRY(for_texels(job, renew_range));
+    }
+    return ALP_OK;
 }
 
 /// Wants texels traced that have another surface near, those that touch it all, the others of every
 /// second row every second: a contact shadow may be smaller than the lattice. Ward's criterion:
 /// light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein, R. D. Clear. A
 /// Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
-static void want_near(map_job *job)
+static alp_result want_near(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    for (uint32_t i = 0; i < job->order_count && job->options->near != NULL; i++) {
+    (void)worker;
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end && job->options->near != NULL; i++) {
         const uint32_t t = job->order[i];
         const uint32_t pass = alpi_lattice_pass(job->lattice->texels->pixels[t]);
         const uint8_t near = job->options->near[t];
         job->wanted[t] =
             near == ALPI_TOUCHING || (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
     }
+    return ALP_OK;
+}
+
+static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        if (job->lattice->states[t] == ALPI_TEXEL_TRACED) {
+            sums[0] += alpi_spread_variance(&job->scratch->sums, t);
+            sums[1] += 1.0;
+        }
+    }
 }
 
 /// Root mean square over the traced texels.
-static float measure_noise(const map_job *job)
+static alp_result measure_noise(map_job *job)
 {
-    double sum = 0.0;
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (job->lattice->states[t] == ALPI_TEXEL_TRACED) {
-            sum += alpi_spread_variance(&job->sums, t);
-            count++;
-        }
-    }
-    return count > 0 ? (float)sqrt(sum / (double)count) : 0.0f;
+    double sums[ALPI_SUM_LIMIT];
+    ALP_TRY(sum_texels(job, sum_noise, sums));
+    job->noise = sums[1] > 0.0 ? (float)sqrt(sums[0] / sums[1]) : 0.0f;
+    return ALP_OK;
 }
 
 /// Limits of a pass that interpolates over `spacing` texels: by the noise, or the seed's
@@ -197,7 +303,7 @@ static alp_result run_lattice(map_job *job)
 {
     ALP_TRY(judge(job, 0, false));
     ALP_TRY(trace_wanted(job));
-    job->noise = measure_noise(job);
+    ALP_TRY(measure_noise(job));
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         set_limits(job, 2.0f * (float)alpi_lattice_reach(pass));
         ALP_TRY(judge(job, pass, false));
@@ -207,85 +313,111 @@ static alp_result run_lattice(map_job *job)
         ALP_TRY(judge(job, 0, true));
         ALP_TRY(trace_wanted(job));
     }
-    return ALP_OK;
+    return renew(job);
 }
 
-static void want_all(map_job *job)
+static alp_result want_all(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    for (uint32_t i = 0; i < job->order_count; i++) {
+    (void)worker;
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
         job->wanted[t] = job->lattice->states[t] != ALPI_TEXEL_TRACED;
     }
+    return ALP_OK;
 }
 
 // --- rounds --------------------------------------------------------------------------------------
 
-/// Gives the texels that were traced with `before` samples the rest.
-static alp_result extend_traced(map_job *job, uint32_t before)
+static alp_result requarter_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (job->lattice->states[t] == ALPI_TEXEL_TRACED) {
-            alpi_occlusion_requarter(&job->sums, t, before, job->samples);
-            job->list[count++] = t;
-        }
+    (void)worker;
+    map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        alpi_occlusion_requarter(&job->scratch->sums, job->list[i], job->before, job->samples);
     }
-    alp_result result = trace_list(job, count, before, job->samples - before);
-    take_values(job, count);
-    return result;
+    return ALP_OK;
 }
 
-static alp_result run_round(map_job *job, uint32_t before)
+/// Whether quarters grow by what this round adds; else, in the last one, each gets its share of
+/// the new samples.
+static bool quarters_grow(const map_job *job)
+{
+    return job->samples % job->before == 0;
+}
+
+/// Gives the texels that were traced in the round before the rest.
+static alp_result extend_traced(map_job *job)
+{
+    uint32_t count = 0;
+    ALP_TRY(list_texels(job, true, &count));
+    if (quarters_grow(job)) {
+        ALP_TRY(alpi_parallel_for(job->setup->context, count, TEXELS_PER_RANGE, requarter_range,
+                                  job, NULL));
+    } else {
+        job->scratch->sums.parted = job->before;
+    }
+    return trace_and_take(job, count, job->before);
+}
+
+static alp_result run_round(map_job *job)
 {
     const bool adaptive = job->options->accuracy != ALP_ADAPTIVE_OFF;
-    if (before > 0) {
-        ALP_TRY(extend_traced(job, before));
+    if (job->before > 0) {
+        ALP_TRY(extend_traced(job));
     } else if (adaptive) {
-        want_near(job);
+        ALP_TRY(for_texels(job, want_near));
     } else {
-        want_all(job);
+        ALP_TRY(for_texels(job, want_all));
     }
     return adaptive ? run_lattice(job) : trace_wanted(job);
 }
 
-static double mean_value(const map_job *job)
+/// Chooses the held-out texels, more of them the more are traced.
+static alp_result choose_probes(map_job *job)
 {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        sum += (double)job->lattice->values[job->order[i]];
-    }
-    return job->order_count > 0 ? sum / job->order_count : 0.0;
+    double sums[ALPI_SUM_LIMIT];
+    ALP_TRY(sum_texels(job, sum_noise, sums));
+    uint32_t count = (uint32_t)sums[1] / TRACED_PER_PROBE;
+    count = count < LEAST_PROBES ? LEAST_PROBES : count > MOST_PROBES ? MOST_PROBES : count;
+    return alpi_probes_create(job->setup, job->receivers, job->order, job->order_count, count,
+                              &job->probes);
 }
 
-/// Sends the held-out rays of this round and finds the errors.
-static alp_result state_errors(map_job *job, uint32_t before)
+static void requarter_probes(map_job *job)
 {
-    if (before == 0) {
-        uint32_t traced = 0;
-        for (uint32_t i = 0; i < job->order_count; i++) {
-            traced += job->lattice->states[job->order[i]] == ALPI_TEXEL_TRACED;
+    for (int k = 0; k < 2; k++) {
+        alpi_occlusion_sums *sums = &job->probes.sums[k];
+        sums->parted = quarters_grow(job) ? 0 : job->before;
+        for (uint32_t i = 0; i < job->probes.count && quarters_grow(job); i++) {
+            alpi_occlusion_requarter(sums, i, job->before, job->samples);
         }
-        uint32_t count = traced / TRACED_PER_PROBE;
-        count = count < LEAST_PROBES ? LEAST_PROBES : count > MOST_PROBES ? MOST_PROBES : count;
-        ALP_TRY(alpi_probes_create(job->setup, job->receivers, job->order, job->order_count, count,
-                                   &job->probes));
+    }
+}
+
+/// Sends the held-out rays of this round and finds the errors, also where those were cut off.
+static alp_result state_errors(map_job *job)
+{
+    if (job->before == 0) {
+        ALP_TRY(choose_probes(job));
+    } else {
+        requarter_probes(job);
     }
     const alpi_task_progress progress = {.callback = go_on, .user = job, .stage = "occlusion"};
-    for (uint32_t i = 0; i < job->probes.count && before > 0; i++) {
-        alpi_occlusion_requarter(&job->probes.sums[0], i, before, job->samples);
-        alpi_occlusion_requarter(&job->probes.sums[1], i, before, job->samples);
-    }
-    const uint32_t more = job->samples - before;
-    alp_result result = alpi_probes_add(&job->probes, before, more, job->samples, &progress);
+    const uint32_t more = job->samples - job->before;
+    alp_result result = alpi_probes_add(&job->probes, job->before, more, job->samples, &progress);
     job->report->rays += 2 * (uint64_t)job->probes.count * more;
-    double rms = 0.0, p99 = 0.0, mean = fmax(mean_value(job), 1e-30);
-    ALP_TRY(alpi_state_errors(&job->probes, job->lattice, &job->sums, job->order, job->order_count,
-                              job->errors, &rms));
-    ALP_TRY(alpi_percentile(job->setup->context, job->errors, job->order, job->order_count, 0.99,
-                            &p99));
-    job->report->relative = rms / mean;
-    job->report->p99 = p99 / mean;
+    if (job->refused && !job->options->keep_partial) {
+        return result;
+    }
+    const alpi_task_progress between = brief(job);
+    alpi_relative_error relative;
+    ALP_TRY(alpi_state_errors(&job->probes, job->lattice, &job->scratch->sums, job->order,
+                              job->order_count, &between, job->errors));
+    ALP_TRY(alpi_find_relative_error(job->lattice, job->errors, job->order, job->order_count,
+                                     &between, &relative));
+    job->report->relative = relative.rms;
+    job->report->p99 = relative.p99;
     return result;
 }
 
@@ -309,68 +441,85 @@ static alp_result run_rounds(map_job *job)
     const double wanted = (double)job->options->error;
     const bool rounds = wanted > 0.0 || job->options->deadline < HUGE_VAL;
     const uint32_t most = job->setup->samples;
-    uint32_t before = 0;
     job->samples = rounds && most > FIRST_SAMPLES ? FIRST_SAMPLES : most;
     for (;;) {
-        ALP_TRY(run_round(job, before));
+        ALP_TRY(run_round(job));
         job->report->samples = job->samples;
-        ALP_TRY(state_errors(job, before));
+        ALP_TRY(state_errors(job));
         const bool good = job->report->relative <= wanted && job->report->p99 <= P99_LIMIT * wanted;
-        const uint32_t room = most / job->samples;
-        if (!rounds || good || room < 2) {
+        if (!rounds || good || job->samples == most) {
             return ALP_OK;
         }
         const uint32_t factor = wanted > 0.0 ? next_factor(job) : 2;
-        before = job->samples;
-        job->samples *= factor < room ? factor : room;
+        job->before = job->samples;
+        job->samples = factor < most / job->before ? factor * job->before : most;
     }
 }
 
 // --- the map -------------------------------------------------------------------------------------
+
+static alp_result want_none(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        job->wanted[job->order[i]] = 0;
+    }
+    return ALP_OK;
+}
 
 /// Ends a map that was cut off: what has no value takes one from its neighbours where it can.
 static alp_result make_do(map_job *job)
 {
     job->report->cut_off = true;
     job->spread_limit = job->bend_limit = HUGE_VALF;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        job->wanted[job->order[i]] = 0;
-    }
+    ALP_TRY(for_texels(job, want_none));
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         ALP_TRY(judge(job, pass, false));
     }
     return ALP_OK;
 }
 
-static alp_result run(map_job *job)
+/// Cuts off what a cubic overshoots and counts the texels of each state.
+static void settle(const void *user, uint32_t begin, uint32_t end, double counts[ALPI_SUM_LIMIT])
 {
-    const uint32_t texels = job->receivers->count;
-    alp_context *context = job->setup->context;
-    ALP_TRY(alpi_occlusion_sums_create(context, texels, job->setup->bent, &job->sums));
-    ALPI_TRY_NEW(context, job->wanted, texels);
-    ALPI_TRY_NEW(context, job->list, job->order_count);
-    alp_result result = run_rounds(job);
-    const bool late = alpi_seconds() >= job->options->deadline;
-    if (result == ALP_ERROR_CANCELLED && (late || job->options->keep_partial)) {
-        result = make_do(job);
-    }
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint8_t state = job->lattice->states[job->order[i]];
-        float *value = &job->lattice->values[job->order[i]]; // a cubic may overshoot
+    const map_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        float *value = &job->lattice->values[job->order[i]];
         *value = fminf(fmaxf(*value, 0.0f), 1.0f);
-        job->report->traced += state == ALPI_TEXEL_TRACED;
-        job->report->interpolated += state == ALPI_TEXEL_INTERPOLATED;
-        job->report->unknown += state == ALPI_TEXEL_OPEN;
+        counts[job->lattice->states[job->order[i]]] += 1.0;
     }
+}
+
+static alp_result finish(map_job *job, bool late)
+{
+    alp_context *context = job->setup->context;
+    double counts[ALPI_SUM_LIMIT];
+    ALP_TRY(sum_texels(job, settle, counts));
+    job->report->traced = (uint64_t)counts[ALPI_TEXEL_TRACED];
+    job->report->interpolated = (uint64_t)counts[ALPI_TEXEL_INTERPOLATED];
+    job->report->unknown = (uint64_t)counts[ALPI_TEXEL_OPEN];
     if (job->report->cut_off && job->report->traced == 0) {
         return alpi_fail(context, late ? ALP_ERROR_LIMIT : ALP_ERROR_CANCELLED,
                          "sampling ended before any texel had a value; allow more time");
     }
-    if (result == ALP_OK && job->options->bent != NULL) {
-        result = alpi_bent_normals(job->lattice, &job->sums, job->order, job->order_count,
-                                   job->options->bent);
+    const alpi_task_progress progress = brief(job);
+    return job->options->bent == NULL
+               ? ALP_OK
+               : alpi_bent_normals(job->lattice, &job->scratch->sums, job->order, job->order_count,
+                                   &progress, job->options->bent);
+}
+
+static alp_result run(map_job *job)
+{
+    ALPI_TRY_NEW(job->setup->context, job->list, job->order_count);
+    job->wanted = job->scratch->marks;
+    alp_result result = run_rounds(job);
+    const bool late = !job->refused && alpi_seconds() >= job->options->deadline;
+    if (result == ALP_ERROR_CANCELLED && (late || job->options->keep_partial)) {
+        result = make_do(job);
     }
-    return result;
+    return result == ALP_OK ? finish(job, late) : result;
 }
 
 alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
@@ -386,12 +535,19 @@ alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_rece
                    .options = options,
                    .lattice = lattice,
                    .started = alpi_seconds(),
+                   .asked = alpi_seconds(),
+                   .told = {.stage = "occlusion", .seconds_left = -1.0},
                    .errors = errors,
                    .report = report};
+    alpi_scratch own = {0};
+    job.scratch = options->scratch;
+    if (job.scratch == NULL) {
+        ALP_TRY(alpi_scratch_create(setup->context, receivers->count, setup->bent, &own));
+        job.scratch = &own;
+    }
     alp_result result = run(&job);
     alpi_probes_destroy(&job.probes);
-    alpi_occlusion_sums_destroy(setup->context, &job.sums);
-    alpi_release(setup->context, job.wanted);
+    alpi_scratch_destroy(&own);
     alpi_release(setup->context, job.list);
     return result;
 }

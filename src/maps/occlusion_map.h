@@ -5,18 +5,20 @@
 #define ALPI_MAPS_OCCLUSION_MAP_H
 
 #include "maps/lattice.h"
+#include "maps/scratch.h"
 #include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
 
 /// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {
-    const uint8_t *near; // [texels] alpi_nearness, or NULL
-    float accuracy;      // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
-    float error;         // wanted relative error; 0: all samples of the setup, in one round
-    double deadline;     // in alpi_seconds(), HUGE_VAL = none
-    bool keep_partial;   // cancelled by the user: ends with what there is
-    float (*bent)[3];    // [texels] out: bent normals of those in `order`; or NULL
+    const uint8_t *near;   // [texels] alpi_nearness, or NULL
+    float accuracy;        // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
+    float error;           // wanted relative error; 0: all samples of the setup, in one round
+    double deadline;       // in alpi_seconds(), HUGE_VAL = none
+    bool keep_partial;     // cancelled by the user: ends with what there is
+    float (*bent)[3];      // [texels] out: bent normals of those in `order`; or NULL
+    alpi_scratch *scratch; // [texels] zero for those in `order`, not so after; NULL: makes its own
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_map_options;

@@ -5,12 +5,13 @@
 #include "base/random.h"
 #include "base/tasks.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 // Random numbers of the held-out estimates, apart from the map's.
 static const uint64_t PROBE_SEEDS[2] = {0x70726f6265000001u, 0x70726f6265000002u};
-enum { STREAM_CHOICE = 3, TEXELS_PER_RANGE = 1 << 12 };
+enum { STREAM_CHOICE = 3, TEXELS_PER_RANGE = 1 << 12, TEXELS_PER_TICK = 1 << 16 };
 
 // --- held-out texels -----------------------------------------------------------------------------
 
@@ -155,6 +156,7 @@ typedef struct error_job {
     const uint32_t *order;
     float *errors;
     uint32_t pass;                               // of the texels that are looked at
+    double means[ALPI_TEXEL_INTERPOLATED + 1];   // of the variances, by state
     double factors[ALPI_TEXEL_INTERPOLATED + 1]; // by state
 } error_job;
 
@@ -186,22 +188,51 @@ static alp_result find_interpolated(void *user, uint32_t begin, uint32_t end, ui
     return ALP_OK;
 }
 
+static void sum_variances(const void *user, uint32_t begin, uint32_t end,
+                          double sums[ALPI_SUM_LIMIT])
+{
+    const error_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        sums[job->lattice->states[t]] += (double)job->errors[t];
+    }
+}
+
+static void count_states(const void *user, uint32_t begin, uint32_t end,
+                         double sums[ALPI_SUM_LIMIT])
+{
+    const error_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        sums[job->lattice->states[job->order[i]]] += 1.0;
+    }
+}
+
+static alp_result level_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const error_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        float *variance = &job->errors[job->order[i]];
+        const double mean = job->means[job->lattice->states[job->order[i]]];
+        *variance = (float)(0.85 * (double)*variance + 0.15 * mean);
+    }
+    return ALP_OK;
+}
+
 /// Moves every variance a part of the way to the mean of its state: some twenty numbers per
 /// texel say little where they happen to be equal, and a stated error of nearly 0 is wrong by many
 /// times.
-static void level_variances(const alpi_lattice *l, const uint32_t *order, uint32_t order_count,
-                            float *variances)
+static alp_result level_variances(alp_context *context, uint32_t order_count,
+                                  const alpi_task_progress *progress, error_job *job)
 {
-    double sums[ALPI_TEXEL_INTERPOLATED + 1] = {0.0}, counts[ALPI_TEXEL_INTERPOLATED + 1] = {0.0};
-    for (uint32_t i = 0; i < order_count; i++) {
-        sums[l->states[order[i]]] += (double)variances[order[i]];
-        counts[l->states[order[i]]] += 1.0;
+    static_assert((int)ALPI_TEXEL_INTERPOLATED < (int)ALPI_SUM_LIMIT, "one sum for each state");
+    double sums[ALPI_SUM_LIMIT], counts[ALPI_SUM_LIMIT];
+    ALP_TRY(alpi_parallel_sum(context, order_count, sum_variances, job, progress, sums));
+    ALP_TRY(alpi_parallel_sum(context, order_count, count_states, job, progress, counts));
+    for (int state = 0; state <= ALPI_TEXEL_INTERPOLATED; state++) {
+        job->means[state] = counts[state] > 0.0 ? sums[state] / counts[state] : 0.0;
     }
-    for (uint32_t i = 0; i < order_count; i++) {
-        const uint8_t state = l->states[order[i]];
-        const double mean = sums[state] / counts[state];
-        variances[order[i]] = (float)(0.85 * (double)variances[order[i]] + 0.15 * mean);
-    }
+    return alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, level_range, job, progress);
 }
 
 static alp_result take_roots(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -218,28 +249,26 @@ static alp_result take_roots(void *user, uint32_t begin, uint32_t end, uint32_t 
 
 alp_result alpi_state_errors(const alpi_probes *probes, const alpi_lattice *lattice,
                              const alpi_occlusion_sums *sums, const uint32_t *order,
-                             uint32_t order_count, float *errors, double *rms)
+                             uint32_t order_count, const alpi_task_progress *progress,
+                             float *errors)
 {
     // First variances up to a factor, pass by pass (an interpolated texel hands its own on to the
     // next pass), then the two factors, then errors.
     alp_context *context = probes->context;
     error_job job = {.lattice = lattice, .sums = sums, .order = order, .errors = errors};
-    ALP_TRY(alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, find_traced, &job, NULL));
+    ALP_TRY(alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, find_traced, &job, progress));
     for (job.pass = 1; job.pass < ALPI_LATTICE_PASSES; job.pass++) {
         ALP_TRY(alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, find_interpolated, &job,
-                                  NULL));
+                                  progress));
     }
-    level_variances(lattice, order, order_count, errors);
+    ALP_TRY(level_variances(context, order_count, progress, &job));
     for (int state = ALPI_TEXEL_TRACED; state <= ALPI_TEXEL_INTERPOLATED; state++) {
         job.factors[state] = find_factor(probes, lattice, errors, (alpi_texel_state)state);
     }
-    double sum = 0.0;
-    for (uint32_t i = 0; i < order_count; i++) {
-        sum += job.factors[lattice->states[order[i]]] * (double)errors[order[i]];
-    }
-    *rms = order_count > 0 ? sqrt(sum / order_count) : 0.0;
-    return alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, take_roots, &job, NULL);
+    return alpi_parallel_for(context, order_count, TEXELS_PER_RANGE, take_roots, &job, progress);
 }
+
+// --- the error of a map --------------------------------------------------------------------------
 
 /// Bits of a float ≥ 0: ordered as the floats are.
 static uint32_t ordered_bits(float value)
@@ -259,6 +288,41 @@ static uint32_t find_bucket(const uint32_t *histogram, uint64_t *rank)
     return bucket;
 }
 
+/// Counts the upper halves of the bits, or, with upper ≤ UINT16_MAX, the lower ones of those that
+/// have that upper half.
+static alp_result count_halves(alp_context *context, const float *values, const uint32_t *order,
+                               uint32_t order_count, uint32_t upper, uint32_t *histogram)
+{
+    memset(histogram, 0, (UINT16_MAX + 1) * sizeof *histogram);
+    for (uint32_t i = 0; i < order_count; i++) {
+        const uint32_t bits = ordered_bits(values[order[i]]);
+        if (upper > UINT16_MAX) {
+            histogram[bits >> 16]++;
+        } else if (bits >> 16 == upper) {
+            histogram[bits & UINT16_MAX]++;
+        }
+        if (i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
+            ALP_TRY(alpi_tick(context, "occlusion", 0, 0));
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result find_percentile(alp_context *context, const float *values, const uint32_t *order,
+                                  uint32_t order_count, double share, uint32_t *histogram,
+                                  double *value)
+{
+    uint64_t rank = (uint64_t)(share * (order_count - 1));
+    ALP_TRY(count_halves(context, values, order, order_count, UINT32_MAX, histogram));
+    const uint32_t upper = find_bucket(histogram, &rank);
+    ALP_TRY(count_halves(context, values, order, order_count, upper, histogram));
+    const uint32_t bits = upper << 16 | find_bucket(histogram, &rank);
+    float found;
+    memcpy(&found, &bits, sizeof found);
+    *value = (double)found;
+    return ALP_OK;
+}
+
 alp_result alpi_percentile(alp_context *context, const float *values, const uint32_t *order,
                            uint32_t order_count, double share, double *value)
 {
@@ -267,22 +331,51 @@ alp_result alpi_percentile(alp_context *context, const float *values, const uint
     if (histogram == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    if (order_count > 0) { // the upper half of the bits, then the lower half of those that share it
-        uint64_t rank = (uint64_t)(share * (order_count - 1));
-        for (uint32_t i = 0; i < order_count; i++) {
-            histogram[ordered_bits(values[order[i]]) >> 16]++;
-        }
-        const uint32_t upper = find_bucket(histogram, &rank);
-        memset(histogram, 0, (UINT16_MAX + 1) * sizeof *histogram);
-        for (uint32_t i = 0; i < order_count; i++) {
-            const uint32_t bits = ordered_bits(values[order[i]]);
-            histogram[bits & UINT16_MAX] += bits >> 16 == upper;
-        }
-        const uint32_t bits = upper << 16 | find_bucket(histogram, &rank);
-        float found;
-        memcpy(&found, &bits, sizeof found);
-        *value = (double)found;
+    alp_result result = ALP_OK;
+    if (order_count > 0) {
+        result = find_percentile(context, values, order, order_count, share, histogram, value);
     }
     alpi_release(context, histogram);
+    return result;
+}
+
+typedef struct relative_job {
+    const alpi_lattice *lattice;
+    const float *errors;
+    const uint32_t *order;
+} relative_job;
+
+static void sum_known(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const relative_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        if (job->lattice->states[t] != ALPI_TEXEL_OPEN) {
+            sums[0] += 1.0;
+            sums[1] += fmin(fmax((double)job->lattice->values[t], 0.0), 1.0); // what it will be
+            sums[2] += (double)job->errors[t] * (double)job->errors[t];
+        }
+    }
+}
+
+alp_result alpi_find_relative_error(const alpi_lattice *lattice, const float *errors,
+                                    const uint32_t *order, uint32_t order_count,
+                                    const alpi_task_progress *progress,
+                                    alpi_relative_error *relative)
+{
+    alp_context *context = lattice->context;
+    const relative_job job = {lattice, errors, order};
+    double sums[ALPI_SUM_LIMIT], p99 = 0.0;
+    ALP_TRY(alpi_parallel_sum(context, order_count, sum_known, &job, progress, sums));
+    const double count = sums[0], mean = count > 0.0 ? fmax(sums[1] / count, 1e-30) : 1.0;
+    // Texels without a value have error 0: they only move the rank.
+    const double open = (double)order_count - count;
+    const double rank = open + floor(0.99 * fmax(count - 1.0, 0.0));
+    const double share = order_count > 1 ? fmin((rank + 0.5) / (order_count - 1.0), 1.0) : 0.0;
+    ALP_TRY(alpi_percentile(context, errors, order, order_count, share, &p99));
+    *relative = (alpi_relative_error){
+        .rms = count > 0.0 ? sqrt(sums[2] / count) / mean : 0.0,
+        .p99 = p99 / mean,
+    };
     return ALP_OK;
 }

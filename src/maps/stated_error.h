@@ -38,12 +38,27 @@ alp_result alpi_probes_add(alpi_probes *probes, uint32_t first, uint32_t count, 
 
 /// Standard errors of the texels in `order`.
 /// @param sums   what the traced texels of the lattice met
-/// @param errors [texels] out; OPEN texels get 0
-/// @param rms    out: √ mean of squares of the errors
+/// @param errors   [texels] out; OPEN texels get 0
+/// @param progress NULL, or who is asked whether to go on
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED: `errors` are none
 alp_result alpi_state_errors(const alpi_probes *probes, const alpi_lattice *lattice,
                              const alpi_occlusion_sums *sums, const uint32_t *order,
-                             uint32_t order_count, float *errors, double *rms);
+                             uint32_t order_count, const alpi_task_progress *progress,
+                             float *errors);
+
+/// The error of a map in one number, over the mean of its values: of the texels in an order that
+/// have a value, each counting alike; 0 where there are none.
+typedef struct alpi_relative_error {
+    double rms; // √ mean of squares of the standard errors
+    double p99; // their 99th percentile
+} alpi_relative_error;
+alp_result alpi_find_relative_error(const alpi_lattice *lattice, const float *errors,
+                                    const uint32_t *order, uint32_t order_count,
+                                    const alpi_task_progress *progress,
+                                    alpi_relative_error *relative);
+
 /// The smallest value that `share` of the texels in `order` do not exceed.
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
 alp_result alpi_percentile(alp_context *context, const float *values, const uint32_t *order,
                            uint32_t order_count, double share, double *value);
 

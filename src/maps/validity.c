@@ -7,7 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 512, STRATA = 16, NEAR_SAMPLES = 16, OCTAVE_LIMIT = 64 };
+enum {
+    TEXELS_PER_RANGE = 512,
+    TEXELS_PER_TICK = 1 << 16,
+    STRATA = 16,
+    NEAR_SAMPLES = 16,
+    OCTAVE_LIMIT = 64
+};
 
 // Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
 static const double NEAR_DISTANCE = 2.5;
@@ -23,8 +29,8 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
-    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_nearness
-    uint16_t *inside; // [texels] bit i: stratum i is inside other geometry
+    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_nearness; the scratch's marks
+    uint16_t *inside; // [texels] bit i: stratum i is inside other geometry; the scratch's
 } validity_job;
 
 /// Side of a texel on the surface, metres.
@@ -48,17 +54,26 @@ static int find_octave(const alpi_texels *t, uint32_t texel)
     return octave < -OCTAVE_LIMIT ? -OCTAVE_LIMIT : octave > OCTAVE_LIMIT ? OCTAVE_LIMIT : octave;
 }
 
-/// Scouts of one octave. @return how many
-static uint32_t list_scouts(const validity_job *job, int octave, uint32_t *list)
+/// Asks the user whether to go on, once in a while; for loops over the order on one thread.
+static alp_result tick(const validity_job *job, uint32_t i)
 {
-    uint32_t count = 0;
+    return i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1
+               ? alpi_tick(job->setup->context, "validity", i, job->order_count)
+               : ALP_OK;
+}
+
+/// Scouts of one octave.
+static alp_result list_scouts(const validity_job *job, int octave, uint32_t *list, uint32_t *count)
+{
+    *count = 0;
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (is_scout(job->texels, t) && find_octave(job->texels, t) == octave) {
-            list[count++] = t;
+            list[(*count)++] = t;
         }
+        ALP_TRY(tick(job, i));
     }
-    return count;
+    return ALP_OK;
 }
 
 /// Occlusion over a short distance, in mean sides of the listed texels. Its random numbers are
@@ -126,25 +141,27 @@ static alp_result send_scouts(validity_job *job, const uint32_t *list, uint32_t 
 static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
 {
     alp_context *context = job->setup->context;
+    alpi_occlusion_sums *sums = &job->out->scratch->sums;
     bool octaves[2 * OCTAVE_LIMIT + 1] = {false};
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
         if (is_scout(job->texels, t)) {
             octaves[OCTAVE_LIMIT + find_octave(job->texels, t)] = true;
         }
+        ALP_TRY(tick(job, i));
     }
-    alpi_occlusion_sums sums;
-    ALP_TRY(alpi_occlusion_sums_create(context, job->texels->count, false, &sums));
     uint32_t *list = ALPI_NEW(context, uint32_t, job->order_count);
     alp_result result = list != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     for (int k = -OCTAVE_LIMIT; k <= OCTAVE_LIMIT && result == ALP_OK; k++) {
-        const uint32_t count = octaves[OCTAVE_LIMIT + k] ? list_scouts(job, k, list) : 0;
-        result = count > 0 ? send_scouts(job, list, count, progress, &sums) : ALP_OK;
+        uint32_t count = 0;
+        result = octaves[OCTAVE_LIMIT + k] ? list_scouts(job, k, list, &count) : ALP_OK;
+        result =
+            result == ALP_OK && count > 0 ? send_scouts(job, list, count, progress, sums) : result;
     }
     alpi_release(context, list);
-    alpi_occlusion_sums_destroy(context, &sums);
     ALP_TRY(result);
-    return alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, spread_range, job, NULL);
+    return alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, spread_range, job,
+                             progress);
 }
 
 // --- rays ----------------------------------------------------------------------------------------
@@ -340,6 +357,10 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
     bool lifted = false;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
+        texels->flags[t] = 0;
+        if (texels->valid != NULL) {
+            texels->valid[t] = 0; // of an earlier look, through which places would go
+        }
         const bool whole = texels->piece_first[t] == texels->piece_first[t + 1];
         if (!whole || texels->triangles[t] != last) {
             lifted = alpi_texels_are_lifted(texels, t);
@@ -387,6 +408,8 @@ static alp_result settle(validity_job *job)
     alpi_texels *texels = job->texels;
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
+        ALP_TRY(tick(job, i));
+        job->out->dropped[t] = 0;
         if (job->inside[t] == UINT16_MAX) {
             job->out->dropped[t] = is_beside_seen(job, t);
             job->out->dropped_count += job->out->dropped[t];
@@ -405,20 +428,46 @@ static alp_result settle(validity_job *job)
 static alp_result run(validity_job *job, const alpi_task_progress *progress)
 {
     alp_context *context = job->setup->context;
-    ALPI_TRY_NEW(context, job->out->near, job->texels->count);
-    ALPI_TRY_NEW(context, job->out->dropped, job->texels->count);
-    ALPI_TRY_NEW(context, job->scouts, job->texels->count);
-    ALPI_TRY_NEW(context, job->inside, job->texels->count);
-    alpi_release(context, job->texels->valid); // of an earlier look, through which places would go
-    job->texels->valid = NULL;
-    memset(job->texels->flags, 0, job->texels->count);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
         alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &told));
-    ALP_TRY(find_near(job, progress));
+    ALP_TRY(find_near(job, &told));
     ALP_TRY(
         alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, judge_range, job, &told));
-    return settle(job);
+    ALP_TRY(settle(job));
+    return alpi_scratch_clear(job->out->scratch, job->order, job->order_count, &told);
+}
+
+alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratch *scratch,
+                              alpi_validity *validity)
+{
+    *validity = (alpi_validity){.context = context, .scratch = scratch};
+    validity->near = ALPI_NEW(context, uint8_t, texels);
+    validity->dropped = ALPI_NEW(context, uint8_t, texels);
+    if (validity->near == NULL || validity->dropped == NULL) {
+        alpi_validity_destroy(validity);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_validity_look(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                              alpi_texels *texels, const alpi_lattice *lattice,
+                              const uint32_t *order, uint32_t order_count,
+                              const alpi_task_progress *progress, alpi_validity *validity)
+{
+    validity->rays = validity->moved_count = 0;
+    validity->dropped_count = validity->lowered_count = 0;
+    validity_job job = {.setup = setup,
+                        .receivers = receivers,
+                        .texels = texels,
+                        .lattice = lattice,
+                        .order = order,
+                        .order_count = order_count,
+                        .scouts = validity->scratch->marks,
+                        .inside = validity->scratch->inside,
+                        .out = validity};
+    return run(&job, progress);
 }
 
 alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
@@ -426,17 +475,16 @@ alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_re
                                 const uint32_t *order, uint32_t order_count,
                                 const alpi_task_progress *progress, alpi_validity *validity)
 {
-    *validity = (alpi_validity){.context = setup->context};
-    validity_job job = {.setup = setup,
-                        .receivers = receivers,
-                        .texels = texels,
-                        .lattice = lattice,
-                        .order = order,
-                        .order_count = order_count,
-                        .out = validity};
-    alp_result result = run(&job, progress);
-    alpi_release(setup->context, job.scouts);
-    alpi_release(setup->context, job.inside);
+    alpi_scratch scratch;
+    *validity = (alpi_validity){0};
+    ALP_TRY(alpi_scratch_create(setup->context, texels->count, false, &scratch));
+    alp_result result = alpi_validity_open(setup->context, texels->count, &scratch, validity);
+    if (result == ALP_OK) {
+        result = alpi_validity_look(setup, receivers, texels, lattice, order, order_count, progress,
+                                    validity);
+    }
+    alpi_scratch_destroy(&scratch);
+    validity->scratch = NULL;
     if (result != ALP_OK) {
         alpi_validity_destroy(validity);
     }

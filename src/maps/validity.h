@@ -4,6 +4,7 @@
 #define ALPI_MAPS_VALIDITY_H
 
 #include "maps/lattice.h"
+#include "maps/scratch.h"
 #include "transport/occlusion.h"
 
 /// How far another surface is from a texel.
@@ -19,8 +20,14 @@ typedef struct alpi_validity {
     uint8_t *near;    // [texels] alpi_nearness
     uint8_t *dropped; // [texels] 1: wholly inside other geometry and beside one that is not: its
                       // value must come from there
-    uint64_t rays, moved_count, dropped_count, lowered_count;
+    alpi_scratch *scratch;                                    // borrowed
+    uint64_t rays, moved_count, dropped_count, lowered_count; // of the last look
 } alpi_validity;
+
+/// Arrays for the texels of an atlas, to look around parts of them one after the other.
+/// @param scratch [texels] borrowed; zero for the texels of a look before it, and after
+alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratch *scratch,
+                              alpi_validity *validity);
 
 /// Looks around every texel of `order`:
 /// - lifted points that the lift carries through a surface stay on their triangle (flag NO_LIFT);
@@ -28,7 +35,13 @@ typedef struct alpi_validity {
 ///   texel's length meets a back face first, or three of four rays upwards do; texels->valid leaves
 ///   those strata out. Back faces of double-sided materials are no sign of an inside.
 /// @param setup  of the bake; its tracer and random numbers   @param receivers of `texels`
+/// What it finds is written for those texels alone, and takes time for them alone.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_validity_look(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+                              alpi_texels *texels, const alpi_lattice *lattice,
+                              const uint32_t *order, uint32_t order_count,
+                              const alpi_task_progress *progress, alpi_validity *validity);
+/// Both, with scratch of its own, for all texels that are ever looked at.
 alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                                 alpi_texels *texels, const alpi_lattice *lattice,
                                 const uint32_t *order, uint32_t order_count,

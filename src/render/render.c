@@ -8,14 +8,16 @@
 #include "base/tasks.h"
 #include "maps/lightmap.h"
 #include "scene/select.h"
+#include "transport/hit.h"
 #include "transport/occlusion.h"
+#include "transport/reference.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 4096 };
+enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 65536 };
 // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
-enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64 };
+enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64, PATH_RAYS = 8 };
 enum { STREAM_PIXEL = 1 }; // random numbers of camera rays, apart from those of occlusion
 
 typedef struct render_job {
@@ -24,7 +26,9 @@ typedef struct render_job {
     const alpi_tracer *tracer;
     alpi_tracer *occluders; // of the chosen ones, NULL = `tracer`
     alpi_occlusion_setup occlusion;
-    alp_image *image;
+    alpi_lighting *lighting; // of the reference, else NULL
+    alpi_reference reference;
+    alp_image *image, *error;        // error: NULL unless asked for
     vec3 origin, forward, right, up; // right and up span half the picture's height at distance 1
     float aspect;
 } render_job;
@@ -35,6 +39,8 @@ alp_render_options alp_render_options_default(void)
                                 .width = 960,
                                 .height = 540,
                                 .samples = 16,
+                                .bounces = ALP_BOUNCES_CONVERGE,
+                                .lighting = alp_lighting_options_default(),
                                 .occlusion = alp_occlusion_options_default()};
 }
 
@@ -52,7 +58,7 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code, "render: %u samples per pixel, need 1 to %d",
                          o->samples, SAMPLE_LIMIT);
     }
-    if (o->method != ALP_RENDER_AO && o->method != ALP_RENDER_CONSTANT) {
+    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_REFERENCE) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
     }
     if (o->lightmap != NULL && o->lightmap->scene != scene) {
@@ -85,42 +91,34 @@ static alp_result place_camera(render_job *job)
     return ALP_OK;
 }
 
-/// The point of a hit, on the side that is seen.
-static alpi_receiver_point place_hit(const alp_scene *scene, const alpi_hits *hits, int lane,
-                                     vec3 direction)
+/// The ambient light of two half skies, which is exact for what nothing covers.
+static void shade_by_hemisphere(const render_job *job, const alpi_hits *hits, int lane,
+                                vec3 direction, float rgb[3])
 {
-    const uint32_t triangle = hits->triangle[lane];
-    const float b1 = hits->b1[lane], b2 = hits->b2[lane], b0 = 1.0f - b1 - b2;
-    const float weight[3] = {b0, b1, b2};
-    vec3 c[3], shading = {0.0f, 0.0f, 0.0f};
-    alpi_triangle_corners(scene, triangle, c);
-    alpi_receiver_point p;
-    p.position =
-        vec3_add(vec3_add(vec3_scale(c[0], b0), vec3_scale(c[1], b1)), vec3_scale(c[2], b2));
-    p.geometric_normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
+    const alp_sky_options *sky = &job->options.lighting.sky;
+    const alpi_receiver_point p = alpi_hit_point(job->scene, hits, lane, direction, NULL);
+    const vec3 albedo =
+        alpi_surface_albedo(job->scene, hits->triangle[lane], hits->b1[lane], hits->b2[lane]);
+    const float above = 0.5f * sky->strength * (1.0f + p.shading_normal.y);
+    const float below = 0.5f * sky->strength * (1.0f - p.shading_normal.y);
+    vec3_store(rgb, albedo);
     for (int k = 0; k < 3; k++) {
-        shading =
-            vec3_mad(shading, weight[k], vec3_load(scene->normals[scene->triangles[triangle][k]]));
+        rgb[k] *= above * sky->up[k] + below * sky->down[k];
     }
-    p.shading_normal = vec3_normalize_or(shading, p.geometric_normal);
-    if (vec3_dot(p.shading_normal, p.geometric_normal) <= 0.0f) {
-        p.shading_normal = p.geometric_normal;
-    }
-    if (vec3_dot(direction, p.geometric_normal) > 0.0f) { // seen from behind
-        p.geometric_normal = vec3_scale(p.geometric_normal, -1.0f);
-        p.shading_normal = vec3_scale(p.shading_normal, -1.0f);
-    }
-    p.offset = alpi_receiver_offset(p.position, c);
-    return p;
 }
 
 /// What needs no rays. @return false: only rays can tell
-static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int lane, float rgb[3])
+static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int lane, vec3 direction,
+                            float rgb[3])
 {
     const uint32_t triangle = hits->triangle[lane];
     const float b1 = hits->b1[lane], b2 = hits->b2[lane];
     if (job->options.method == ALP_RENDER_CONSTANT) {
         vec3_store(rgb, alpi_surface_albedo(job->scene, triangle, b1, b2));
+        return true;
+    }
+    if (job->options.method == ALP_RENDER_HEMISPHERE) {
+        shade_by_hemisphere(job, hits, lane, direction, rgb);
         return true;
     }
     if (job->options.lightmap != NULL && alpi_lightmap_holds(job->options.lightmap, triangle)) {
@@ -142,8 +140,8 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
     uint32_t dark = 0; // lanes that need rays
     int one = 0;       // any of them
     for (int i = 0; i < ALPI_PACKET; i++) {
-        if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, rgb[i])) {
-            points[i] = place_hit(job->scene, hits, i, directions[i]);
+        if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, directions[i], rgb[i])) {
+            points[i] = alpi_hit_point(job->scene, hits, i, directions[i], NULL);
             keys[i] = first_key + (uint64_t)i;
             dark |= 1u << i;
             one = i;
@@ -176,8 +174,40 @@ static vec3 camera_direction(const render_job *job, float x, float y)
     return vec3_normalize_or(d, job->forward);
 }
 
+static void reference_ray(const void *user, uint64_t pixel, vec2 u, vec3 *origin, vec3 *direction)
+{
+    const render_job *job = user;
+    const uint32_t width = job->options.width;
+    *origin = job->origin;
+    *direction = camera_direction(job, (float)(pixel % width) + u.x, (float)(pixel / width) + u.y);
+}
+
+/// Radiance over the whole pixel, the sky included; alpha: what shows something.
+static void render_reference(const render_job *job, uint32_t index, float pixel[4])
+{
+    alpi_reference_value value;
+    float covered;
+    alpi_reference_pixel(&job->reference, reference_ray, job, index, &value, &covered);
+    const float alpha = alpi_lighting_sky(job->lighting) != NULL ? 1.0f : covered;
+    for (int k = 0; k < 3; k++) { // colour over what is covered, as of the other methods
+        pixel[k] = alpha > 0.0f ? value.mean[k] / alpha : 0.0f;
+    }
+    pixel[3] = alpha;
+    if (job->error != NULL) {
+        float *error = (float *)job->error->pixels + 4 * (size_t)index;
+        for (int k = 0; k < 3; k++) {
+            error[k] = alpha > 0.0f ? sqrtf(value.variance[k]) / alpha : 0.0f;
+        }
+        error[3] = alpha > 0.0f ? 1.0f : 0.0f;
+    }
+}
+
 static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
 {
+    if (job->options.method == ALP_RENDER_REFERENCE) {
+        render_reference(job, index, pixel);
+        return;
+    }
     uint32_t x = index % job->options.width, y = index / job->options.width;
     uint32_t key = alpi_random_key(job->options.occlusion.seed, index, STREAM_PIXEL);
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
@@ -246,6 +276,26 @@ static alp_result choose_occluders(render_job *job)
     return result;
 }
 
+static alp_result prepare_reference(render_job *job, alp_image_info info)
+{
+    const alp_render_options *o = &job->options;
+    if (o->method != ALP_RENDER_REFERENCE) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
+    const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
+    job->reference = (alpi_reference){.context = job->scene->context,
+                                      .scene = job->scene,
+                                      .tracer = job->tracer,
+                                      .lighting = job->lighting,
+                                      .filter = job->occlusion.filter,
+                                      .bounces = o->bounces < limit ? o->bounces : limit,
+                                      .samples = o->samples,
+                                      .next_event = !o->no_next_event,
+                                      .seed = o->occlusion.seed};
+    return o->error != NULL ? alp_image_create(job->scene->context, info, &job->error) : ALP_OK;
+}
+
 static alp_result run(render_job *job)
 {
     const alp_render_options *o = &job->options;
@@ -261,13 +311,16 @@ static alp_result run(render_job *job)
                                    &job->occlusion));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
+    ALP_TRY(prepare_reference(job, info));
     alpi_task_progress progress = {.callback = o->progress,
                                    .user = o->progress_user,
                                    .stage = "render",
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
     uint64_t rays = o->samples; // of a pixel, at most
-    rays += o->method == ALP_RENDER_AO ? rays * job->occlusion.samples : 0;
+    rays *= o->method == ALP_RENDER_AO          ? 1 + job->occlusion.samples
+            : o->method == ALP_RENDER_REFERENCE ? PATH_RAYS
+                                                : 1;
     uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
                                                               : (uint32_t)(RAYS_PER_RANGE / rays);
     return alpi_parallel_for(job->scene->context, o->width * o->height, grain > 0 ? grain : 1,
@@ -281,12 +334,20 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     }
     *image = NULL;
     render_job job = {.scene = scene, .options = options ? *options : alp_render_options_default()};
+    if (job.options.error != NULL) {
+        *job.options.error = NULL;
+    }
     ALP_TRY(check_options(scene, &job.options));
     alp_result result = run(&job);
     alpi_occlusion_release(&job.occlusion);
     alpi_tracer_destroy(job.occluders);
+    alpi_lighting_destroy(scene->context, job.lighting);
+    if (result == ALP_OK && job.options.error != NULL) {
+        *job.options.error = job.error;
+    }
     if (result != ALP_OK) {
         alp_image_destroy(job.image);
+        alp_image_destroy(job.error);
         return result;
     }
     *image = job.image;

@@ -47,8 +47,11 @@ static alp_result fail_unknown(alp_context *context, const char *name)
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", i == 0 ? "" : ", ", BUILTINS[i].name);
     }
-    return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                     "builtin:%s: no such built-in scene; there are: %s", name, list);
+    return name[0] == '\0'
+               ? alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                           "builtin: the name of a scene is missing; there are: %s", list)
+               : alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                           "builtin:%s: no such built-in scene; there are: %s", name, list);
 }
 
 /// Says what the scene takes; `fault` is about the setting at `text`, `length` bytes long.

@@ -90,19 +90,17 @@ void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, alpi_occlusion_la
 alp_result alpi_obscurance_gather(const alpi_occlusion_setup *setup,
                                   const alpi_receivers *receivers, const uint32_t *list,
                                   uint32_t list_count, uint32_t samples,
-                                  const alpi_task_progress *progress, float (*rgb)[3])
+                                  const alpi_task_progress *progress, alpi_occlusion_sums *sums,
+                                  float (*rgb)[3])
 {
     alpi_occlusion_setup colored = *setup;
     colored.bent = false;
     colored.kernel = alpi_obscurance_kernel;
-    alpi_occlusion_sums sums;
-    ALP_TRY(alpi_occlusion_sums_create(setup->context, receivers->count, true, &sums));
-    alp_result result = alpi_occlusion_add(&colored, receivers, list, list_count, 0, samples,
-                                           samples, progress, &sums);
-    for (uint32_t i = 0; i < list_count && result == ALP_OK; i++) {
+    ALP_TRY(alpi_occlusion_add(&colored, receivers, list, list_count, 0, samples, samples, progress,
+                               sums));
+    for (uint32_t i = 0; i < list_count; i++) {
         const uint32_t id = list != NULL ? list[i] : i;
-        vec3_store(rgb[id], alpi_occlusion_mean_vector(&sums, id));
+        vec3_store(rgb[id], alpi_occlusion_mean_vector(sums, id));
     }
-    alpi_occlusion_sums_destroy(setup->context, &sums);
-    return result;
+    return ALP_OK;
 }

@@ -19,11 +19,13 @@
 /// fall-off.
 /// @param samples  a multiple of ALPI_QUARTERS, at most setup->samples
 /// @param progress NULL, or what to tell; units are filled in here, in rays
+/// @param sums     [receivers->count] with vectors, zero for those of the list, not so after
 /// @param rgb      [receivers->count] out, [0, 1]; only those of the list are written, on ALP_OK
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_obscurance_gather(const alpi_occlusion_setup *setup,
                                   const alpi_receivers *receivers, const uint32_t *list,
                                   uint32_t list_count, uint32_t samples,
-                                  const alpi_task_progress *progress, float (*rgb)[3]);
+                                  const alpi_task_progress *progress, alpi_occlusion_sums *sums,
+                                  float (*rgb)[3]);
 
 #endif

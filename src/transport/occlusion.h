@@ -74,6 +74,8 @@ typedef struct alpi_occlusion_sums {
     uint32_t (*open)[ALPI_QUARTERS]; // [receivers] free rays of each quarter
     uint32_t *done;                  // [receivers] rays sent
     float (*vectors)[3];             // [receivers] Σ of the free directions or of colours, or NULL
+    uint32_t parted;                 // samples before this one make four quarters, those from it on
+                                     // four more, added to the first; 0 (as made): all make four
 } alpi_occlusion_sums;
 alp_result alpi_occlusion_sums_create(alp_context *context, uint32_t receivers, bool vectors,
                                       alpi_occlusion_sums *sums);
@@ -84,15 +86,15 @@ float alpi_occlusion_value(const alpi_occlusion_sums *sums, uint32_t receiver);
 vec3 alpi_occlusion_mean_vector(const alpi_occlusion_sums *sums, uint32_t receiver);
 
 /// Makes the quarters of `before` samples those of `after`, a multiple: the old ones become a part
-/// of the first.
+/// of the first. (To go on to what is no multiple, set sums->parted to `before` instead.)
 void alpi_occlusion_requarter(alpi_occlusion_sums *sums, uint32_t receiver, uint32_t before,
                               uint32_t after);
 
 /// Sends samples [first, first + count) from the receivers in `list` (NULL = all, then list_count
 /// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /
-/// ALPI_QUARTERS). Eight receivers that follow each other in the list are traced together: they
-/// should be neighbours in space. What a receiver gets does not depend on the list. After CANCELLED
-/// `sums` holds what was sent.
+/// ALPI_QUARTERS), unless sums->parted says otherwise. Eight receivers that follow each other in
+/// the list are traced together: they should be neighbours in space. What a receiver gets does not
+/// depend on the list. After CANCELLED `sums` holds what was sent.
 /// @param total    of the samples that the receivers will have, a multiple of ALPI_QUARTERS
 /// @param progress NULL, or what to tell; units are filled in here, in rays
 alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,

@@ -29,7 +29,8 @@ typedef struct gather_job {
     const alpi_receivers *receivers;
     const uint32_t *list;
     uint32_t list_count;
-    uint32_t first, end, quarter; // samples, and how many make a quarter
+    uint32_t first, end;      // samples
+    uint32_t parted, quarter; // the quarters' first sample and length, from `parted` on
     alpi_occlusion_sums *sums;
 } gather_job;
 
@@ -84,6 +85,17 @@ static void place_points(const gather_job *job, uint32_t receiver, uint32_t firs
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
 }
 
+/// The quarter of a sample. @param end out: the first sample after it
+static uint32_t find_quarter(const gather_job *job, uint32_t sample, uint32_t *end)
+{
+    const bool early = sample < job->parted;
+    const uint32_t first = early ? 0 : job->parted;
+    const uint32_t length = early ? job->parted / ALPI_QUARTERS : job->quarter;
+    const uint32_t quarter = (sample - first) / length;
+    *end = first + (quarter + 1) * length;
+    return quarter;
+}
+
 /// Samples [first, end): as many points of each lane as they take, and from each its block of them.
 static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t first,
                       uint32_t end, alpi_occlusion_lanes *lanes, alpi_occlusion_tally *tally)
@@ -132,8 +144,8 @@ static void run_packet(const gather_job *job, uint32_t first_item, alpi_occlusio
         set_shifts(job->setup, lanes, (int)i, ids[i]);
     }
     for (uint32_t at = job->first; at < job->end;) {
-        const uint32_t quarter = at / job->quarter;
-        uint32_t end = (quarter + 1) * job->quarter;
+        uint32_t end;
+        const uint32_t quarter = find_quarter(job, at, &end);
         end = end < job->end ? end : job->end;
         end = job->receivers->extended && end - at > chunk ? at + chunk : end;
         alpi_occlusion_tally tally = {{0}, {{0}}};
@@ -166,11 +178,13 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
                               alpi_occlusion_sums *sums)
 {
     assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
+    assert(total > sums->parted && sums->parted % ALPI_QUARTERS == 0);
     gather_job job = {.setup = setup,
                       .receivers = receivers,
                       .list = list,
                       .list_count = list_count,
-                      .quarter = total / ALPI_QUARTERS,
+                      .parted = sums->parted,
+                      .quarter = (total - sums->parted) / ALPI_QUARTERS,
                       .sums = sums};
     const uint32_t packets = list_count / ALPI_PACKET + (list_count % ALPI_PACKET != 0);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};

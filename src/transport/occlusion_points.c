@@ -101,8 +101,13 @@ static alp_result gather_obscurance(const alpi_occlusion_setup *setup,
     const alpi_task_progress progress = {.callback = setup->options.progress,
                                          .user = setup->options.progress_user,
                                          .stage = "obscurance"};
-    return alpi_obscurance_gather(setup, &receivers, NULL, points->count, setup->samples, &progress,
-                                  (float(*)[3])values);
+    alpi_occlusion_sums sums;
+    ALP_TRY(alpi_occlusion_sums_create(setup->context, points->count, true, &sums));
+    alp_result result =
+        alpi_obscurance_gather(setup, &receivers, NULL, points->count, setup->samples, &progress,
+                               &sums, (float(*)[3])values);
+    alpi_occlusion_sums_destroy(setup->context, &sums);
+    return result;
 }
 
 static alp_result gather_bent(const alpi_occlusion_setup *setup, const alpi_point_array *points,

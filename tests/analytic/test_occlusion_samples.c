@@ -87,6 +87,46 @@ static void a_run_of_samples_continues_the_sequence(void **state)
     alp_context_destroy(context);
 }
 
+static void quarters_take_equal_shares_of_what_is_no_multiple(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = lid_scene(context);
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    alp_occlusion_options options = open_options(100);
+    alpi_occlusion_setup setup;
+    ASSERT_OK(context, alpi_occlusion_prepare(scene, tracer, &options, &setup));
+    float point[3] = {0.0f, 2.0f, 0.0f}, up[3] = {0.0f, 1.0f, 0.0f}; // above all: every ray is free
+    alpi_point_array points;
+    ASSERT_OK(context, alpi_point_array_create(context, 1, &points));
+    memcpy(points.positions[0], point, sizeof point);
+    memcpy(points.geometric_normals[0], up, sizeof up);
+    memcpy(points.shading_normals[0], up, sizeof up);
+    const alpi_receivers receivers = alpi_point_array_receivers(&points);
+    // 64, then 36 more, and all 100 at once: 16 + 9 in each quarter.
+    const uint32_t runs[][2] = {{0, 64}, {64, 36}, {0, 100}};
+    alpi_occlusion_sums sums;
+    for (int i = 0; i < 3; i++) {
+        if (i != 1) {
+            ASSERT_OK(context, alpi_occlusion_sums_create(context, 1, false, &sums));
+        }
+        sums.parted = i == 0 ? 0 : 64;
+        ASSERT_OK(context, alpi_occlusion_add(&setup, &receivers, NULL, 1, runs[i][0], runs[i][1],
+                                              i == 0 ? 64 : 100, NULL, &sums));
+        for (int q = 0; q < ALPI_QUARTERS; q++) {
+            assert_int_equal(sums.open[0][q], i == 0 ? 16 : 25);
+        }
+        if (i != 0) {
+            alpi_occlusion_sums_destroy(context, &sums);
+        }
+    }
+    alpi_point_array_destroy(context, &points);
+    alpi_occlusion_release(&setup);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void every_receiver_has_its_own_samples(void **state)
 {
     (void)state;
@@ -168,6 +208,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_samples_counts_exactly),
         cmocka_unit_test(a_run_of_samples_continues_the_sequence),
+        cmocka_unit_test(quarters_take_equal_shares_of_what_is_no_multiple),
         cmocka_unit_test(every_receiver_has_its_own_samples),
         cmocka_unit_test(the_shading_normal_is_the_axis),
         cmocka_unit_test(rays_start_on_the_geometric_side),

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
-# both kinds of picture, both methods
+# all kinds of picture, both methods
 render="alpenglow render builtin:sphere-plane --resolution 32x24 --samples 2 --ao-samples 8 -q"
 $render --with ao -o ao.png && head -c 4 ao.png | tail -c 3; echo
 $render --with ao -o ao.exr && $render --with constant -o constant.exr && ls
 alpenglow compare ao.exr constant.exr --max-rmse 0 >/dev/null 2>&1 || echo "the methods differ"
+# values up to 1 in steps of 1/256: at most half of one off
+$render --with ao -o ao.hdr && head -n 1 ao.hdr &&
+    alpenglow compare ao.hdr ao.exr --max-rmse 0.002 >/dev/null && echo "eight bits agree"
 $render --with ao --threads 1 -o one.exr && $render --with ao --threads 7 -o seven.exr &&
     cmp one.exr seven.exr && echo "same bits"
 alpenglow render builtin:sphere-plane --resolution 32x24 --samples 1 --with constant -o summary.png

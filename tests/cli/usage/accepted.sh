@@ -23,5 +23,8 @@ right render --samples 1 4096
 right render --resolution 1x1 16384x16384
 right render --camera 0 4294967294 auto 1,2,3,4,5,6,0.001 1,2,3,4,5,6,179 0,9,0,0,0,0,40 \
     -1,-2,-3e0,4,5,6,90
+right render --exposure -64 64 0 -1.5 auto
+right render --tone film reinhard filmic none
+right render --white-balance 1000 25000 6504.5 auto off
 right compare --scale -1e9 1e9 -1
 right compare --max-rmse 0 1e9

@@ -13,5 +13,9 @@ done
 for method in reference radiosity lightmap probes ambience lpv hemisphere cube raytrace; do
     try render scene.glb -o out.png --with $method
 done
+try render scene.glb -o out.png --with ao --tone aces
+for option in "--exposure auto" "--tone film" "--white-balance off"; do
+    try render scene.glb -o out.exr --with ao $option
+done
 try bake scene.glb -o out.glb --ao-distance inf --ao-falloff linear
 try bake scene.glb -o out.glb --ao-distance=inf --ao-falloff=exp

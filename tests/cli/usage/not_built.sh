@@ -7,7 +7,7 @@ for option in --bounces --direct --gather --samples --units \
     try bake scene.glb -o out.glb $option
     try bake scene.glb -o out.glb $option=1
 done
-for option in --bounces --exposure --tone --white-balance; do
+for option in --bounces; do
     try render scene.glb -o out.png --with ao $option 1
 done
 try info scene.glb --pictures folder

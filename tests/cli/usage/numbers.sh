@@ -25,6 +25,8 @@ wrong render --threads 0 1025
 wrong render --resolution 0x1 1x0 16385x1 1x16385 12 x 12x 3x4x5 1.5x2 -1x2 100X100
 wrong render --camera -1 x 1,2,3 1,2,3,4,5,6,0 1,2,3,4,5,6,179.1 1,2,3,1,2,3,40 \
     1,2,3,4,5,6,7,8 nan,2,3,4,5,6,40 1,2,3,4,5,6, 4294967295
+wrong render --exposure -64.1 64.1 nan inf 1e999 bright 1EV
+wrong render --white-balance 999.9 25000.1 -6500 6500K nan on
 wrong compare --scale -1000000001 1000000001 nan x
 wrong compare --max-rmse -0.001 1000000001 nan x
 for value in 0 0.009 101 1e400 nan pct; do

@@ -93,6 +93,7 @@ static void red_is_the_map_and_nothing_else_changes(void **state)
         check_red(&p, 1, asset.lid, 0.0f);
         check_others(&p, 0, channels);
         orm_check_meshes_kept(&p);
+        assert_string_equal(orm_text(&p, "asset/extras/alpenglow/occlusion/ao_into"), "\"orm\"");
         // both materials read one new image, and the old one is still there
         assert_int_equal(p.result->image_count, 2);
         assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");

@@ -186,6 +186,37 @@ static void a_host_scheduler_is_used(void **state)
     alp_context_destroy(context);
 }
 
+/// Numbers whose sum hangs on the order in which they are added.
+static void add_items(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    (void)user;
+    for (uint32_t i = begin; i < end; i++) {
+        sums[0] += 1.0 / (1.0 + i);
+        sums[1] += 1.0;
+    }
+}
+
+static void sums_do_not_hang_on_the_workers(void **state)
+{
+    (void)state;
+    enum { COUNT = 100001 };
+    double first = 0.0, exact = 0.0;
+    for (uint32_t i = COUNT; i > 0; i--) {
+        exact += 1.0 / i;
+    }
+    for (uint32_t workers = 1; workers <= 7; workers += 3) {
+        alp_context *context = test_context(workers);
+        double sums[ALPI_SUM_LIMIT];
+        ASSERT_OK(context, alpi_parallel_sum(context, COUNT, add_items, NULL, NULL, sums));
+        first = workers == 1 ? sums[0] : first;
+        assert_true(sums[0] == first && sums[1] == (double)COUNT && sums[2] == 0.0);
+        ASSERT_NEAR(sums[0], exact, 1e-12); // rounding of some 4096 sums in a range
+        ASSERT_OK(context, alpi_parallel_sum(context, 0, add_items, NULL, NULL, sums));
+        assert_true(sums[0] == 0.0);
+        alp_context_destroy(context);
+    }
+}
+
 static void no_items_is_no_work(void **state)
 {
     (void)state;
@@ -203,6 +234,7 @@ int main(void)
         cmocka_unit_test(serial_work_can_be_cancelled),
         cmocka_unit_test(progress_can_cancel),
         cmocka_unit_test(a_host_scheduler_is_used),
+        cmocka_unit_test(sums_do_not_hang_on_the_workers),
         cmocka_unit_test(no_items_is_no_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

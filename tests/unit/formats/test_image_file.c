@@ -41,6 +41,10 @@ static void names_do_not_matter_when_reading(void **state)
     ASSERT_OK(context, alp_image_load(context, swapped, &again));
     assert_memory_equal(alp_image_floats(again), alp_image_floats(floats), 45 * sizeof(float));
     alp_image_destroy(again);
+    ASSERT_OK(context, alp_image_save(floats, test_path(folder, "d.HDR"), false));
+    ASSERT_OK(context, alp_image_load(context, test_path(folder, "d.HDR"), &again));
+    ASSERT_NEAR(alp_image_floats(again)[44], 0.37 * 44, 0.37 * 44 / 256.0); // eight bits
+    alp_image_destroy(again);
     alp_image_destroy(bytes);
     alp_image_destroy(floats);
     alp_context_destroy(context);
@@ -57,9 +61,11 @@ static void endings_decide_when_writing(void **state)
                      ALP_ERROR_INVALID_ARGUMENT);
     assert_int_equal(alp_image_save(bytes, test_path(folder, "a.exr"), true),
                      ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_image_save(bytes, test_path(folder, "a.hdr"), true),
+                     ALP_ERROR_INVALID_ARGUMENT);
     assert_int_equal(alp_image_save(bytes, test_path(folder, "a.jpg"), true),
                      ALP_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(alp_context_message(context), ".png or .exr"));
+    assert_non_null(strstr(alp_context_message(context), ".png, .exr or .hdr"));
     assert_int_equal(alp_image_save(bytes, NULL, true), ALP_ERROR_INVALID_ARGUMENT);
     assert_int_equal(alp_image_save(NULL, "a.png", true), ALP_ERROR_INVALID_ARGUMENT);
     struct stat status;

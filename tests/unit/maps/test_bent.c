@@ -165,8 +165,8 @@ static void cubic_weights_that_turn_a_direction_over_are_dropped(void **state)
             }
         }
         s.lattice.states[t] = ALPI_TEXEL_INTERPOLATED;
-        ASSERT_OK(s.context,
-                  alpi_bent_normals(&s.lattice, &sums, s.lattice.order, s.texels.count, s.bent));
+        ASSERT_OK(s.context, alpi_bent_normals(&s.lattice, &sums, s.lattice.order, s.texels.count,
+                                               NULL, s.bent));
         assert_true(squared_distance(s.bent[t], s.texels.normals[t]) < 1e-10);
         s.lattice.states[t] = ALPI_TEXEL_TRACED;
         tried++;

@@ -148,6 +148,46 @@ static void interpolation_saves_rays_and_no_truth(void **state)
     tear_down(&s);
 }
 
+/// Whether the values of a stencil are those it was taken from: what overshoots was cut off after.
+static bool is_within(const alpi_lattice *l, const alpi_stencil *s)
+{
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float value = l->values[s->texels[i]];
+        if (!(value > 0.0f && value < 1.0f)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void interpolated_texels_hold_the_value_of_their_stencil(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:cornell"); // where the flood traces among what is interpolated
+    s.options.samples = 1024;
+    const alpi_occlusion_map_options options = {
+        .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.001f, .deadline = HUGE_VAL};
+    alpi_lattice lattice;
+    alpi_occlusion_map_report report;
+    ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+    uint32_t compared = 0;
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        alpi_stencil stencil;
+        if (lattice.states[t] == ALPI_TEXEL_INTERPOLATED) {
+            assert_true(alpi_lattice_stencil(&lattice, t, &stencil));
+            if (is_within(&lattice, &stencil)) {
+                const float value = alpi_lattice_interpolate(&lattice, &stencil);
+                ASSERT_NEAR(lattice.values[t], fminf(fmaxf(value, 0.0f), 1.0f), 0.0);
+                compared++;
+            }
+        }
+    }
+    assert_true(compared > s.texels.count / 20);
+    alpi_lattice_destroy(&lattice);
+    tear_down(&s);
+}
+
 static void any_number_of_workers_gives_the_same_map(void **state)
 {
     (void)state;
@@ -208,6 +248,36 @@ static void rounds_stop_at_the_wanted_error(void **state)
     ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
     assert_true(report.relative > 0.001 && report.samples == 64);
     alpi_lattice_destroy(&lattice);
+    tear_down(&s);
+}
+
+static void the_last_round_uses_all_samples(void **state)
+{
+    (void)state;
+    map_setup s;
+    set_up(&s, 2, "builtin:torus-plane");
+    s.options.samples = 100; // no multiple of the 64 of the first round
+    float *once = calloc(s.texels.count, sizeof *once);
+    assert_non_null(once);
+    double stated[2];
+    for (int i = 0; i < 2; i++) {
+        const alpi_occlusion_map_options options = {
+            .accuracy = ALP_ADAPTIVE_OFF, .error = i == 0 ? 0.0f : 1e-4f, .deadline = HUGE_VAL};
+        alpi_lattice lattice;
+        alpi_occlusion_map_report report;
+        ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
+        assert_int_equal(report.samples, 100);
+        stated[i] = report.relative;
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            ASSERT_NEAR(lattice.values[t], i == 0 ? lattice.values[t] : once[t], 0.0);
+            once[t] = lattice.values[t];
+        }
+        alpi_lattice_destroy(&lattice);
+    }
+    // The same values and held-out texels: the factors they give leave the mean of the squares as
+    // it is, up to what levels out where quarters happen to be equal.
+    ASSERT_NEAR(stated[1] / stated[0], 1.0, 0.05);
+    free(once);
     tear_down(&s);
 }
 
@@ -284,8 +354,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interpolation_saves_rays_and_no_truth),
+        cmocka_unit_test(interpolated_texels_hold_the_value_of_their_stencil),
         cmocka_unit_test(any_number_of_workers_gives_the_same_map),
         cmocka_unit_test(rounds_stop_at_the_wanted_error),
+        cmocka_unit_test(the_last_round_uses_all_samples),
         cmocka_unit_test(what_is_cut_off_keeps_what_it_has),
         cmocka_unit_test(percentiles_are_those_of_a_sort),
     };

@@ -7,8 +7,9 @@
 #include "test_scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-enum { SIZE = 16 };
+enum { SIZE = 16, PAGE = 128 };
 
 typedef struct validity_setup {
     alp_context *context;
@@ -21,12 +22,13 @@ typedef struct validity_setup {
     alpi_validity validity;
 } validity_setup;
 
-/// Looks at all texels of a scene at SIZE texels per metre.
-static void look(validity_setup *s, alp_scene *scene, alp_context *context)
+/// Looks at all texels of a scene, in charts at SIZE texels per metre or as its coordinates say.
+static void look_in(validity_setup *s, alp_scene *scene, alp_context *context, alp_atlas_mode mode)
 {
     *s = (validity_setup){.context = context, .scene = scene};
     alp_atlas_options atlas = alp_atlas_options_default();
-    atlas.size = 128;
+    atlas.mode = mode;
+    atlas.size = PAGE;
     atlas.texels_per_metre = SIZE;
     ASSERT_OK(context, alp_atlas_create(scene, &atlas, &s->atlas));
     ASSERT_OK(context, alpi_texels_create(s->atlas, &s->texels));
@@ -38,6 +40,11 @@ static void look(validity_setup *s, alp_scene *scene, alp_context *context)
     ASSERT_OK(context, alpi_occlusion_prepare(scene, tracer, &options, &s->setup));
     ASSERT_OK(context, alpi_validity_create(&s->setup, &s->receivers, &s->texels, &s->lattice,
                                             s->lattice.order, s->texels.count, NULL, &s->validity));
+}
+
+static void look(validity_setup *s, alp_scene *scene, alp_context *context)
+{
+    look_in(s, scene, context, ALP_ATLAS_CHARTS);
 }
 
 static void end(validity_setup *s)
@@ -178,6 +185,199 @@ static void lifts_end_at_what_they_would_pass(void **state)
     end(&s);
 }
 
+// --- lifts ---------------------------------------------------------------------------------------
+
+static const float GAP = 0.05f;
+
+/// A floor of 2 × 2 m, and over its middle the lowest facet of a coarse, smooth ball of radius 2: a
+/// square of 1 × 1 m, seen from below. The sphere that its normals describe is up to 13 cm below
+/// the facet, and the floor GAP.
+static alp_scene *keel_over_floor(alp_context *context)
+{
+    const float h = 1.8708287f, r = 2.0f; // of the ball's centre over the facet: √(2² − ½)
+    const float positions[8][3] = {{-1, 0, -1},       {-1, 0, 1},          {1, 0, 1},
+                                   {1, 0, -1},        {-0.5f, GAP, -0.5f}, {0.5f, GAP, -0.5f},
+                                   {0.5f, GAP, 0.5f}, {-0.5f, GAP, 0.5f}};
+    float normals[8][3];
+    for (int i = 0; i < 8; i++) {
+        const bool ball = i >= 4;
+        normals[i][0] = ball ? positions[i][0] / r : 0.0f;
+        normals[i][1] = ball ? -h / r : 1.0f;
+        normals[i][2] = ball ? positions[i][2] / r : 0.0f;
+    }
+    const uint32_t indices[4][3] = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+    const alp_mesh mesh = {.vertex_count = 8,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .triangle_count = 4,
+                           .indices = indices[0],
+                           .base_color = {0.5f, 0.5f, 0.5f}};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    return scene;
+}
+
+/// How many of the middles of 16 strata of a texel lie below the floor, lifted or as it is flagged.
+static int count_below(validity_setup *s, uint32_t texel, bool lifted)
+{
+    const uint8_t flags = s->texels.flags[texel];
+    float square[16][2];
+    alpi_receiver_point points[16];
+    for (int i = 0; i < 16; i++) {
+        square[i][0] = ((float)(i % 4) + 0.5f) / 4.0f;
+        square[i][1] = ((float)(i / 4) + 0.5f) / 4.0f;
+    }
+    s->texels.flags[texel] = lifted ? 0 : flags;
+    s->receivers.place(s->receivers.user, texel, 16, (const float(*)[2])square, points);
+    s->texels.flags[texel] = flags;
+    int below = 0;
+    for (int i = 0; i < 16; i++) {
+        below += points[i].position.y < 0.0f;
+    }
+    return below;
+}
+
+static void lifts_through_a_floor_are_not_made(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    validity_setup s;
+    look(&s, keel_over_floor(context), context);
+    float *values = calloc(s.texels.count, sizeof *values);
+    assert_non_null(values);
+    s.setup.distance = INFINITY;
+    s.setup.falloff = ALP_FALLOFF_NONE;
+    ASSERT_OK(context, alpi_occlusion_gather(&s.setup, &s.receivers, NULL, s.texels.count, values));
+    float largest = 0.0f;
+    uint32_t low = 0, flagged = 0, high = 0;
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        const bool flag = (s.texels.flags[t] & ALPI_TEXEL_NO_LIFT) != 0;
+        const int below = s.texels.triangles[t] >= 2 ? count_below(&s, t, true) : 0;
+        flagged += flag;
+        if (below == 0) {
+            assert_false(flag);
+            high += s.texels.triangles[t] >= 2;
+        } else if (below > 8) { // of eight that are looked at, one at least
+            assert_true(flag);
+            assert_int_equal(count_below(&s, t, false), 0);
+            largest = fmaxf(largest, values[t]);
+            low++;
+        }
+    }
+    print_message("%u texels kept low, %u as they are, largest %.3f\n", low, high, (double)largest);
+    assert_true(low >= 100 && high >= 4); // of some 17²; the corners need little lift
+    // Nothing but the gap is seen, at the rim δ = GAP / ½ high and by half a turn of directions
+    // about a normal tilted by sin τ = √½ / 2: (2δ sin τ + ½ π δ² cos τ) / π = .027, and the
+    // samples' error. Below the floor all would be open.
+    assert_true(largest < 0.035f);
+    assert_int_equal(s.validity.lowered_count, flagged);
+    free(values);
+    end(&s);
+}
+
+// --- what is near --------------------------------------------------------------------------------
+
+enum { SIDE = 32 }; // texels of a floor and of a wall
+
+/// Appends a quad with its own block of SIDE × SIDE texels: the first two lie across the rows of
+/// the page, the others along them.
+static void add_block(test_mesh *mesh, float (*uvs)[2], const double p[3], const double u[3],
+                      const double v[3])
+{
+    static const float corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const uint32_t first = mesh->vertex_count, block = first / 4;
+    test_mesh_quad(mesh, p, u, v);
+    for (int k = 0; k < 4; k++) {
+        float *uv = uvs[first + (uint32_t)k];
+        const int axis = block < 2 ? 0 : 1;
+        uv[0] = (8.0f + 40.0f * (float)(block % 2) + SIDE * corners[k][axis]) / PAGE;
+        uv[1] = (8.0f + 40.0f * (float)(block / 2) + SIDE * corners[k][1 - axis]) / PAGE;
+    }
+}
+
+/// Two floors, each with a wall across it `at` texels from its side: the second 100 m away and its
+/// texels 8 times as large.
+static alp_scene *walls_of_two_sizes(alp_context *context, double at)
+{
+    test_mesh *mesh = test_mesh_start();
+    float uvs[16][2];
+    for (int i = 0; i < 2; i++) {
+        const double texel = i == 0 ? 1.0 / SIZE : 8.0 / SIZE, x = 100.0 * i, side = SIDE * texel;
+        add_block(mesh, uvs, (double[]){x, 0, 0}, (double[]){0, 0, side}, (double[]){side, 0, 0});
+        add_block(mesh, uvs, (double[]){x + at * texel, 0, 0}, (double[]){0, side, 0},
+                  (double[]){0, 0, side});
+    }
+    const alp_mesh m = {.vertex_count = mesh->vertex_count,
+                        .positions = mesh->positions[0],
+                        .uvs = uvs[0],
+                        .triangle_count = mesh->triangle_count,
+                        .indices = mesh->triangles[0],
+                        .base_color = {0.5f, 0.5f, 0.5f},
+                        .double_sided = true};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &m, 1, &scene));
+    return scene;
+}
+
+/// Texels from the wall to the nearest of the scouts that a texel of a floor asks: those of even
+/// rows and columns of the page, which are the floor's.
+static double scout_distance(uint32_t column, double wall)
+{
+    const double first = column & ~1u, last = column % 2 == 0 ? first : first + 2.0;
+    return fmin(fabs(first + 0.5 - wall), fabs(last + 0.5 - wall));
+}
+
+/// Holds the texels of one floor to their distances. Of a scout's cosine-distributed rays at a
+/// distance of d texels those end at the wall within 2.5 texels that lie beyond x = d / 2.5 on the
+/// unit disk: (acos x − x √(1 − x²)) / π, .37 at ½, .14 at 1½, .05 at 2, and TOUCHING is .22.
+static void check_floor(const validity_setup *s, uint32_t floor, double wall)
+{
+    uint32_t counts[3] = {0}, at_less[3] = {0}, at_two[3] = {0};
+    for (uint32_t t = 0; t < s->texels.count; t++) {
+        if (s->texels.triangles[t] / 4 != floor || s->texels.triangles[t] % 4 >= 2) {
+            continue;
+        }
+        alpi_receiver_point middle;
+        alpi_texels_point(&s->texels, t, &middle);
+        const float texel = floor == 0 ? 1.0f / SIZE : 8.0f / SIZE;
+        const uint32_t column = (uint32_t)((middle.position.x - 100.0f * (float)floor) / texel);
+        const uint32_t row = (uint32_t)(middle.position.z / texel);
+        const uint8_t near = s->validity.near[t];
+        const double d = scout_distance(column, wall);
+        if (row < 3 || row >= SIDE - 3) {
+            continue; // the wall ends
+        }
+        assert_true(d > 0.6 || near == ALPI_TOUCHING);
+        at_less[near] += fabs(d - 1.5) < 0.1;
+        assert_true(d < 2.6 || near == ALPI_FAR);
+        at_two[near] += fabs(d - 2.0) < 0.1;
+        counts[near]++;
+    }
+    print_message("wall at %.1f: %u far, %u near, %u touching\n", wall, counts[0], counts[1],
+                  counts[2]);
+    // Sixteen rays tell a share to a sixteenth or two: at 1½ texels, .14, all see the wall and a
+    // few of the scouts touch it; at 2, .05, most see it and none touch.
+    assert_int_equal(at_less[ALPI_FAR], 0);
+    assert_true(at_less[ALPI_NEAR] >= 4 * at_less[ALPI_TOUCHING]);
+    assert_int_equal(at_two[ALPI_TOUCHING], 0);
+    assert_true(at_two[ALPI_NEAR] >= at_two[ALPI_FAR]);
+    assert_true(counts[0] > 0 && counts[1] > 0 && counts[2] > 0);
+}
+
+static void nearness_is_told_in_texels_of_each_chart(void **state)
+{
+    (void)state;
+    static const double walls[] = {12.0, 12.5, 13.0};
+    for (int i = 0; i < 3; i++) {
+        alp_context *context = test_context(2);
+        validity_setup s;
+        look_in(&s, walls_of_two_sizes(context, walls[i]), context, ALP_ATLAS_KEEP);
+        check_floor(&s, 0, walls[i]);
+        check_floor(&s, 1, walls[i]);
+        end(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +385,8 @@ int main(void)
         cmocka_unit_test(double_sided_walls_hide_no_inside),
         cmocka_unit_test(a_one_sided_wall_has_a_behind),
         cmocka_unit_test(lifts_end_at_what_they_would_pass),
+        cmocka_unit_test(lifts_through_a_floor_are_not_made),
+        cmocka_unit_test(nearness_is_told_in_texels_of_each_chart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

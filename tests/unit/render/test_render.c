@@ -228,7 +228,7 @@ static void bad_cameras_are_refused(void **state)
     options.width = 0;
     assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
     options = look_ahead();
-    options.samples = 5000;
+    options.samples = 65537;
     assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
     assert_null(image);
     alp_scene_destroy(scene);
@@ -280,6 +280,28 @@ static void a_flat_scene_is_seen_from_outside(void **state)
     alp_context_destroy(context);
 }
 
+static void methods_of_zero_to_one_are_shown_as_they_are(void **state)
+{
+    (void)state;
+    const alp_render_method plain[] = {ALP_RENDER_AO, ALP_RENDER_CONSTANT};
+    for (int i = 0; i < 2; i++) {
+        alp_film_options film = alp_render_film_options(plain[i]);
+        assert_int_equal(film.struct_size, sizeof film);
+        assert_false(film.auto_exposure);
+        assert_int_equal(film.tone, ALP_TONE_NONE);
+        assert_int_equal(film.dither, ALP_DITHER_NONE);
+        assert_int_equal(film.white_balance, ALP_WHITE_BALANCE_OFF);
+        assert_true(film.exposure == 0.0);
+    }
+    const alp_render_method light[] = {ALP_RENDER_HEMISPHERE, ALP_RENDER_REFERENCE};
+    for (int i = 0; i < 2; i++) {
+        alp_film_options film = alp_render_film_options(light[i]);
+        assert_true(film.auto_exposure);
+        assert_int_equal(film.tone, ALP_TONE_FILM);
+        assert_int_equal(film.dither, ALP_DITHER_HASHED);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +314,7 @@ int main(void)
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(the_automatic_camera_sees_the_scene),
         cmocka_unit_test(a_flat_scene_is_seen_from_outside),
+        cmocka_unit_test(methods_of_zero_to_one_are_shown_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -400,7 +400,7 @@ static void settings_are_read_or_refused(void **state)
         {"terrain,triangles=5000,trees=5000", "5000 triangles are too few"},
         {"atriumx", "no such built-in scene"},
         {"atriu,triangles=20000", "no such built-in scene"},
-        {"", "no such built-in scene"},
+        {"", "builtin: the name of a scene is missing"},
         {",", "no such built-in scene"},
     };
     alp_context *context = test_context(1);

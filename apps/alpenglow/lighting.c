@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "lighting.h"
+
+#include "output.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// Exactly `count` numbers with commas between, up to `end`. @return where the last one ends, or
+/// NULL
+static const char *read_list(const char *text, double *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char word[64];
+        const size_t length = strcspn(text, ",/");
+        if (length == 0 || length >= sizeof word) {
+            return NULL;
+        }
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
+            return NULL;
+        }
+        text += length;
+        if (i + 1 < count && *text++ != ',') {
+            return NULL;
+        }
+    }
+    return text;
+}
+
+static bool set_color(const double numbers[3], float color[3])
+{
+    bool positive = true;
+    for (int k = 0; k < 3; k++) {
+        positive = positive && numbers[k] >= 0.0;
+        color[k] = (float)numbers[k];
+    }
+    return positive;
+}
+
+/// "R,G,B" or "R,G,B/R,G,B". @return false: neither
+static bool read_colors(const char *text, alp_sky_options *sky)
+{
+    double up[3], down[3];
+    const char *end = read_list(text, up, 3);
+    if (end == NULL || !set_color(up, sky->up)) {
+        return false;
+    }
+    sky->kind = ALP_SKY_CONSTANT;
+    if (*end == '/') {
+        sky->kind = ALP_SKY_HEMISPHERE;
+        end = read_list(end + 1, down, 3);
+        if (end == NULL || !set_color(down, sky->down)) {
+            return false;
+        }
+    }
+    return *end == '\0';
+}
+
+static bool names_picture(const char *text)
+{
+    return path_ends(text, ".hdr") || path_ends(text, ".exr");
+}
+
+static int read_sky(const command_line *a, alp_sky_options *sky)
+{
+    const option_value *value = &a->values[OPTION_SKY];
+    const double radians = M_PI / 180.0;
+    sky->turn = (float)(a->values[OPTION_SKY_TURN].real * radians);
+    sky->strength = (float)a->values[OPTION_SKY_STRENGTH].real;
+    if (!value->given) {
+        if (a->values[OPTION_SKY_TURN].given || a->values[OPTION_SKY_STRENGTH].given) {
+            return usage_error(a->command, "--sky-turn and --sky-strength need a --sky");
+        }
+        return EXIT_DONE;
+    }
+    if (strcmp(value->text, "clear") == 0) {
+        sky->kind = ALP_SKY_CLEAR;
+    } else if (names_picture(value->text)) {
+        sky->kind = ALP_SKY_IMAGE;
+    } else if (!read_colors(value->text, sky)) {
+        return usage_error(a->command,
+                           "--sky: '%s' is no sky; give a .hdr or .exr file, R,G,B, R,G,B/R,G,B "
+                           "(above and below the horizon), numbers 0 or more, or clear",
+                           value->text);
+    }
+    return EXIT_DONE;
+}
+
+static int read_sun(const command_line *a, alp_sun_options *sun)
+{
+    const option_value *value = &a->values[OPTION_SUN];
+    const double radians = M_PI / 180.0;
+    double numbers[3];
+    if (!value->given) {
+        return EXIT_DONE;
+    }
+    const char *end = read_list(value->text, numbers, 3);
+    if (end == NULL || *end != '\0' || fabs(numbers[0]) > 360.0 || fabs(numbers[1]) > 90.0 ||
+        numbers[2] < 0.0) {
+        return usage_error(a->command,
+                           "--sun: '%s' is no sun; give AZ,EL,LUX: degrees from +Z towards +X, "
+                           "degrees above the horizon, and lux, 0 or more",
+                           value->text);
+    }
+    sun->azimuth = (float)(numbers[0] * radians);
+    sun->elevation = (float)(numbers[1] * radians);
+    sun->illuminance = (float)numbers[2];
+    return EXIT_DONE;
+}
+
+int lighting_read(const command_line *a, alp_lighting_options *options)
+{
+    const double radians = M_PI / 180.0;
+    *options = alp_lighting_options_default();
+    int code = read_sky(a, &options->sky);
+    if (code == EXIT_DONE) {
+        code = read_sun(a, &options->sun);
+    }
+    if (a->values[OPTION_SUN_SIZE].given) { // of all suns, those of the file too
+        options->sun.size = (float)(a->values[OPTION_SUN_SIZE].real * radians);
+        options->file_sun_size = options->sun.size;
+    }
+    return code;
+}
+
+int lighting_load_sky(session *s, const command_line *a, alp_lighting_options *options,
+                      alp_image **image)
+{
+    *image = NULL;
+    if (options->sky.kind != ALP_SKY_IMAGE) {
+        return EXIT_DONE;
+    }
+    const int code = session_end(s, alp_image_load(s->context, a->values[OPTION_SKY].text, image));
+    options->sky.image = *image;
+    return code;
+}
+
+uint32_t lighting_bounces(const command_line *a)
+{
+    const option_value *value = &a->values[OPTION_BOUNCES];
+    return value->choice >= 0 ? ALP_BOUNCES_CONVERGE : (uint32_t)value->whole;
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The clear sky of A. J. Preetham, Peter Shirley, Brian Smits: A Practical Analytic Model for
+// Daylight. SIGGRAPH 1999, appendix A.2: the five-parameter distribution of Perez et al. 1993 with
+// coefficients linear in the turbidity, for luminance and both chromaticities.
+#include "scene/sky_clear.h"
+
+/// A…E of Y, x, y as slope · turbidity + offset.
+static const double DISTRIBUTION[3][5][2] = {
+    {{0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771}, {-0.0670, 0.3703}},
+    {{-0.0193, -0.2592},
+     {-0.0665, 0.0008},
+     {-0.0004, 0.2125},
+     {-0.0641, -0.8989},
+     {-0.0033, 0.0452}},
+    {{-0.0167, -0.2608},
+     {-0.0950, 0.0092},
+     {-0.0079, 0.2102},
+     {-0.0441, -1.6537},
+     {-0.0109, 0.0529}},
+};
+
+/// x and y at the zenith: rows T², T, 1; columns θs³, θs², θs, 1.
+static const double ZENITH[2][3][4] = {
+    {{0.00166, -0.00375, 0.00209, 0.0},
+     {-0.02903, 0.06377, -0.03202, 0.00394},
+     {0.11693, -0.21196, 0.06052, 0.25886}},
+    {{0.00275, -0.00610, 0.00317, 0.0},
+     {-0.04214, 0.08970, -0.04153, 0.00516},
+     {0.15346, -0.26756, 0.06670, 0.26688}},
+};
+
+static double distribution(const double p[5], double cosine, double gamma)
+{
+    double c = cos(gamma);
+    return (1.0 + p[0] * exp(p[1] / cosine)) * (1.0 + p[2] * exp(p[3] * gamma) + p[4] * c * c);
+}
+
+static double zenith_chromaticity(const double rows[3][4], double turbidity, double theta)
+{
+    double value = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double *r = rows[i];
+        value = value * turbidity + (((r[0] * theta + r[1]) * theta + r[2]) * theta + r[3]);
+    }
+    return value;
+}
+
+/// How much of the sky's light is left, and the sun lifted to the horizon.
+static double twilight(vec3 *sun)
+{
+    if (sun->y >= 0.0f) {
+        return 1.0;
+    }
+    double degrees = -asin(fmin(-(double)sun->y, 1.0)) * 180.0 / ALPI_PI;
+    *sun = vec3_normalize_or((vec3){sun->x, 0.0f, sun->z}, (vec3){0.0f, 0.0f, -1.0f});
+    return degrees > -18.0 ? pow(10.0, degrees / 3.0) : 0.0;
+}
+
+double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
+{
+    double fading = twilight(&sun);
+    double theta = acos(fmin((double)sun.y, 1.0)), t = turbidity;
+    double chi = (4.0 / 9.0 - t / 120.0) * (ALPI_PI - 2.0 * theta);
+    // The paper's formula gives kilocandelas per square metre.
+    double zenith[3] = {1000.0 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192),
+                        zenith_chromaticity(ZENITH[0], t, theta),
+                        zenith_chromaticity(ZENITH[1], t, theta)};
+    sky->sun = sun;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 5; k++) {
+            sky->perez[i][k] = DISTRIBUTION[i][k][0] * t + DISTRIBUTION[i][k][1];
+        }
+        sky->scale[i] = zenith[i] / distribution(sky->perez[i], 1.0, theta);
+    }
+    return fading;
+}
+
+vec3 alpi_clear_sky_radiance(const alpi_clear_sky *sky, vec3 direction)
+{
+    // At the horizon itself the term of 1/cosθ has vanished.
+    double cosine = fmax((double)direction.y, 1e-6);
+    double dot = (double)vec3_dot(direction, sky->sun);
+    double gamma = acos(fmax(fmin(dot, 1.0), -1.0));
+    double value[3];
+    for (int i = 0; i < 3; i++) {
+        value[i] = sky->scale[i] * distribution(sky->perez[i], cosine, gamma);
+    }
+    double luminance = value[0], x = value[1], y = value[2];
+    double per_y = luminance / y, z = 1.0 - x - y;
+    // CIE XYZ to linear Rec.709 (IEC 61966-2-1).
+    double red = (3.2406 * x - 1.5372 * y - 0.4986 * z) * per_y;
+    double green = (-0.9689 * x + 1.8758 * y + 0.0415 * z) * per_y;
+    double blue = (0.0557 * x - 0.2040 * y + 1.0570 * z) * per_y;
+    return (vec3){(float)fmax(red, 0.0), (float)fmax(green, 0.0), (float)fmax(blue, 0.0)};
+}

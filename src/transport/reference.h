@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The truth that every technique is measured against: a path tracer for diffuse surfaces, for
+// receivers and for pictures. Right before it is fast.
+//
+// At a point x with normal n it estimates E(x) = ∫ L(ω) cosθ dω. Light is asked for directly and by
+// cosine-distributed rays, the two weighted by the balance heuristic; a ray that hits a surface of
+// albedo ρ brings Le + ρ/π · E there. Russian roulette ends long paths without bias.
+// Based on: J. T. Kajiya. The Rendering Equation. SIGGRAPH 1986;
+//           E. Veach, L. J. Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995.
+#ifndef ALPI_TRANSPORT_REFERENCE_H
+#define ALPI_TRANSPORT_REFERENCE_H
+
+#include "base/tasks.h"
+#include "scene/lighting.h"
+#include "scene/receivers.h"
+#include "trace/trace.h"
+
+/// Independently scrambled parts of a receiver's samples: the spread of their means gives the
+/// standard error. Samples are rounded up to a multiple of it.
+enum { ALPI_REFERENCE_REPLICATES = 16 };
+/// Paths never grow longer than this: the chance that one would, at ρ = .95, is below 1e-20.
+enum { ALPI_REFERENCE_BOUNCE_LIMIT = 1024 };
+
+typedef struct alpi_reference {
+    alp_context *context;
+    const alp_scene *scene;
+    const alpi_tracer *tracer;
+    const alpi_lighting *lighting;
+    alpi_trace_filter filter;
+    uint32_t bounces; // 0 = direct light only; up to BOUNCE_LIMIT
+    uint32_t samples; // paths of each receiver or pixel
+    bool next_event;  // false: light is only found by rays that hit it, a cross-check; lights
+                      // without extent then give nothing
+    uint64_t seed;
+} alpi_reference;
+
+/// A mean over paths with its variance (of the mean: its root is the standard error).
+typedef struct alpi_reference_value {
+    float mean[3], variance[3];
+} alpi_reference_value;
+
+/// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points.
+/// @param values [receivers->count] out; only those of the list are written
+/// @return ALP_OK; CANCELLED; OUT_OF_MEMORY
+alp_result alpi_reference_irradiance(const alpi_reference *reference,
+                                     const alpi_receivers *receivers, const uint32_t *list,
+                                     uint32_t list_count, const alpi_task_progress *progress,
+                                     alpi_reference_value *values);
+
+/// Where the camera ray of a pixel starts, for a point of the unit square. Called by many threads.
+typedef void alpi_camera_ray_fn(const void *user, uint64_t pixel, vec2 u, vec3 *origin,
+                                vec3 *direction);
+
+/// Radiance L [W·sr⁻¹·m⁻²] that reaches a pixel. Called for one pixel at a time, by any thread.
+/// @param covered out: share of the paths that met a surface
+void alpi_reference_pixel(const alpi_reference *reference, alpi_camera_ray_fn *camera,
+                          const void *camera_user, uint64_t pixel, alpi_reference_value *value,
+                          float *covered);
+
+#endif

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// The clear sky against the published formulas, evaluated here a second time for luminance, and
+// against what every clear sky does.
+#include "sky_checks.h"
+
+#include "scene/sky_clear.h"
+
+#include <math.h>
+
+static vec3 sun_at(double elevation_degrees, double phi)
+{
+    return sky_polar(ALPI_PI / 2.0 - elevation_degrees * ALPI_PI / 180.0, phi);
+}
+
+/// Perez' distribution with Preetham's coefficients for luminance (appendix A.2), turbidity T.
+static double perez(double t, double theta, double gamma)
+{
+    double a = 0.1787 * t - 1.4630, b = -0.3554 * t + 0.4275, c = -0.0227 * t + 5.3251;
+    double d = 0.1206 * t - 2.5771, e = -0.0670 * t + 0.3703;
+    return (1.0 + a * exp(b / cos(theta))) *
+           (1.0 + c * exp(d * gamma) + e * cos(gamma) * cos(gamma));
+}
+
+static double zenith_luminance(double t, double theta_sun)
+{
+    double chi = (4.0 / 9.0 - t / 120.0) * (ALPI_PI - 2.0 * theta_sun);
+    return 1000.0 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192);
+}
+
+static void luminance_is_the_published_one(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const double turbidities[] = {2.0, 3.0, 6.0}, elevations[] = {20.0, 45.0, 80.0};
+    for (int i = 0; i < 3; i++) {
+        for (int s = 0; s < 3; s++) {
+            alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+            o.turbidity = (float)turbidities[i];
+            o.strength = 0.5f;
+            double t = turbidities[i], theta_sun = ALPI_PI / 2.0 - elevations[s] * ALPI_PI / 180.0;
+            alpi_sky *sky = sky_make(context, &o, sun_at(elevations[s], 0.8));
+            // the zenith; 60° from it away from the sun; 30° from it and beside the sun
+            const double thetas[] = {0.0, ALPI_PI / 3.0, ALPI_PI / 6.0};
+            const double phis[] = {0.0, 0.8 + ALPI_PI, 0.8 + ALPI_PI / 2.0};
+            for (int p = 0; p < 3; p++) {
+                double gamma = acos(cos(thetas[p]) * cos(theta_sun) +
+                                    sin(thetas[p]) * sin(theta_sun) * cos(phis[p] - 0.8));
+                double expected = zenith_luminance(t, theta_sun) * perez(t, thetas[p], gamma) /
+                                  perez(t, 0.0, theta_sun);
+                vec3 radiance = alpi_sky_radiance(sky, sky_polar(thetas[p], phis[p]));
+                // The matrix to Rec.709 and its weights of luminance have four digits.
+                ASSERT_NEAR(2.0 * sky_luminance(radiance) / expected, 1.0, 1e-3);
+            }
+            alpi_sky_destroy(context, sky);
+        }
+    }
+    alp_context_destroy(context);
+}
+
+/// Chromaticity of the zenith at turbidity 2 and a sun at 45°: x = .2412, y = .2503 by hand from
+/// the paper's matrices; a blue sky.
+static void the_zenith_is_blue(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    o.turbidity = 2.0f;
+    alpi_sky *sky = sky_make(context, &o, sun_at(45.0, 0.0));
+    vec3 c = alpi_sky_radiance(sky, (vec3){0.0f, 1.0f, 0.0f});
+    double t = 2.0, s = ALPI_PI / 4.0;
+    double x = t * t * (0.00166 * s * s * s - 0.00375 * s * s + 0.00209 * s) +
+               t * (-0.02903 * s * s * s + 0.06377 * s * s - 0.03202 * s + 0.00394) +
+               (0.11693 * s * s * s - 0.21196 * s * s + 0.06052 * s + 0.25886);
+    double y = t * t * (0.00275 * s * s * s - 0.00610 * s * s + 0.00317 * s) +
+               t * (-0.04214 * s * s * s + 0.08970 * s * s - 0.04153 * s + 0.00516) +
+               (0.15346 * s * s * s - 0.26756 * s * s + 0.06670 * s + 0.26688);
+    // Rec.709 to XYZ (IEC 61966-2-1), the inverse of what made the colour.
+    double r = (double)c.x, g = (double)c.y, b = (double)c.z;
+    double cie_x = 0.4124 * r + 0.3576 * g + 0.1805 * b;
+    double cie_y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    double cie_z = 0.0193 * r + 0.1192 * g + 0.9505 * b;
+    ASSERT_NEAR(cie_x / (cie_x + cie_y + cie_z), x, 5e-4);
+    ASSERT_NEAR(cie_y / (cie_x + cie_y + cie_z), y, 5e-4);
+    assert_true(c.z > 1.5f * c.x);
+    alpi_sky_destroy(context, sky);
+    alp_context_destroy(context);
+}
+
+/// Over all turbidities, suns and directions: finite, and its luminance positive.
+static void there_is_light_everywhere(void **state)
+{
+    (void)state;
+    for (double t = 1.7; t <= 10.0001; t += 0.5 * 0.83) {
+        for (int e = 0; e <= 90; e += 5) {
+            alpi_clear_sky sky;
+            ASSERT_NEAR(alpi_clear_sky_init(&sky, sun_at(e, 1.0), fmin(t, 10.0)), 1.0, 0.0);
+            for (int i = 0; i < 500; i++) {
+                vec3 d = sky_polar(ALPI_PI / 2.0 * (i % 25) / 24.0, 0.31 * i);
+                vec3 radiance = alpi_clear_sky_radiance(&sky, d);
+                assert_true(vec3_is_finite(radiance));
+                assert_true(fminf(fminf(radiance.x, radiance.y), radiance.z) >= 0.0f);
+                double luminance = sky_luminance(radiance);
+                if (!(luminance > 10.0 && luminance < 1e6)) {
+                    fail_msg("turbidity %g, sun at %d°: %g cd/m²", t, e, luminance);
+                }
+            }
+        }
+    }
+}
+
+static void brightest_at_the_sun_and_symmetric_about_it(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    const double sun_phi = 2.0;
+    vec3 sun = sun_at(40.0, sun_phi), brightest = {0};
+    alpi_sky *sky = sky_make(context, &o, sun);
+    double most = 0.0;
+    for (int j = 0; j < 90; j++) {
+        for (int i = 0; i < 180; i++) {
+            double theta = (j + 0.5) * ALPI_PI / 180.0, phi = (i + 0.5) * ALPI_PI / 180.0;
+            vec3 right = sky_polar(theta, sun_phi + phi), left = sky_polar(theta, sun_phi - phi);
+            double a = sky_luminance(alpi_sky_radiance(sky, right));
+            double b = sky_luminance(alpi_sky_radiance(sky, left));
+            ASSERT_NEAR(a / b, 1.0, 1e-5); // rounding of the directions, some near the sun
+            if (a > most) {
+                most = a;
+                brightest = right;
+            }
+        }
+    }
+    assert_true(vec3_dot(brightest, sun) > 0.999f); // within 2.6°
+    double opposite = sky_luminance(alpi_sky_radiance(sky, sky_polar(0.9, sun_phi + ALPI_PI)));
+    double horizon = sky_luminance(alpi_sky_radiance(sky, sky_polar(1.55, sun_phi + ALPI_PI)));
+    double zenith = sky_luminance(alpi_sky_radiance(sky, (vec3){0.0f, 1.0f, 0.0f}));
+    assert_true(most > 4.0 * zenith);
+    // The darkest part is high and opposite to the sun; the horizon is a little brighter than both.
+    assert_true(opposite < zenith && horizon > 1.1 * zenith && horizon < 2.0 * zenith);
+    alpi_sky_destroy(context, sky);
+    alp_context_destroy(context);
+}
+
+/// The ground is the sky's own light on it times 0.2/π; what is drawn follows the table.
+static void ground_and_samples(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    const vec3 up = {0.0f, 1.0f, 0.0f};
+    for (int e = 5; e <= 90; e += 17) {
+        alpi_sky *sky = sky_make(context, &o, sun_at(e, 2.5));
+        vec3 ground = alpi_sky_radiance(sky, sky_polar(2.0, 1.0)), mean = alpi_sky_mean(sky);
+        double sum[3], drawn[3], error[3], above[3];
+        sky_irradiance_sum(sky, up, 512, sum);
+        // A coarser table of midpoints, the cusp at the sun and the horizon's brim in it.
+        ASSERT_NEAR((double)ground.x * ALPI_PI / (0.2 * sum[0]), 1.0, 2e-3);
+        ASSERT_NEAR((double)ground.z * ALPI_PI / (0.2 * sum[2]), 1.0, 2e-3);
+        sky_irradiance_drawn(sky, (vec3){0.6f, 0.0f, 0.8f}, 40000, drawn, error);
+        sky_irradiance_sum(sky, (vec3){0.6f, 0.0f, 0.8f}, 512, above);
+        for (int k = 0; k < 3; k++) {
+            ASSERT_NEAR(drawn[k], above[k], 4.0 * error[k] + 1e-4 * above[k]);
+        }
+        assert_true(mean.x > 0.0f && mean.y > 0.0f && mean.z > 0.0f);
+        sky_check_density(sky, 512);
+        alpi_sky_destroy(context, sky);
+    }
+    alp_context_destroy(context);
+}
+
+static void the_mean_is_the_integral(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    alpi_sky *sky = sky_make(context, &o, sun_at(30.0, -1.0));
+    enum { ROWS = 1024 };
+    double sum = 0.0, step = ALPI_PI / ROWS;
+    for (int j = 0; j < ROWS; j++) {
+        double area = step * (cos(j * step) - cos((j + 1) * step));
+        for (int i = 0; i < 2 * ROWS; i++) {
+            vec3 d = sky_polar((j + 0.5) * step, (i + 0.5) * step);
+            sum += sky_luminance(alpi_sky_radiance(sky, d)) * area;
+        }
+    }
+    double mean = sky_luminance(alpi_sky_mean(sky));
+    ASSERT_NEAR(mean / (sum / (4.0 * ALPI_PI)), 1.0, 2e-3); // a table of 256 × 128
+    alpi_sky_destroy(context, sky);
+    alp_context_destroy(context);
+}
+
+static void twilight_fades(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    const vec3 d = {0.0f, 1.0f, 0.0f};
+    test_log_clear();
+    alpi_sky *sky = sky_make(context, &o, sun_at(0.0, 1.0));
+    assert_false(test_log_has("sun-below-horizon"));
+    double sunset = sky_luminance(alpi_sky_radiance(sky, d));
+    alpi_sky_destroy(context, sky);
+    sky = sky_make(context, &o, sun_at(-6.0, 1.0));
+    assert_true(test_log_has("sun-below-horizon"));
+    ASSERT_NEAR(sky_luminance(alpi_sky_radiance(sky, d)) / sunset, 0.01, 1e-5);
+    alpi_sky_destroy(context, sky);
+    const double night[] = {-18.01, -90.0};
+    for (int i = 0; i < 2; i++) {
+        ASSERT_OK(context, alpi_sky_create(context, &o, sun_at(night[i], 1.0), &sky));
+        assert_null(sky);
+    }
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(luminance_is_the_published_one),
+        cmocka_unit_test(the_zenith_is_blue),
+        cmocka_unit_test(there_is_light_everywhere),
+        cmocka_unit_test(brightest_at_the_sun_and_symmetric_about_it),
+        cmocka_unit_test(ground_and_samples),
+        cmocka_unit_test(the_mean_is_the_integral),
+        cmocka_unit_test(twilight_fades),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
