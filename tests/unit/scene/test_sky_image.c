@@ -193,6 +193,13 @@ static void one_bright_texel(void **state)
         alpi_sky *sky = image_sky(context, image, 0.0f);
         vec3 center = toward(image, x, y);
         double sum = 0.0, squares = 0.0;
+        for (uint32_t k = 0; k < 4; k++) { // black cells stand before and behind the bright ones
+            vec2 corner = {k & 1 ? 0.0f : 0x1.fffffep-1f, k & 2 ? 0.0f : 0x1.fffffep-1f};
+            float density = 0.0f;
+            vec3 d = alpi_sky_sample(sky, corner, &density);
+            assert_true(density > 0.0f);
+            assert_true((double)vec3_length(vec3_sub(d, center)) < 1.5 * ALPI_PI / 128.0);
+        }
         for (uint32_t k = 0; k < 10000; k++) {
             float density = 0.0f;
             vec3 d = alpi_sky_sample(sky, alpi_sample_2d(1, k), &density);
