@@ -62,9 +62,9 @@ double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
     double theta = acos(fmin((double)sun.y, 1.0)), t = turbidity;
     double chi = (4.0 / 9.0 - t / 120.0) * (ALPI_PI - 2.0 * theta);
     // The paper's formula gives kilocandelas per square metre.
-    double zenith[3] = {1000.0 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192),
-                        zenith_chromaticity(ZENITH[0], t, theta),
-                        zenith_chromaticity(ZENITH[1], t, theta)};
+    const double zenith[3] = {1000.0 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192),
+                              zenith_chromaticity(ZENITH[0], t, theta),
+                              zenith_chromaticity(ZENITH[1], t, theta)};
     sky->sun = sun;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 5; k++) {
