@@ -82,6 +82,59 @@ static bool run_scene(const map_scene *s, const bench_options *options, bench_ta
     return good;
 }
 
+// --- cost by size --------------------------------------------------------------------------------
+
+static bool measure_size(const bench_scene *scene, uint32_t size, const bench_options *options,
+                         bench_table *table)
+{
+    enum { ROUNDS = 3 };
+    double seconds[ROUNDS];
+    bench_map map;
+    bench_result r;
+    const int rounds = options->quick ? 1 : ROUNDS;
+    alp_occlusion_options o = alp_occlusion_options_default();
+    o.samples = options->quick ? 16 : 256;
+    if (!bench_map_open(scene, size, &map)) {
+        return false;
+    }
+    bool good = true;
+    for (int i = 0; i < rounds && good; i++) {
+        good = bench_bake(scene, &map, &o, ALP_ADAPTIVE_OFF, NULL, &r);
+        seconds[i] = r.seconds;
+    }
+    if (good) {
+        const double median = bench_median(seconds, rounds);
+        bench_table_add(table, "%s|%u|%u|%.3f|%.3f|%.3f", scene->name, size, map.texels.count,
+                        map.atlas_seconds + map.texel_seconds, map.validity_seconds + median,
+                        1e6 * (map.validity_seconds + median) / map.texels.count);
+    }
+    bench_map_close(scene, &map);
+    return good;
+}
+
+/// Every texel traced, so that what is seen is the cost of a texel.
+static bool run_sizes(const bench_options *options)
+{
+    static const uint32_t sizes[] = {256, 512, 1024, 2048};
+    bench_scene scene;
+    bench_table table;
+    if (!bench_scene_open("builtin:teapot-room", 0, &scene)) {
+        return false;
+    }
+    bench_table_start(&table, "Cost by size, all workers",
+                      "256 rays from every texel. Linear in texels where the last column is even.",
+                      "scene|size|texels|atlas s|rays s|microseconds a texel");
+    bool good = true;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes && good; i++) {
+        good = measure_size(&scene, options->quick ? sizes[i] / 16 : sizes[i], options, &table);
+    }
+    bench_scene_close(&scene);
+    if (good) {
+        bench_table_print(&table, options);
+    }
+    return good;
+}
+
 int bench_maps(const bench_options *options)
 {
     enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -99,6 +152,7 @@ int bench_maps(const bench_options *options)
     }
     if (good) {
         bench_table_print(&table, options);
+        good = options->scene != NULL || run_sizes(options);
     }
     return good ? 0 : 1;
 }
