@@ -56,28 +56,57 @@ static int check_vertex_options(const option_value *values)
     return EXIT_DONE;
 }
 
-/// Options of light need light, which knows no limits yet.
-static int check_light(const option_value *values, bool light)
+typedef struct named_option {
+    option_id id;
+    const char *name;
+} named_option;
+
+/// The first of these options that is given, or NULL.
+static const char *find_given(const option_value *values, const named_option *named, size_t count)
 {
-    static const struct {
-        option_id id;
-        const char *name;
-    } of_light[] = {{OPTION_SAMPLES, "--samples"},  {OPTION_BOUNCES, "--bounces"},
-                    {OPTION_SKY, "--sky"},          {OPTION_SKY_TURN, "--sky-turn"},
-                    {OPTION_SUN, "--sun"},          {OPTION_SKY_STRENGTH, "--sky-strength"},
-                    {OPTION_SUN_SIZE, "--sun-size"}};
-    for (size_t i = 0; i < sizeof of_light / sizeof *of_light && !light; i++) {
-        if (values[of_light[i].id].given) {
-            return usage_error(COMMAND_BAKE, "%s: needs --maps light", of_light[i].name);
+    for (size_t i = 0; i < count; i++) {
+        if (values[named[i].id].given) {
+            return named[i].name;
         }
     }
-    if (light && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
-        return usage_error(COMMAND_BAKE, "--maps light: is baked in one go; leave out --time-limit "
-                                         "and --keep-partial");
+    return NULL;
+}
+
+/// Options of light need light, those of occlusion need occlusion.
+static int check_light(const option_value *values, bool light, bool occlusion)
+{
+    static const named_option of_light[] = {
+        {OPTION_SAMPLES, "--samples"},  {OPTION_BOUNCES, "--bounces"},
+        {OPTION_SKY, "--sky"},          {OPTION_SKY_TURN, "--sky-turn"},
+        {OPTION_SUN, "--sun"},          {OPTION_SKY_STRENGTH, "--sky-strength"},
+        {OPTION_SUN_SIZE, "--sun-size"}};
+    static const named_option of_occlusion[] = {{OPTION_AO_SAMPLES, "--ao-samples"},
+                                                {OPTION_AO_DISTANCE, "--ao-distance"},
+                                                {OPTION_AO_FALLOFF, "--ao-falloff"},
+                                                {OPTION_AO_CONE, "--ao-cone"},
+                                                {OPTION_AO_DISTRIBUTION, "--ao-distribution"},
+                                                {OPTION_QUALITY, "--quality"},
+                                                {OPTION_ERROR, "--error"},
+                                                {OPTION_ADAPTIVE, "--adaptive"},
+                                                {OPTION_AO_INTO, "--ao-into"}};
+    static const named_option not_of_light[] = {{OPTION_TIME_LIMIT, "--time-limit"},
+                                                {OPTION_KEEP_PARTIAL, "--keep-partial"},
+                                                {OPTION_AO_SELF, "--ao-self"},
+                                                {OPTION_OCCLUDERS, "--occluders"}};
+    const char *name = find_given(values, of_light, sizeof of_light / sizeof *of_light);
+    if (name != NULL && !light) {
+        return usage_error(COMMAND_BAKE, "%s: needs --maps light", name);
     }
-    if (light && values[OPTION_AO_SELF].given) {
-        return usage_error(COMMAND_BAKE, "--maps light: falls on the whole scene; leave out "
-                                         "--ao-self");
+    name = find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
+    if (name != NULL && !occlusion) {
+        return usage_error(COMMAND_BAKE, "%s: is of occlusion; light has --samples", name);
+    }
+    name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
+    if (name != NULL && light) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps light: falls on the whole scene and is baked in one go; leave "
+                           "out %s",
+                           name);
     }
     return EXIT_DONE;
 }
@@ -113,7 +142,7 @@ static int read_maps(const option_value *values, alp_bake_options *o)
                            "--ao-bleed: is baked in one go; leave out --time-limit and "
                            "--keep-partial");
     }
-    return check_light(values, light);
+    return check_light(values, light, ao || bent || bleed);
 }
 
 /// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
@@ -273,7 +302,7 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
 
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
 {
-    printf("light      %u paths per texel, ", o->light.samples);
+    printf("light      %u paths per texel, ", r->light_samples);
     if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
         printf("all bounces");
     } else {
@@ -312,7 +341,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
            r->seconds_bake, r->seconds_write);
-    if (r->seconds_bake > 0.0) {
+    if (r->seconds_bake > 0.0 && (r->maps & ALP_MAP_LIGHT) == 0) { // paths are several rays each
         printf("; %.3g Mrays/s", 1e-6 * (double)r->rays / r->seconds_bake);
     }
     putchar('\n');

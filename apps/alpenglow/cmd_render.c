@@ -92,25 +92,32 @@ static int read_camera(const char *text, alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// Light that a method does not look at is refused and never ignored.
-static int check_light(const command_line *a, const alp_render_options *o)
+/// What a method does not look at is refused and never ignored.
+static int check_method(const command_line *a, const alp_render_options *o)
 {
+    enum { REFERENCE = 1 << ALP_RENDER_REFERENCE, HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE };
+    enum { AO = 1 << ALP_RENDER_AO };
     static const struct {
-        option_id id;
         const char *name;
-        bool of_hemisphere;
-    } of_light[] = {{OPTION_BOUNCES, "--bounces", false},
-                    {OPTION_SUN, "--sun", false},
-                    {OPTION_SUN_SIZE, "--sun-size", false},
-                    {OPTION_SKY_TURN, "--sky-turn", false},
-                    {OPTION_SKY, "--sky", true},
-                    {OPTION_SKY_STRENGTH, "--sky-strength", true}};
-    for (size_t i = 0; i < sizeof of_light / sizeof *of_light; i++) {
-        const bool read = o->method == ALP_RENDER_REFERENCE ||
-                          (o->method == ALP_RENDER_HEMISPHERE && of_light[i].of_hemisphere);
-        if (!read && a->values[of_light[i].id].given) {
-            return usage_error(COMMAND_RENDER, "%s: has no meaning with --with %s",
-                               of_light[i].name, a->values[OPTION_WITH].text);
+        option_id id;
+        unsigned methods; // that read it
+    } read_by[] = {{"--bounces", OPTION_BOUNCES, REFERENCE},
+                   {"--sun", OPTION_SUN, REFERENCE},
+                   {"--sun-size", OPTION_SUN_SIZE, REFERENCE},
+                   {"--sky-turn", OPTION_SKY_TURN, REFERENCE},
+                   {"--sky", OPTION_SKY, REFERENCE | HEMISPHERE},
+                   {"--sky-strength", OPTION_SKY_STRENGTH, REFERENCE | HEMISPHERE},
+                   {"--occluders", OPTION_OCCLUDERS, AO},
+                   {"--ao-samples", OPTION_AO_SAMPLES, AO},
+                   {"--ao-distance", OPTION_AO_DISTANCE, AO},
+                   {"--ao-falloff", OPTION_AO_FALLOFF, AO},
+                   {"--ao-cone", OPTION_AO_CONE, AO},
+                   {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
+    for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
+        const bool read = (read_by[i].methods >> o->method & 1u) != 0;
+        if (!read && a->values[read_by[i].id].given) {
+            return usage_error(COMMAND_RENDER, "%s: has no meaning with --with %s", read_by[i].name,
+                               a->values[OPTION_WITH].text);
         }
     }
     return EXIT_DONE;
@@ -155,7 +162,7 @@ static int read_options(const command_line *a, alp_render_options *o)
         code = read_camera(a->values[OPTION_CAMERA].text, o);
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
-    code = code == EXIT_DONE ? check_light(a, o) : code;
+    code = code == EXIT_DONE ? check_method(a, o) : code;
     o->bounces = lighting_bounces(a);
     code = code == EXIT_DONE ? lighting_read(a, &o->lighting) : code;
     return code == EXIT_DONE ? check_hemisphere(o) : code;

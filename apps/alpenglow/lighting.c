@@ -78,6 +78,9 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
     }
     if (strcmp(value->text, "clear") == 0) {
         sky->kind = ALP_SKY_CLEAR;
+        if (!a->values[OPTION_SUN].given) {
+            return usage_error(a->command, "--sky clear: stands about a sun; give --sun AZ,EL,LUX");
+        }
     } else if (names_picture(value->text)) {
         sky->kind = ALP_SKY_IMAGE;
     } else if (!read_colors(value->text, sky)) {
@@ -85,6 +88,9 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
                            "--sky: '%s' is no sky; give a .hdr or .exr file, R,G,B, R,G,B/R,G,B "
                            "(above and below the horizon), numbers 0 or more, or clear",
                            value->text);
+    }
+    if (sky->kind != ALP_SKY_IMAGE && a->values[OPTION_SKY_TURN].given) {
+        return usage_error(a->command, "--sky-turn: turns the picture of a sky, and there is none");
     }
     return EXIT_DONE;
 }

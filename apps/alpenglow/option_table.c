@@ -362,7 +362,7 @@ static const option options[] = {
      .value = "FILE|R,G,B|R,G,B/R,G,B|clear",
      .help = "Light from outside: an equirectangular .hdr or .exr, a radiance from everywhere, one "
              "above and one below the horizon (W/(sr m2), linear), or a clear sky about the --sun, "
-             "which then is wanted. Without it the sky is black."},
+             "which it needs. Without it the sky is black."},
     {.id = OPTION_SKY_TURN,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,
@@ -373,7 +373,7 @@ static const option options[] = {
      .maximum = 360,
      .unit = "degrees",
      .initial = "0",
-     .help = "Turn the sky counter-clockwise, seen from above."},
+     .help = "Turn the picture of the sky counter-clockwise, seen from above."},
     {.id = OPTION_SKY_STRENGTH,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,

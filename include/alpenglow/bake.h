@@ -140,9 +140,10 @@ typedef struct alp_bake_report {
     /// over the mean value, of all texels that were sampled, each counting alike; NaN when no round
     /// of rays came to its end.
     double ao_relative_error, ao_p99_error;
-    bool cut_off;      ///< by the time limit or by cancelling: another run gives other bits
-    double ao_mean;    ///< area-weighted mean accessibility
-    double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
+    bool cut_off;           ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean;         ///< area-weighted mean accessibility
+    uint32_t light_samples; ///< paths of a texel
+    double light_mean;      ///< mean irradiance over texels and channels, W·m⁻²
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_mean; NaN if dark.
     double light_relative_error, light_p99_error;

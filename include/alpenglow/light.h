@@ -42,7 +42,7 @@ typedef struct alp_sun_options {
     float elevation;   ///< radians above the horizon, [−π/2, π/2]
     float illuminance; ///< E⊥ on a surface that faces it, lux per channel; 0 (default) = no sun
     float color[3];    ///< factor per channel, ≥ 0; default 1
-    float size;        ///< radians, full angle, [0, π/2]; default 0.0093 (0.53°); 0 = a point
+    float size; ///< radians, full angle, [0, π/2]; default 0.0093 (0.53°); below 2e-4 = a point
 } alp_sun_options;
 
 typedef struct alp_lighting_options {

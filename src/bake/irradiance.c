@@ -14,15 +14,6 @@ bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
     return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
 }
 
-static void warn_of_no_light(const alpi_bake_job *job, const alpi_lighting *lighting)
-{
-    if (alpi_lighting_is_dark(lighting)) {
-        alpi_warn(job->context, "no-light", job->scene->name,
-                  "nothing gives light: no light, no emissive material and no sky; give one "
-                  "(--sky, --sun)");
-    }
-}
-
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
 /// @param errors [texels] scratch: of each texel, root mean square over its channels
 static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
@@ -77,7 +68,8 @@ static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
     }
     if (result == ALP_OK) {
         result = take_values(job, order, count, values, errors);
-        job->report.rays += (uint64_t)count * o->light.samples;
+        job->report.light_samples = alpi_reference_samples(&reference);
+        job->report.rays += (uint64_t)count * job->report.light_samples;
     }
     alpi_release(job->context, values);
     alpi_release(job->context, errors);
@@ -93,7 +85,7 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     }
     alpi_lighting *lighting = NULL;
     ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
-    warn_of_no_light(job, lighting);
+    alpi_lighting_warn(job->scene, lighting);
     const alp_result result = gather(job, lighting, tracer, receivers, order, count, progress);
     alpi_lighting_destroy(job->context, lighting);
     return result;

@@ -32,7 +32,8 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *o
     const uint64_t kept = (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels;
     uint64_t of_texel = RAY_BYTES_PER_TEXEL;
     of_texel += (options->maps & ALP_MAP_LIGHT) != 0 ? LIGHT_BYTES_PER_TEXEL : 0u;
-    of_texel += sides > 0 ? RAY_BYTES_OF_VECTORS : 0u;
+    const bool vectors = (options->maps & (ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
+    of_texel += vectors ? RAY_BYTES_OF_VECTORS : 0u;
     of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
     const uint64_t rays = of_texel * atlas->texels + BYTES_OF_PROBES +
                           (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;

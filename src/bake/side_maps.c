@@ -32,6 +32,10 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
                          "bake: %s is gathered in one go: no time limit, no partial result",
                          (o->maps & ALP_MAP_LIGHT) != 0 ? "light" : "coloured obscurance");
     }
+    if ((o->maps & ALP_MAP_LIGHT) != 0 && o->occluders != NULL) {
+        return alpi_fail(job->context, code,
+                         "bake: light falls on all surfaces: no occluders are chosen for it");
+    }
     if ((o->maps & ALP_MAP_LIGHT) != 0 && o->ao_self) {
         return alpi_fail(job->context, code,
                          "bake: light falls on the whole scene, not on each object alone");

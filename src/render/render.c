@@ -96,14 +96,20 @@ static void shade_by_hemisphere(const render_job *job, const alpi_hits *hits, in
                                 vec3 direction, float rgb[3])
 {
     const alp_sky_options *sky = &job->options.lighting.sky;
-    const alpi_receiver_point p = alpi_hit_point(job->scene, hits, lane, direction, NULL);
+    const float *down = sky->kind == ALP_SKY_CONSTANT ? sky->up : sky->down;
+    bool behind = false;
+    const alpi_receiver_point p = alpi_hit_point(job->scene, hits, lane, direction, &behind);
+    if (behind && !alpi_surface_is_double_sided(job->scene, hits->triangle[lane])) {
+        rgb[0] = rgb[1] = rgb[2] = 0.0f; // as the reference has it
+        return;
+    }
     const vec3 albedo =
         alpi_surface_albedo(job->scene, hits->triangle[lane], hits->b1[lane], hits->b2[lane]);
     const float above = 0.5f * sky->strength * (1.0f + p.shading_normal.y);
     const float below = 0.5f * sky->strength * (1.0f - p.shading_normal.y);
     vec3_store(rgb, albedo);
     for (int k = 0; k < 3; k++) {
-        rgb[k] *= above * sky->up[k] + below * sky->down[k];
+        rgb[k] *= above * sky->up[k] + below * down[k];
     }
 }
 
@@ -179,7 +185,8 @@ static void reference_ray(const void *user, uint64_t pixel, vec2 u, vec3 *origin
     const render_job *job = user;
     const uint32_t width = job->options.width;
     *origin = job->origin;
-    *direction = camera_direction(job, (float)(pixel % width) + u.x, (float)(pixel / width) + u.y);
+    const uint64_t row = pixel / width, column = pixel - row * width;
+    *direction = camera_direction(job, (float)column + u.x, (float)row + u.y);
 }
 
 /// Radiance over the whole pixel, the sky included; alpha: what shows something.
@@ -283,6 +290,7 @@ static alp_result prepare_reference(render_job *job, alp_image_info info)
         return ALP_OK;
     }
     ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
+    alpi_lighting_warn(job->scene, job->lighting);
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
     job->reference = (alpi_reference){.context = job->scene->context,
                                       .scene = job->scene,

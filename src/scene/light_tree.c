@@ -100,7 +100,7 @@ static double cost(const alpi_light_bound *b)
     if (!(b->power > 0.0)) {
         return 0.0;
     }
-    double cone = b->cone, edge = fmin(cone + (double)b->reach, ALPI_PI);
+    double cone = (double)b->cone, edge = fmin(cone + (double)b->reach, ALPI_PI);
     double angle =
         2.0 * ALPI_PI * (1.0 - cos(cone)) +
         ALPI_PI / 2.0 *

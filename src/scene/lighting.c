@@ -176,6 +176,15 @@ void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting)
 
 // --- questions -----------------------------------------------------------------------------------
 
+void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting)
+{
+    if (alpi_lighting_is_dark(lighting)) {
+        alpi_warn(scene->context, "no-light", scene->name,
+                  "nothing gives light: no light, no emissive material and no sky; give one "
+                  "(--sky, --sun)");
+    }
+}
+
 bool alpi_lighting_is_dark(const alpi_lighting *lighting)
 {
     const alpi_punctual *p = &lighting->punctual;

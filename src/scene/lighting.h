@@ -27,6 +27,9 @@ void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting); // NU
 /// Whether there is no light at all.
 bool alpi_lighting_is_dark(const alpi_lighting *lighting);
 
+/// Warns ("no-light") where there is none.
+void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting);
+
 /// A way from a point to light.
 typedef struct alpi_light_sample {
     alpi_light_class kind;

@@ -53,7 +53,7 @@ alp_result alpi_lighting_options_check(alp_context *context, const alp_lighting_
 
 vec3 alpi_sun_direction(const alp_sun_options *sun)
 {
-    double azimuth = sun->azimuth, elevation = sun->elevation;
+    double azimuth = (double)sun->azimuth, elevation = (double)sun->elevation;
     return (vec3){(float)(sin(azimuth) * cos(elevation)), (float)sin(elevation),
                   (float)(cos(azimuth) * cos(elevation))};
 }

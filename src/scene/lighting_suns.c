@@ -29,7 +29,7 @@ vec3 alpi_sun_sample(const alpi_sun *sun, vec2 u)
 {
     vec3 t, b;
     vec2 d = alpi_warp_disk(u);
-    double x = d.x, y = d.y, r2 = x * x + y * y;
+    double x = (double)d.x, y = (double)d.y, r2 = x * x + y * y;
     double aside = sqrt(sun->rise * (2.0 - sun->rise * r2)); // as alpi_warp_uniform_cone
     vec3_frame(double3_to_vec3(sun->toward), &t, &b);
     double3 direction = double3_scale(sun->toward, 1.0 - sun->rise * r2);

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 /// Smaller disks, of full angle, are points: float directions could not tell what is inside.
-#define ALPI_SUN_LEAST_SIZE 2e-5f
+#define ALPI_SUN_LEAST_SIZE 2e-4f
 
 typedef struct alpi_sun {
     uint32_t light;     // index in the lighting's lights

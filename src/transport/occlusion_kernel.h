@@ -13,9 +13,9 @@ typedef struct alpi_occlusion_lanes {
     // Digital shifts of the samples' coordinates. The top bits of the first two are turned over:
     // their fractions, read as signed numbers, lie in [−1, 1).
     uint32_t shift[3][ALPI_PACKET];
-    uint32_t active; // bit i: lane i is in use; the others hold copies of one that is
     // The kernel's: kept here so that what never changes stays.
     alpi_rays rays[ALPI_TRACE_BATCH];
+    uint32_t active;  // bit i: lane i is in use; the others hold copies of one that is
     uint32_t pending; // packets made and not traced yet, of one point or of several
     bool scattered;   // some of them look in different directions
 } alpi_occlusion_lanes;

@@ -31,7 +31,7 @@ typedef struct path {
 /// Eight paths side by side.
 typedef struct path_packet {
     path paths[ALPI_PACKET];
-    uint32_t covered; // bit i: the first ray of path i, if from the eye, met a surface
+    uint32_t covered; // bit i: the first ray of path i, if from the eye, met something
 } path_packet;
 
 static vec2 draw(const path *p, int use)
@@ -216,7 +216,10 @@ static void trace_packet(const alpi_reference *r, path_packet *packet)
             continue;
         }
         if (hits.triangle[i] == ALPI_NONE) {
-            add_met(r, p, alpi_lighting_escaped(r->lighting, p->direction), ALPI_NONE);
+            const vec3 sky = alpi_lighting_escaped(r->lighting, p->direction);
+            const bool shows = sky.x > 0.0f || sky.y > 0.0f || sky.z > 0.0f; // a sun's disk too
+            packet->covered |= p->depth == CAMERA_DEPTH && shows ? 1u << i : 0u;
+            add_met(r, p, sky, ALPI_NONE);
             p->alive = false;
         } else {
             packet->covered |= p->depth == CAMERA_DEPTH ? 1u << i : 0u;
@@ -258,6 +261,11 @@ static uint32_t samples_each(const alpi_reference *r)
 {
     const uint32_t n = r->samples / ALPI_REFERENCE_REPLICATES;
     return n + (n * ALPI_REFERENCE_REPLICATES < r->samples || n == 0 ? 1 : 0);
+}
+
+uint32_t alpi_reference_samples(const alpi_reference *reference)
+{
+    return samples_each(reference) * ALPI_REFERENCE_REPLICATES;
 }
 
 /// A fresh path of sample `index` of all: the replicates take turns.
@@ -359,7 +367,7 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
         .reference = reference, .receivers = receivers, .list = list, .values = values};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    const uint32_t samples = samples_each(reference) * ALPI_REFERENCE_REPLICATES;
+    const uint32_t samples = alpi_reference_samples(reference);
     const uint32_t grain = samples < 512 ? 512 / samples : 1; // a few milliseconds
     told.units_per_item = (double)samples;
     return alpi_parallel_for(reference->context, count, grain, gather_range, &job, &told);

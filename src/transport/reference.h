@@ -34,6 +34,9 @@ typedef struct alpi_reference {
     uint64_t seed;
 } alpi_reference;
 
+/// Paths that are sent for `samples`: rounded up to a multiple of the replicates.
+uint32_t alpi_reference_samples(const alpi_reference *reference);
+
 /// A mean over paths with its variance (of the mean: its root is the standard error).
 typedef struct alpi_reference_value {
     float mean[3], variance[3];
@@ -52,7 +55,7 @@ typedef void alpi_camera_ray_fn(const void *user, uint64_t pixel, vec2 u, vec3 *
                                 vec3 *direction);
 
 /// Radiance L [W·sr⁻¹·m⁻²] that reaches a pixel. Called for one pixel at a time, by any thread.
-/// @param covered out: share of the paths that met a surface
+/// @param covered out: share of the paths that met a surface, or light behind all of them
 void alpi_reference_pixel(const alpi_reference *reference, alpi_camera_ray_fn *camera,
                           const void *camera_user, uint64_t pixel, alpi_reference_value *value,
                           float *covered);
