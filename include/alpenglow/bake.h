@@ -127,7 +127,6 @@ ALP_API alp_bake_options alp_bake_options_default(void);
 
 /// What was done.
 typedef struct alp_bake_report {
-    unsigned maps; ///< that were made: bits of alp_map
     alp_scene_info scene;
     alp_atlas_info atlas;
     uint32_t vertices;   ///< ALP_ATLAS_VERTEX: of different position or normal; else 0
@@ -140,15 +139,16 @@ typedef struct alp_bake_report {
     /// over the mean value, of all texels that were sampled, each counting alike; NaN when no round
     /// of rays came to its end.
     double ao_relative_error, ao_p99_error;
-    bool cut_off;           ///< by the time limit or by cancelling: another run gives other bits
-    double ao_mean;         ///< area-weighted mean accessibility
-    uint32_t light_samples; ///< paths of a texel
-    double light_mean;      ///< mean irradiance over texels and channels, W·m⁻²
+    bool cut_off;      ///< by the time limit or by cancelling: another run gives other bits
+    double ao_mean;    ///< area-weighted mean accessibility
+    double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_mean; NaN if dark.
     double light_relative_error, light_p99_error;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     uint64_t rays;           ///< of occlusion; of light the paths, which are several rays each
+    uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT
+    unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
     uint64_t seed;
