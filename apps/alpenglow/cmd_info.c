@@ -50,6 +50,43 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
     }
 }
 
+static bool is_emissive(const alp_surface_info *s)
+{
+    return s->emission[0] > 0.0f || s->emission[1] > 0.0f || s->emission[2] > 0.0f;
+}
+
+static const char *const light_kinds[] = {"point", "spot", "directional"};
+
+static const char *light_unit(const alp_light_info *l)
+{
+    return l->kind == ALP_LIGHT_DIRECTIONAL ? "lux" : "candela";
+}
+
+/// What gives light, with units.
+static void print_lights(const alp_scene *scene, const alp_scene_info *info)
+{
+    uint32_t emissive = 0;
+    for (uint32_t i = 0; i < info->surfaces; i++) {
+        const alp_surface_info s = alp_scene_get_surface(scene, i);
+        if (is_emissive(&s)) {
+            printf("%slight      ", emissive++ == 0 ? "\n" : "");
+            print_clean(stdout, s.name);
+            printf(", emissive: %g %g %g W/(sr m2)\n", (double)s.emission[0], (double)s.emission[1],
+                   (double)s.emission[2]);
+        }
+    }
+    for (uint32_t i = 0; i < info->lights; i++) {
+        const alp_light_info l = alp_scene_get_light(scene, i);
+        printf("%slight      ", i + emissive == 0 ? "\n" : "");
+        print_clean(stdout, l.name[0] != '\0' ? l.name : "(no name)");
+        printf(", %s: %g %s, colour %g %g %g\n", light_kinds[l.kind], (double)l.intensity,
+               light_unit(&l), (double)l.color[0], (double)l.color[1], (double)l.color[2]);
+    }
+    if (info->lights + emissive == 0) {
+        printf("\nlight      none; --maps light needs a --sky or a --sun\n");
+    }
+}
+
 static json_t *make_vector(const float v[3])
 {
     return json_pack("[o, o, o]", json_number((double)v[0]), json_number((double)v[1]),
@@ -72,12 +109,28 @@ static json_t *make_surfaces(const alp_scene *scene, uint32_t count)
     json_t *list = json_array();
     for (uint32_t i = 0; i < count; i++) {
         alp_surface_info s = alp_scene_get_surface(scene, i);
-        json_array_append_new(list, json_pack("{s:o, s:o, s:I, s:I, s:b, s:b, s:b}", "name",
-                                              json_text(s.name), "material", json_text(s.material),
-                                              "triangles", (json_int_t)s.triangle_count, "uv_sets",
-                                              (json_int_t)s.uv_sets, "double_sided", s.double_sided,
-                                              "mirrored", s.mirrored, "normals_generated",
-                                              s.normals_generated));
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:I, s:I, s:b, s:b, s:b, s:o}", "name",
+                                        json_text(s.name), "material", json_text(s.material),
+                                        "triangles", (json_int_t)s.triangle_count, "uv_sets",
+                                        (json_int_t)s.uv_sets, "double_sided", s.double_sided,
+                                        "mirrored", s.mirrored, "normals_generated",
+                                        s.normals_generated, "emission", make_vector(s.emission)));
+    }
+    return list;
+}
+
+static json_t *make_lights(const alp_scene *scene, uint32_t count)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < count; i++) {
+        const alp_light_info l = alp_scene_get_light(scene, i);
+        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s, s:o, s:o, s:o}", "name",
+                                              json_text(l.name), "kind", light_kinds[l.kind],
+                                              "intensity", json_number((double)l.intensity), "unit",
+                                              light_unit(&l), "color", make_vector(l.color),
+                                              "position", make_vector(l.position), "direction",
+                                              make_vector(l.direction)));
     }
     return list;
 }
@@ -98,8 +151,9 @@ static json_t *make_cameras(const alp_scene *scene, uint32_t count)
 static int print_json(const session *s, const alp_scene_info *info)
 {
     json_t *document =
-        json_pack("{s:s, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene", make_scene(info),
-                  "surfaces", make_surfaces(s->scene, info->surfaces), "cameras",
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
+                  make_scene(info), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
+                  make_lights(s->scene, info->lights), "cameras",
                   make_cameras(s->scene, info->cameras), "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
@@ -124,6 +178,7 @@ int command_info(const command_line *a)
         } else {
             print_scene(a->operands[0], &info);
             print_surfaces(s.scene, info.surfaces);
+            print_lights(s.scene, &info);
         }
     }
     session_close(&s);

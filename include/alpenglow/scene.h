@@ -65,9 +65,29 @@ typedef struct alp_surface_info {
     uint32_t first_triangle, triangle_count;
     uint32_t uv_sets; ///< how many texture coordinate sets it has
     bool double_sided, mirrored, normals_generated;
+    float emission[3]; ///< radiance of its material, W·sr⁻¹·m⁻², before its texture
 } alp_surface_info;
 /// @param index < surfaces, else a zeroed struct with empty names
 ALP_API alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index);
+
+typedef enum alp_light_kind {
+    ALP_LIGHT_POINT = 0,      ///< intensity in candela
+    ALP_LIGHT_SPOT = 1,       ///< intensity in candela
+    ALP_LIGHT_DIRECTIONAL = 2 ///< intensity in lux
+} alp_light_kind;
+
+/// A punctual light of the file.
+typedef struct alp_light_info {
+    const char *name; ///< owned by the scene
+    alp_light_kind kind;
+    float intensity;                 ///< candela or lux by kind, per channel times `color`
+    float color[3];                  ///< linear
+    float position[3], direction[3]; ///< metres; unit, where the light travels
+    float range;                     ///< metres, INFINITY = none
+    float inner_cone, outer_cone;    ///< of a spot: radians from its axis
+} alp_light_info;
+/// @param index < lights, else a zeroed struct with an empty name
+ALP_API alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index);
 
 /// A pinhole camera.
 typedef struct alp_camera {

@@ -306,7 +306,28 @@ alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
                               .uv_sets = s->uv_sets,
                               .double_sided = m != NULL && m->double_sided,
                               .mirrored = s->mirrored,
-                              .normals_generated = s->normals_generated};
+                              .normals_generated = s->normals_generated,
+                              .emission = {m ? m->emission[0] : 0.0f, m ? m->emission[1] : 0.0f,
+                                           m ? m->emission[2] : 0.0f}};
+}
+
+alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
+{
+    alp_light_info info = {.name = ""};
+    if (scene == NULL || index >= scene->light_count) {
+        return info;
+    }
+    const alpi_light *l = &scene->lights[index];
+    info = (alp_light_info){.name = l->name,
+                            .kind = (alp_light_kind)l->kind,
+                            .intensity = l->intensity,
+                            .range = l->range,
+                            .inner_cone = l->inner_cone,
+                            .outer_cone = l->outer_cone};
+    vec3_store(info.color, l->color);
+    vec3_store(info.position, l->position);
+    vec3_store(info.direction, l->direction);
+    return info;
 }
 
 /// Distance from the centre of a box, along `view`, at which a square picture of half-width

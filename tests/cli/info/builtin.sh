@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: MIT
 alpenglow info builtin:sphere-plane
+alpenglow info builtin:cornell | tail -1

@@ -349,6 +349,14 @@ static void lights(void **state)
     assert_int_equal(scene->light_count, 5);
     const alpi_light *light = scene->lights;
     assert_int_equal(light[0].kind, ALPI_LIGHT_POINT);
+    for (uint32_t i = 0; i < 5; i++) { // the public view
+        const alp_light_info told = alp_scene_get_light(scene, i);
+        assert_int_equal(told.kind, light[i].kind);
+        assert_string_equal(told.name, light[i].name);
+        assert_true(told.intensity == light[i].intensity &&
+                    told.position[0] == light[i].position.x);
+    }
+    assert_string_equal(alp_scene_get_light(scene, 5).name, "");
     assert_string_equal(light[0].name, "p");
     assert_vec3(light[0].position, 3, 5, 0);
     ASSERT_NEAR(light[0].intensity, 40, 0);
