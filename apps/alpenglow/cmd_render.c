@@ -33,24 +33,10 @@ static int read_resolution(const char *text, alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// Reads exactly `count` numbers with commas between.
 static bool read_numbers(const char *text, double *numbers, int count)
 {
-    for (int i = 0; i < count; i++) {
-        char word[64];
-        size_t length = strcspn(text, ",");
-        bool last = text[length] == '\0';
-        if (length >= sizeof word || last != (i == count - 1)) {
-            return false;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
-            return false;
-        }
-        text += length + !last;
-    }
-    return true;
+    const char *end = number_parse_list(text, numbers, count);
+    return end != NULL && *end == '\0';
 }
 
 static bool place_camera(const double n[CAMERA_NUMBERS], alp_camera *camera)

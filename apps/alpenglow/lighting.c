@@ -7,29 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Exactly `count` numbers with commas between, up to `end`. @return where the last one ends, or
-/// NULL
-static const char *read_list(const char *text, double *numbers, int count)
-{
-    for (int i = 0; i < count; i++) {
-        char word[64];
-        const size_t length = strcspn(text, ",/");
-        if (length == 0 || length >= sizeof word) {
-            return NULL;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
-            return NULL;
-        }
-        text += length;
-        if (i + 1 < count && *text++ != ',') {
-            return NULL;
-        }
-    }
-    return text;
-}
-
 static bool set_color(const double numbers[3], float color[3])
 {
     bool positive = true;
@@ -44,14 +21,14 @@ static bool set_color(const double numbers[3], float color[3])
 static bool read_colors(const char *text, alp_sky_options *sky)
 {
     double up[3], down[3];
-    const char *end = read_list(text, up, 3);
+    const char *end = number_parse_list(text, up, 3);
     if (end == NULL || !set_color(up, sky->up)) {
         return false;
     }
     sky->kind = ALP_SKY_CONSTANT;
     if (*end == '/') {
         sky->kind = ALP_SKY_HEMISPHERE;
-        end = read_list(end + 1, down, 3);
+        end = number_parse_list(end + 1, down, 3);
         if (end == NULL || !set_color(down, sky->down)) {
             return false;
         }
@@ -103,7 +80,7 @@ static int read_sun(const command_line *a, alp_sun_options *sun)
     if (!value->given) {
         return EXIT_DONE;
     }
-    const char *end = read_list(value->text, numbers, 3);
+    const char *end = number_parse_list(value->text, numbers, 3);
     if (end == NULL || *end != '\0' || fabs(numbers[0]) > 360.0 || fabs(numbers[1]) > 90.0 ||
         numbers[2] < 0.0) {
         return usage_error(a->command,

@@ -75,6 +75,27 @@ number_result number_parse_real(const char *text, double *number)
     return isfinite(*number) ? NUMBER_OK : NUMBER_TOO_LARGE;
 }
 
+const char *number_parse_list(const char *text, double *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char word[64];
+        const size_t length = strcspn(text, ",/");
+        if (length == 0 || length >= sizeof word) {
+            return NULL;
+        }
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
+            return NULL;
+        }
+        text += length;
+        if (i + 1 < count && *text++ != ',') {
+            return NULL;
+        }
+    }
+    return text;
+}
+
 void option_range(const option *o, char *text, size_t size)
 {
     // %.16g shows whole numbers as they are, and 1e-06 short.

@@ -188,6 +188,9 @@ typedef enum number_result { NUMBER_OK, NUMBER_NONE, NUMBER_TOO_LARGE } number_r
 number_result number_parse_whole(const char *text, uint64_t *number);
 number_result number_parse_size(const char *text, uint64_t *number);
 number_result number_parse_real(const char *text, double *number);
+/// Exactly `count` numbers of at most 1e9 with commas between; a slash ends a list too.
+/// @return where the last one ends, or NULL
+const char *number_parse_list(const char *text, double *numbers, int count);
 
 /// Prints "alpenglow COMMAND: message" and where help is, to stderr. @return EXIT_USAGE
 int usage_error(command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -166,18 +166,6 @@ static alp_result find_near(validity_job *job, const alpi_task_progress *progres
 
 // --- rays ----------------------------------------------------------------------------------------
 
-static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, float reach)
-{
-    rays->origin_x[lane] = origin.x;
-    rays->origin_y[lane] = origin.y;
-    rays->origin_z[lane] = origin.z;
-    rays->direction_x[lane] = direction.x;
-    rays->direction_y[lane] = direction.y;
-    rays->direction_z[lane] = direction.z;
-    rays->minimum[lane] = 0.0f;
-    rays->maximum[lane] = reach;
-}
-
 /// Where rays that look around start: higher than rays usually do, as a tangent one must not graze
 /// its own, slightly bent surface.
 static vec3 lift_point(const alpi_receiver_point *p, float side)
@@ -193,18 +181,16 @@ static void look_around(const validity_job *job, const alpi_receiver_point *p, f
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
     const vec3 origin = lift_point(p, length);
+    alpi_rays_clear(rays);
     for (int i = 0; i < 4; i++) {
         const vec3 axes[4] = {t, b, vec3_scale(t, -1.0f), vec3_scale(b, -1.0f)};
         const vec3 axis = axes[i], other = axes[(i + 1) % 4];
         const vec3 diagonal = vec3_add(axis, other);
         const vec3 between = all_tangent ? diagonal : vec3_add(diagonal, n);
-        set_ray(rays, i, origin, axis, length);
-        set_ray(rays, i + 4, origin, vec3_normalize_or(between, n),
-                all_tangent ? length : INFINITY);
+        alpi_rays_set(rays, i, origin, axis, length);
+        alpi_rays_set(rays, i + 4, origin, vec3_normalize_or(between, n),
+                      all_tangent ? length : INFINITY);
     }
-    memset(rays->time, 0, sizeof rays->time);
-    memset(rays->id, 0, sizeof rays->id);
-    memset(rays->flags, 0, sizeof rays->flags);
     alpi_trace_nearest(job->setup->tracer, rays, 0xffu, (alpi_trace_filter){0}, hits);
 }
 
@@ -246,17 +232,17 @@ static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKE
 {
     alpi_rays rays;
     uint32_t active = 0, blocked = 0;
-    memset(&rays, 0, sizeof rays);
+    alpi_rays_clear(&rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const vec3 way = vec3_sub(to[i], from[i]);
         const float length = vec3_length(way);
-        set_ray(&rays, i, from[i], vec3_scale(way, length > 0.0f ? 1.0f / length : 0.0f), length);
+        alpi_rays_set(&rays, i, from[i], vec3_scale(way, length > 0.0f ? 1.0f / length : 0.0f),
+                      length);
         active |= (length > least[i] ? 1u : 0u) << i;
     }
     if (active == 0) {
         return 0;
     }
-    memset(rays.mask, 0xff, sizeof rays.mask);
     alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0}, false);
     for (int i = 0; i < ALPI_PACKET; i++) {
         blocked |= ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f ? 1u : 0u) << i;

@@ -221,6 +221,7 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
     alpi_rays rays;
     alpi_hits hits;
     vec3 directions[ALPI_PACKET];
+    alpi_rays_clear(&rays);
     for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
         uint32_t rest = job->options.samples - first;
         uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
@@ -228,16 +229,7 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
             vec2 u = alpi_sample_2d(key, first + i);
             vec3 d = camera_direction(job, (float)x + u.x, (float)y + u.y);
             directions[i] = d;
-            rays.origin_x[i] = job->origin.x;
-            rays.origin_y[i] = job->origin.y;
-            rays.origin_z[i] = job->origin.z;
-            rays.direction_x[i] = d.x;
-            rays.direction_y[i] = d.y;
-            rays.direction_z[i] = d.z;
-            rays.minimum[i] = 0.0f;
-            rays.time[i] = 0.0f;
-            rays.maximum[i] = INFINITY;
-            rays.id[i] = rays.flags[i] = 0;
+            alpi_rays_set(&rays, (int)i, job->origin, d, INFINITY);
         }
         alpi_trace_nearest(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter, &hits);
         uint32_t hit = 0;

@@ -20,6 +20,29 @@ typedef struct alpi_rays {
     uint32_t id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
 } alpi_rays;
 
+/// Rays of no length in no direction, which the tracer may be given.
+static inline void alpi_rays_clear(alpi_rays *rays)
+{
+    *rays = (alpi_rays){.time = {0.0f}};
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays->mask[i] = UINT32_MAX;
+    }
+}
+
+/// Lane `lane` of a packet that was cleared. @param reach metres, the direction being unit
+static inline void alpi_rays_set(alpi_rays *rays, int lane, vec3 origin, vec3 direction,
+                                 float reach)
+{
+    rays->origin_x[lane] = origin.x;
+    rays->origin_y[lane] = origin.y;
+    rays->origin_z[lane] = origin.z;
+    rays->direction_x[lane] = direction.x;
+    rays->direction_y[lane] = direction.y;
+    rays->direction_z[lane] = direction.z;
+    rays->minimum[lane] = 0.0f;
+    rays->maximum[lane] = reach;
+}
+
 typedef struct alpi_hits {
     _Alignas(32) float distance[ALPI_PACKET]; // INFINITY where nothing was hit
     uint32_t triangle[ALPI_PACKET];           // ALPI_NONE where nothing was hit

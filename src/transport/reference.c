@@ -6,7 +6,6 @@
 #include "transport/hit.h"
 
 #include <math.h>
-#include <string.h>
 
 // Uses of random numbers at one vertex of a path.
 enum { USE_PLACE = 0, USE_PICK = 1, USE_LIGHT = 2, USE_RAY = 3, USE_ROULETTE = 4, USE_COUNT = 5 };
@@ -42,23 +41,6 @@ static vec2 draw(const path *p, int use)
 
 // --- rays ----------------------------------------------------------------------------------------
 
-static void clear_rays(alpi_rays *rays)
-{
-    memset(rays, 0, sizeof *rays);
-    memset(rays->mask, 0xff, sizeof rays->mask);
-}
-
-static void set_ray(alpi_rays *rays, int lane, vec3 origin, vec3 direction, float reach)
-{
-    rays->origin_x[lane] = origin.x;
-    rays->origin_y[lane] = origin.y;
-    rays->origin_z[lane] = origin.z;
-    rays->direction_x[lane] = direction.x;
-    rays->direction_y[lane] = direction.y;
-    rays->direction_z[lane] = direction.z;
-    rays->maximum[lane] = reach;
-}
-
 static vec3 ray_start(const alpi_receiver_point *p)
 {
     return vec3_mad(p->position, p->offset, p->geometric_normal);
@@ -88,7 +70,7 @@ static void add_next_event(const alpi_reference *r, path_packet *packet)
     alpi_rays rays;
     float given[ALPI_PACKET][3];
     uint32_t active = 0;
-    clear_rays(&rays);
+    alpi_rays_clear(&rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
         path *p = &packet->paths[i];
         alpi_light_sample s;
@@ -102,7 +84,7 @@ static void add_next_event(const alpi_reference *r, path_packet *packet)
         // Short of the emitter, which would stop the ray itself.
         const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * p->at.offset;
         if (reach > 0.0f) {
-            set_ray(&rays, i, origin, s.direction, reach);
+            alpi_rays_set(&rays, i, origin, s.direction, reach);
             active |= 1u << i;
         } else { // nothing fits in between
             for (int k = 0; k < 3; k++) {
@@ -201,11 +183,11 @@ static void trace_packet(const alpi_reference *r, path_packet *packet)
     alpi_rays rays;
     alpi_hits hits;
     uint32_t active = 0;
-    clear_rays(&rays);
+    alpi_rays_clear(&rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const path *p = &packet->paths[i];
         if (p->alive) {
-            set_ray(&rays, i, p->origin, p->direction, INFINITY);
+            alpi_rays_set(&rays, i, p->origin, p->direction, INFINITY);
             active |= 1u << i;
         }
     }
