@@ -248,11 +248,33 @@ static void trace_wave(const alpi_reference *r, alpi_path_wave *w)
     }
 }
 
+/// Asks memory for what all hits will read, in two steps as one points to the other: hits of
+/// neighbouring paths lie anywhere in the scene.
+static void fetch_hits(const alp_scene *scene, const alpi_path_wave *w)
+{
+    for (uint32_t i = 0; i < w->count; i++) {
+        const uint32_t triangle = w->hits[i / ALPI_PACKET].triangle[i % ALPI_PACKET];
+        if (triangle != ALPI_NONE) {
+            __builtin_prefetch(&scene->triangles[triangle]);
+            __builtin_prefetch(&scene->triangle_surface[triangle]);
+        }
+    }
+    for (uint32_t i = 0; i < w->count; i++) {
+        const uint32_t triangle = w->hits[i / ALPI_PACKET].triangle[i % ALPI_PACKET];
+        for (int k = 0; k < 3 && triangle != ALPI_NONE; k++) {
+            const uint32_t vertex = scene->triangles[triangle][k];
+            __builtin_prefetch(&scene->positions[vertex]);
+            __builtin_prefetch(&scene->normals[vertex]);
+        }
+    }
+}
+
 /// Traces the rays of all paths; those that go on are at their next vertices then.
 static void step(const alpi_reference *r, const alpi_wave_loops *loops, float first,
                  alpi_path_wave *w)
 {
     trace_wave(r, w);
+    fetch_hits(r->scene, w);
     loops->draw(w, ALPI_USE_CHOICE, 1);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < w->count; i++) {
