@@ -36,7 +36,7 @@ typedef struct exporter {
     size_t counts[LIST_COUNT];
     alpi_bytes bin;
     size_t *images; // [image_count] in the file, SIZE_MAX = left out
-    bool has_emissive_strength, has_transform;
+    bool has_emissive_strength, has_transmission, has_transform;
 } exporter;
 
 /// Begins an element: a comma where it is not the first.
@@ -139,7 +139,8 @@ static uint32_t needed_uv_sets(const alp_scene *scene, const alpi_surface *surfa
     if (surface->material != ALPI_NONE) {
         const alpi_material *m = &scene->materials[surface->material];
         const alpi_texture textures[] = {m->base_color_texture, m->metallic_texture,
-                                         m->emission_texture, m->occlusion_texture};
+                                         m->emission_texture, m->occlusion_texture,
+                                         m->transmission_texture};
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
             if (textures[i].image != ALPI_NONE && textures[i].uv_set >= sets) {
                 sets = textures[i].uv_set + 1;
@@ -260,7 +261,29 @@ static void add_texture(exporter *e, alpi_bytes *text, const char *name,
     alpi_bytes_print(text, "}");
 }
 
-/// emissiveFactor is at most 1: what is brighter goes into KHR_materials_emissive_strength.
+/// Material extensions: emissiveFactor is at most 1, what is brighter goes into
+/// KHR_materials_emissive_strength.
+static void print_material_extensions(exporter *e, alpi_bytes *text, const alpi_material *m,
+                                      float strength)
+{
+    const bool bright = strength > 1.0f, clear = m->transmission > 0.0f;
+    e->has_emissive_strength |= bright;
+    e->has_transmission |= clear;
+    alpi_bytes_print(text, "%s", bright || clear ? ",\"extensions\":{" : "");
+    if (bright) {
+        alpi_bytes_print(text, "\"KHR_materials_emissive_strength\":{");
+        print_number(text, "emissiveStrength", strength);
+        alpi_bytes_print(text, "}%s", clear ? "," : "");
+    }
+    if (clear) {
+        alpi_bytes_print(text, "\"KHR_materials_transmission\":{");
+        print_number(text, "transmissionFactor", m->transmission);
+        add_texture(e, text, "transmissionTexture", &m->transmission_texture, 1.0f);
+        alpi_bytes_print(text, "}");
+    }
+    alpi_bytes_print(text, "%s", bright || clear ? "}" : "");
+}
+
 static void print_emission(exporter *e, alpi_bytes *text, const alpi_material *m)
 {
     float strength = fmaxf(1.0f, fmaxf(m->emission[0], fmaxf(m->emission[1], m->emission[2])));
@@ -272,12 +295,7 @@ static void print_emission(exporter *e, alpi_bytes *text, const alpi_material *m
         alpi_bytes_print(text, ",");
         print_numbers(text, "emissiveFactor", factor, 3);
     }
-    if (strength > 1.0f) {
-        e->has_emissive_strength = true;
-        alpi_bytes_print(text, ",\"extensions\":{\"KHR_materials_emissive_strength\":{");
-        print_number(text, "emissiveStrength", strength);
-        alpi_bytes_print(text, "}}");
-    }
+    print_material_extensions(e, text, m, strength);
 }
 
 static void add_material(exporter *e, const alpi_material *m)
@@ -393,6 +411,7 @@ static void print_extensions(const exporter *e, alpi_bytes *json)
         bool used;
         const char *name;
     } extensions[] = {{e->has_emissive_strength, "KHR_materials_emissive_strength"},
+                      {e->has_transmission, "KHR_materials_transmission"},
                       {e->has_transform, "KHR_texture_transform"},
                       {e->counts[LIGHTS] > 0, "KHR_lights_punctual"}};
     const char *before = ",\"extensionsUsed\":[";

@@ -27,6 +27,7 @@ static void mark_images(const alpi_gltf_reader *reader, bool *needed)
             mark_image(&material->metallic_texture, needed);
             mark_image(&material->emission_texture, needed);
             mark_image(&material->occlusion_texture, needed);
+            mark_image(&material->transmission_texture, needed);
         }
     }
 }

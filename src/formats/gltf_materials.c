@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials: what a bake of diffuse light needs — base colour, metalness, emission, alpha, existing
-// occlusion. KHR_materials_pbrSpecularGlossiness gives its diffuse colour.
+// Materials: what a bake of diffuse light needs — base colour, metalness, emission, alpha,
+// transmission, existing occlusion. KHR_materials_pbrSpecularGlossiness gives its diffuse colour.
 #include "formats/gltf_read.h"
 
 #include "base/memory.h"
@@ -158,6 +158,16 @@ static alp_result read_occlusion(const source *from, alpi_material *material)
     return read_texture(from, from->object, "occlusionTexture", &material->occlusion_texture);
 }
 
+static alp_result read_transmission(const source *from, alpi_material *material)
+{
+    json_t *extension = alpi_gltf_extension(from->object, "KHR_materials_transmission");
+    double factor = 0.0;
+    ALP_TRY(alpi_gltf_number(from->reader->document, extension, "transmissionFactor", from->owner,
+                             &factor));
+    material->transmission = alpi_gltf_float(factor);
+    return read_texture(from, extension, "transmissionTexture", &material->transmission_texture);
+}
+
 /// Whether a bake made this material for a primitive that had none.
 static bool stands_for_none(const source *from)
 {
@@ -183,6 +193,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     }
     ALP_TRY(read_emission(from, material));
     ALP_TRY(read_alpha(from, material));
+    ALP_TRY(read_transmission(from, material));
     return read_occlusion(from, material);
 }
 

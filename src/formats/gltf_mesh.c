@@ -431,9 +431,10 @@ static void check_texture_sets(const plan *p, const alpi_surface *surface, const
         return;
     }
     const alpi_material *m = &p->reader->scene->materials[surface->material];
-    const alpi_texture *textures[4] = {&m->base_color_texture, &m->metallic_texture,
-                                       &m->emission_texture, &m->occlusion_texture};
-    for (size_t i = 0; i < 4; i++) {
+    const alpi_texture *textures[] = {&m->base_color_texture, &m->metallic_texture,
+                                      &m->emission_texture, &m->occlusion_texture,
+                                      &m->transmission_texture};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
         if (textures[i]->image != ALPI_NONE && from->uvs[textures[i]->uv_set] == ALPI_GLTF_NONE) {
             alpi_warn(p->reader->context, "no-uv", surface->name,
                       "its material \"%s\" reads a texture by TEXCOORD_%u, which it does not have",

@@ -198,6 +198,7 @@ static void clamp_materials(alp_scene *scene)
         alpi_material *m = &scene->materials[i];
         bool changed = clamp_value(&m->metallic, 0.0f, 1.0f);
         changed |= clamp_value(&m->occlusion_strength, 0.0f, 1.0f);
+        changed |= clamp_value(&m->transmission, 0.0f, 1.0f);
         for (int k = 0; k < 4; k++) {
             changed |= clamp_value(&m->base_color[k], 0.0f, 1.0f);
         }

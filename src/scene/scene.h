@@ -40,6 +40,8 @@ typedef struct alpi_material {
     bool double_sided;
     alpi_texture occlusion_texture; // channel R, linear: accessibility
     float occlusion_strength;       // [0, 1]: 1 + strength (R − 1)
+    float transmission; // [0, 1]: share of light that passes through, KHR_materials_transmission
+    alpi_texture transmission_texture; // channel R, linear
 } alpi_material;
 
 typedef struct alpi_surface {
@@ -158,6 +160,9 @@ vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, f
 /// vertex colour alpha.
 float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
+/// Share of light that passes through the material there: transmission × texture. 0 without one.
+float alpi_surface_transmission(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
 /// Whether a ray passes through the triangle there: MASK below its cutoff, BLEND below one half.
 bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 /// Whether the triangle's material is double-sided; false without a material.
@@ -165,6 +170,8 @@ bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle);
 /// Whether any point of the surface can be cut (so that the tracer must ask).
 bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 
+/// Metalness: metallic × texture; 0 without a material.
+float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 /// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a surface is made of at a point: texture coordinates, alpha, albedo, emission.
+// What a surface is made of at a point: texture coordinates, alpha, transmission, albedo, emission.
 #include "scene/lighting.h"
 #include "scene/scene.h"
 
@@ -22,7 +22,8 @@ alpi_material alpi_material_default(void)
                            .emission_texture = alpi_texture_none(),
                            .alpha_cutoff = 0.5f,
                            .occlusion_texture = alpi_texture_none(),
-                           .occlusion_strength = 1.0f};
+                           .occlusion_strength = 1.0f,
+                           .transmission_texture = alpi_texture_none()};
 }
 
 vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)
@@ -95,6 +96,33 @@ float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, fl
     return material->base_color[3] * texel[3] * vertex[3];
 }
 
+/// Channel `channel` of a texture that multiplies a factor.
+static float scale_by_texture(const alp_scene *scene, float factor, const alpi_texture *texture,
+                              int channel, surface_point at)
+{
+    float texel[4];
+    return factor > 0.0f && read_texture(scene, texture, at, false, texel) ? factor * texel[channel]
+                                                                           : factor;
+}
+
+float alpi_surface_transmission(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    return material == NULL
+               ? 0.0f
+               : scale_by_texture(scene, material->transmission, &material->transmission_texture, 0,
+                                  (surface_point){triangle, b1, b2});
+}
+
+float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *material = material_of(scene, triangle);
+    return material == NULL
+               ? 0.0f
+               : scale_by_texture(scene, material->metallic, &material->metallic_texture, 2,
+                                  (surface_point){triangle, b1, b2});
+}
+
 bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2)
 {
     const alpi_material *material = material_of(scene, triangle);
@@ -121,10 +149,7 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
     const surface_point at = {triangle, b1, b2};
     bool textured = read_texture(scene, &material->base_color_texture, at, true, texel);
     read_vertex_color(scene, triangle, b1, b2, vertex);
-    float metallic = material->metallic, metal_texel[4];
-    if (read_texture(scene, &material->metallic_texture, at, false, metal_texel)) {
-        metallic *= metal_texel[2];
-    }
+    const float metallic = alpi_surface_metallic(scene, triangle, b1, b2);
     for (int k = 0; k < 3; k++) {
         float value =
             material->base_color[k] * vertex[k] * (textured ? texel[k] : 1.0f) * (1.0f - metallic);

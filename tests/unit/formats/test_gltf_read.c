@@ -2,6 +2,9 @@
 // What a small glTF asset becomes as a scene, number by number.
 #include "test_gltf.h"
 
+#include "formats/formats.h"
+#include "formats/gltf_read.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -327,6 +330,66 @@ static void materials(void **state)
     alp_context_destroy(context);
 }
 
+#define TRANSMITTING(TEXT)                                                                         \
+    "'images':[{'uri':'absent.png'}],'textures':[{'source':0}],'materials':[{'extensions':"        \
+    "{'KHR_materials_transmission':" TEXT "}},{}],'nodes':[{'mesh':0}],'meshes':[{'primitives':["  \
+    "{" NORMALS ",'material':0}]}]"
+
+static void transmission(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene =
+        load(context, TRANSMITTING("{'transmissionFactor':0.75,'transmissionTexture':"
+                                   "{'index':0,'texCoord':2}}"));
+    ASSERT_NEAR(scene->materials[0].transmission, 0.75, 0);
+    assert_int_equal(scene->materials[0].transmission_texture.image, 0);
+    assert_int_equal(scene->materials[0].transmission_texture.uv_set, 2);
+    assert_non_null(strstr(test_log_text(), "absent.png")); // it is wanted
+    assert_true(test_log_has("no-uv"));
+    ASSERT_NEAR(scene->materials[1].transmission, 0, 0);
+    assert_int_equal(scene->materials[1].transmission_texture.image, ALPI_NONE);
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    ASSERT_OK(context, alpi_gltf_export_scene(scene, &bytes, &size));
+    alp_scene_destroy(scene);
+    alpi_gltf_document *document = NULL;
+    ASSERT_OK(context, alpi_gltf_document_parse(context, "again.glb", bytes, size, &document));
+    ASSERT_OK(context, alpi_gltf_scene_from_document(document, &scene));
+    ASSERT_NEAR(scene->materials[0].transmission, 0.75, 0);
+    ASSERT_NEAR(scene->materials[1].transmission, 0, 0);
+    alp_scene_destroy(scene);
+    scene = load(context, TRANSMITTING("{}"));
+    ASSERT_NEAR(scene->materials[0].transmission, 0, 0); // glTF's default
+    alp_scene_destroy(scene);
+    scene = load(context, TRANSMITTING("{'transmissionFactor':1.5}"));
+    ASSERT_NEAR(scene->materials[0].transmission, 1, 0);
+    assert_true(test_log_has("material-range"));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void transmission_that_is_none(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {TRANSMITTING("{'transmissionFactor':'much'}"),
+         "material 0: transmissionFactor must be a number"},
+        {TRANSMITTING("{'transmissionTexture':7}"), "transmissionTexture must be an object"},
+        {TRANSMITTING("{'transmissionTexture':{'index':1}}"), "index is 1, but there are only 1"},
+    };
+    alp_context *context = test_context(1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char json[8192];
+        alp_scene *scene = NULL;
+        snprintf(json, sizeof json, "{" ASSET BUFFERS ",%s}", cases[i][0]);
+        assert_int_equal(test_gltf_scene(context, json, &geometry, sizeof geometry, &scene),
+                         ALP_ERROR_INVALID_DATA);
+        test_message_has(context, cases[i][1]);
+    }
+    alp_context_destroy(context);
+}
+
 static void lights(void **state)
 {
     (void)state;
@@ -447,6 +510,8 @@ int main(void)
         cmocka_unit_test(normals_under_scale),
         cmocka_unit_test(vertex_attributes),
         cmocka_unit_test(materials),
+        cmocka_unit_test(transmission),
+        cmocka_unit_test(transmission_that_is_none),
         cmocka_unit_test(lights),
         cmocka_unit_test(cameras),
         cmocka_unit_test(oddities_are_told),

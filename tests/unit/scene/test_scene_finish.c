@@ -149,6 +149,7 @@ static void materials_are_clamped(void **state)
     material->metallic = 2.0f;
     material->emission[0] = -1.0f;
     material->occlusion_strength = 7.0f;
+    material->transmission = NAN;
     alp_scene *scene = finish(&builder);
     material = &scene->materials[0];
     ASSERT_NEAR(material->base_color[0], 1.0, 0.0);
@@ -157,6 +158,7 @@ static void materials_are_clamped(void **state)
     ASSERT_NEAR(material->metallic, 1.0, 0.0);
     ASSERT_NEAR(material->emission[0], 0.0, 0.0);
     ASSERT_NEAR(material->occlusion_strength, 1.0, 0.0);
+    ASSERT_NEAR(material->transmission, 0.0, 0.0);
     assert_true(test_log_has("material-range"));
     alp_scene_destroy(scene);
     alp_context_destroy(context);

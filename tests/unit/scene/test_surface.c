@@ -109,6 +109,25 @@ static void a_cut_is_below_the_cutoff(void **state)
     alp_context_destroy(context);
 }
 
+static void transmission_is_the_red_channel(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_scene(context, (uint8_t[]){51, 255, 102, 153});
+    alpi_material *m = &scene->materials[scene->surfaces[0].material];
+    ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.0, 0.0); // the default
+    m->transmission_texture = texture();
+    ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.0, 0.0);
+    m->transmission = 0.5f;
+    ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.5 * 0.2, 1e-7); // linear
+    m->transmission_texture = alpi_texture_none();
+    ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.5, 0.0);
+    scene->surfaces[0].material = ALPI_NONE;
+    ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.0, 0.0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +135,7 @@ int main(void)
         cmocka_unit_test(albedo_stays_below_one),
         cmocka_unit_test(occlusion_is_the_red_channel_by_its_strength),
         cmocka_unit_test(a_cut_is_below_the_cutoff),
+        cmocka_unit_test(transmission_is_the_red_channel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
