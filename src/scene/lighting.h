@@ -82,7 +82,7 @@ const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting); // may be NULL
 uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting);
 
 /// Radiance that leaves a triangle towards `direction` at barycentrics: emission × texture, at most
-/// 1e20; 0 from behind unless double-sided, and where alpi_surface_is_cut lets rays through.
+/// 1e20; 0 from behind unless double-sided, and where a mask cuts; of a blended surface its alpha.
 vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, float b2,
                            vec3 direction);
 

@@ -3,6 +3,7 @@
 
 #include "base/context.h"
 #include "transport/hit.h"
+#include "transport/panes.h"
 
 #include <math.h>
 #include <string.h>
@@ -96,6 +97,29 @@ static void bring(alpi_path_wave *w, uint32_t path, vec3 light)
     sum->z[slot] += light.z;
 }
 
+/// Hands out what the free rays of a packet bring.
+static void bring_free(const alpi_reference *r, alpi_path_wave *w, uint32_t first, uint32_t count)
+{
+    alpi_rays *rays = &w->rays[first / ALPI_PACKET];
+    uint32_t free = 0;
+    vec3 left[ALPI_PACKET];
+    for (uint32_t i = 0; i < count; i++) {
+        free |= rays->maximum[i] >= 0.0f ? 1u << i : 0u;
+    }
+    if (r->filter.panes) {
+        alpi_panes_dim(r, rays, free, left);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        vec3 given = at(&w->given, first + i);
+        if (r->filter.panes) {
+            given = (vec3){given.x * left[i].x, given.y * left[i].y, given.z * left[i].z};
+        }
+        if ((free >> i & 1u) != 0) {
+            bring(w, w->asker[first + i], given);
+        }
+    }
+}
+
 /// Traces `count` shadow rays and hands out what the free ones bring.
 static void trace_shadow_rays(const alpi_reference *r, alpi_path_wave *w, uint32_t count)
 {
@@ -106,10 +130,8 @@ static void trace_shadow_rays(const alpi_reference *r, alpi_path_wave *w, uint32
     if (rest > 0) {
         alpi_trace_occluded(r->tracer, w->rays + whole, 1, (1u << rest) - 1u, r->filter, false);
     }
-    for (uint32_t k = 0; k < count; k++) {
-        if (w->rays[k / ALPI_PACKET].maximum[k % ALPI_PACKET] >= 0.0f) {
-            bring(w, w->asker[k], at(&w->given, k));
-        }
+    for (uint32_t first = 0; first < count; first += ALPI_PACKET) {
+        bring_free(r, w, first, count - first < ALPI_PACKET ? count - first : ALPI_PACKET);
     }
 }
 
@@ -198,29 +220,43 @@ static void move(alpi_path_wave *w, uint32_t to, uint32_t i, vec3 throughput,
     w->slot[to] = w->slot[i];
 }
 
+/// What a surface sends towards the path that meets it.
+static void meet(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_t triangle,
+                 float b1, float b2, float distance)
+{
+    const vec3 back = vec3_scale(at(&w->direction, i), -1.0f);
+    add_met(r, w, i, alpi_surface_emission(r->scene, triangle, b1, b2, back), triangle, distance);
+    w->covered[w->slot[i]] |= w->depth[i] < 0;
+}
+
 /// Path i meets a surface. @param to where it goes on @return false: it ends here
 static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float first, uint32_t to)
 {
     const alpi_hits *hits = &w->hits[i / ALPI_PACKET];
     const int lane = (int)(i % ALPI_PACKET);
+    float kept = 1.0f, distance = hits->distance[lane];
+    if (r->filter.panes) {
+        kept = alpi_panes_pass(r, w, i, meet, &distance);
+    }
     const uint32_t triangle = hits->triangle[lane];
+    if (triangle == ALPI_NONE) {
+        escape(r, w, i);
+        return false;
+    }
     const float b1 = hits->b1[lane], b2 = hits->b2[lane];
-    const vec3 direction = at(&w->direction, i);
-    const vec3 emitted =
-        alpi_surface_emission(r->scene, triangle, b1, b2, vec3_scale(direction, -1.0f));
-    add_met(r, w, i, emitted, triangle, hits->distance[lane]);
-    w->covered[w->slot[i]] |= w->depth[i] < 0;
+    meet(r, w, i, triangle, b1, b2, distance);
     if (w->depth[i] >= (int32_t)r->bounces) {
         return false;
     }
-    const vec3 albedo = alpi_surface_albedo(r->scene, triangle, b1, b2);
+    const vec3 albedo = vec3_scale(alpi_surface_albedo(r->scene, triangle, b1, b2), kept);
     vec3 throughput = at(&w->throughput, i);
     throughput = (vec3){throughput.x * albedo.x, throughput.y * albedo.y, throughput.z * albedo.z};
     if (!is_lit(throughput) || !play_roulette(w, i, first, &throughput)) {
         return false;
     }
     bool behind = false;
-    const alpi_receiver_point p = alpi_hit_point(r->scene, hits, lane, direction, &behind);
+    const alpi_receiver_point p =
+        alpi_hit_point(r->scene, hits, lane, at(&w->direction, i), &behind);
     if (behind && !alpi_surface_is_double_sided(r->scene, triangle)) {
         return false; // a single-sided surface is black from behind
     }
@@ -278,11 +314,7 @@ static void step(const alpi_reference *r, const alpi_wave_loops *loops, float fi
     loops->draw(w, ALPI_USE_CHOICE, 1);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < w->count; i++) {
-        if (w->hits[i / ALPI_PACKET].triangle[i % ALPI_PACKET] == ALPI_NONE) {
-            escape(r, w, i);
-        } else if (arrive(r, w, i, first, kept)) {
-            kept++;
-        }
+        kept += arrive(r, w, i, first, kept);
     }
     w->count = kept;
 }

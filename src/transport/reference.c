@@ -58,6 +58,16 @@ static void finish(const replicate_sums *sums, uint32_t each, alpi_reference_val
     }
 }
 
+/// Panes are this room's to see to. A tail may come through one of them from one receiver and past it
+/// from another: then nothing is shared.
+static alpi_reference with_panes(const alpi_reference *reference)
+{
+    alpi_reference own = *reference;
+    own.filter.panes = alpi_tracer_has_panes(reference->tracer);
+    own.share = reference->share && !own.filter.panes;
+    return own;
+}
+
 // --- waves ---------------------------------------------------------------------------------------
 
 /// A run of items (receivers or pixels), each with as many paths. Waves go on from one item to the
@@ -208,13 +218,14 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      uint32_t list_count, const alpi_task_progress *progress,
                                      alpi_reference_value *values)
 {
+    const alpi_reference own = with_panes(reference);
     irradiance_job job = {
-        .reference = reference, .receivers = receivers, .list = list, .values = values};
+        .reference = &own, .receivers = receivers, .list = list, .values = values};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     const uint32_t samples = alpi_reference_samples(reference);
     // Whole blocks, so that who shares with whom does not depend on the ranges.
-    const uint32_t lanes = reference->share ? ALPI_PACKET : 1, each = samples * lanes;
+    const uint32_t lanes = own.share ? ALPI_PACKET : 1, each = samples * lanes;
     const uint32_t grain = (each < PATHS_PER_RANGE ? PATHS_PER_RANGE / each : 1) * lanes;
     told.units_per_item = (double)samples;
     return alpi_parallel_for(reference->context, count, grain, gather_range, &job, &told);
@@ -258,9 +269,10 @@ alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_ra
                                  const void *camera_user, uint64_t first, uint32_t count,
                                  alpi_reference_value *values, float *covered)
 {
+    const alpi_reference own = with_panes(reference);
     pixel_job job = {camera, camera_user, first, values, covered};
     // L = Le + ρ/π · E, and what is met counts π.
-    return run_paths(&(path_run){.reference = reference,
+    return run_paths(&(path_run){.reference = &own,
                                  .end = count,
                                  .samples = alpi_reference_samples(reference),
                                  .lanes = 1,
