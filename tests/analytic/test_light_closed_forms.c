@@ -173,10 +173,10 @@ static void a_sun_gives_its_lux_times_the_cosine(void **state)
             }
         }
         assert_true(lit_count > 20 && count - lit_count > 20);
-        alpi_reference r = test_lit_reference(&lit, 4, k < 2 ? 1024 : 16384);
+        alpi_reference r = test_lit_reference(&lit, 4, k < 2 ? 4096 : 16384);
         gather(&r, used, count, values);
         // The balance heuristic leaves as much of the light to rays that meet the disk by chance as
-        // chance has of it, sin²: of a small one hardly one of 1024 does.
+        // chance has of it, sin²: of a small one hardly one of 4096 does.
         const double with = hold(values, exact, count, pow(sin(0.5 * sizes[k]), 2.0));
         for (uint32_t i = 0; i < count; i++) { // behind is dark, and a point is exact
             assert_true(exact[i] > 0.0 || values[i].mean[1] == 0.0f);
