@@ -2,6 +2,7 @@
 #include "test_lit.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 
 #include <math.h>
 
@@ -117,28 +118,58 @@ static void place_on_sheet(const void *user, uint32_t receiver, uint32_t count,
     }
 }
 
-alpi_reference_value test_lit_mean(const alpi_reference *reference, uint32_t surface)
+/// All triangles of a surface (ALPI_NONE: of the scene). `ends` must be released.
+static sheet make_sheet(const alp_scene *scene, uint32_t surface)
 {
-    const alp_scene *scene = reference->scene;
     sheet s = {.scene = scene, .first = 0, .count = scene->triangle_count};
+    double area = 0.0;
     if (surface != ALPI_NONE) {
         s.first = scene->surfaces[surface].first_triangle;
         s.count = scene->surfaces[surface].triangle_count;
     }
     s.ends = ALPI_NEW(scene->context, double, s.count);
     assert_non_null(s.ends);
-    double area = 0.0;
     for (uint32_t i = 0; i < s.count; i++) {
         vec3 c[3];
         alpi_triangle_corners(scene, s.first + i, c);
         area += vec3_triangle_area(c[0], c[1], c[2]);
         s.ends[i] = area;
     }
+    return s;
+}
+
+alpi_reference_value test_lit_mean(const alpi_reference *reference, uint32_t surface)
+{
+    sheet s = make_sheet(reference->scene, surface);
     const alpi_receivers receivers = {
         .count = 1, .extended = true, .place = place_on_sheet, .user = &s};
     alpi_reference_value value;
     ASSERT_OK(reference->context,
               alpi_reference_irradiance(reference, &receivers, NULL, 1, NULL, &value));
-    alpi_release(scene->context, s.ends);
+    alpi_release(reference->scene->context, s.ends);
     return value;
+}
+
+static bool is_inside(vec3 p, vec3 low, vec3 high)
+{
+    return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z &&
+           p.z <= high.z;
+}
+
+void test_lit_scatter(const alp_scene *scene, vec3 low, vec3 high, uint32_t count, vec3 *positions,
+                      vec3 *normals)
+{
+    sheet s = make_sheet(scene, ALPI_NONE);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < 1000 * count && found < count; i++) {
+        const vec2 u = alpi_sample_2d(17, i);
+        alpi_receiver_point point;
+        place_on_sheet(&s, 0, 1, (const float[1][2]){{u.x, u.y}}, &point);
+        if (is_inside(point.position, low, high)) {
+            positions[found] = point.position;
+            normals[found++] = point.geometric_normal;
+        }
+    }
+    assert_int_equal(found, count);
+    alpi_release(scene->context, s.ends);
 }

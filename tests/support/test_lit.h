@@ -35,4 +35,9 @@ alpi_reference_value test_lit_point(const alpi_reference *reference, vec3 positi
 /// drawn evenly from it, so that nothing is lost between points.
 alpi_reference_value test_lit_mean(const alpi_reference *reference, uint32_t surface);
 
+/// `count` points drawn evenly from the scene's triangles, as far as they lie in the box from low
+/// to high, with the normals of those.
+void test_lit_scatter(const alp_scene *scene, vec3 low, vec3 high, uint32_t count, vec3 *positions,
+                      vec3 *normals);
+
 #endif
