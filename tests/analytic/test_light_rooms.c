@@ -314,6 +314,13 @@ static void a_cube_with_a_glowing_ceiling(void **state)
            "absorbed %.5f\n",
            0.5 * (double)floor.mean[1], 0.5 * (double)middle.mean[1], 0.5 * (double)walls.mean[1],
            absorbed);
+    // Directly it is four squares ½ × ½ over their corners (oracle 6).
+    const double side = 0.5, slant = sqrt(1.0 + side * side);
+    const double direct = 4.0 * (2.0 * side / slant * atan(side / slant)) / (2.0 * ALPI_PI);
+    r.bounces = 0;
+    const alpi_reference_value seen = test_lit_point(&r, (vec3){0.5f, 0, 0.5f}, (vec3){0, 1, 0});
+    ASSERT_NEAR(seen.mean[1], direct, STANDARD_ERRORS * error_of(&seen));
+    assert_true(error_of(&seen) < 1e-3 * direct);
     test_lit_close(&lit);
 }
 
