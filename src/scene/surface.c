@@ -238,8 +238,7 @@ vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, 
     alpi_triangle_corners(scene, triangle, c);
     bool behind = !(vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], dark), direction) > 0.0f);
     const bool masked = m->alpha_mode == ALPI_ALPHA_MASK;
-    if ((behind && !m->double_sided) ||
-        (masked && alpi_surface_is_cut(scene, triangle, b1, b2))) {
+    if ((behind && !m->double_sided) || (masked && alpi_surface_is_cut(scene, triangle, b1, b2))) {
         return dark;
     }
     const float covered = m->alpha_mode == ALPI_ALPHA_BLEND

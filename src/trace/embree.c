@@ -13,8 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Triangles are in three geometries: those that always stop a ray, and those whose material may cut
-/// it or let it through in part, which alone pay for a filter call at every hit.
+/// Triangles are in three geometries: those that always stop a ray, and those whose material may
+/// cut it or let it through in part, which alone pay for a filter call at every hit.
 typedef enum geometry_kind {
     GEOMETRY_SOLID = 0,
     GEOMETRY_CUT = 1,

@@ -54,9 +54,9 @@ typedef struct alpi_tracer alpi_tracer;
 /// What a ray may pass through, besides cut surfaces (alpha), which are always open.
 typedef struct alpi_trace_filter {
     bool one_sided; // single-sided materials are open from behind
-    bool panes;     // the caller sees to panes (alpi_surface_is_pane): they do not stop shadow rays,
-                    // and meet other rays whatever their alpha. Else BLEND is cut at one half and
-                    // transmission opaque
+    bool panes; // the caller sees to panes (alpi_surface_is_pane): they do not stop shadow rays,
+                // and meet other rays whatever their alpha. Else BLEND is cut at one half and
+                // transmission opaque
 } alpi_trace_filter;
 
 /// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets

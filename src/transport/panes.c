@@ -44,9 +44,9 @@ void alpi_panes_dim(const alpi_reference *r, alpi_rays *rays, uint32_t active,
                 active &= ~(1u << i);
                 continue;
             }
-            left[i] = multiply(left[i], alpi_surface_pane(r->scene, hits.triangle[i], hits.b1[i],
-                                                          hits.b2[i])
-                                            .through);
+            left[i] = multiply(
+                left[i],
+                alpi_surface_pane(r->scene, hits.triangle[i], hits.b1[i], hits.b2[i]).through);
             const vec3 direction = {rays->direction_x[i], rays->direction_y[i],
                                     rays->direction_z[i]};
             const float rest = rays->maximum[i] - hits.distance[i];
@@ -75,8 +75,8 @@ static void trace_behind(const alpi_reference *r, alpi_path_wave *w, uint32_t i,
     alpi_trace_nearest(r->tracer, &rays, 1u << lane, r->filter, hits);
 }
 
-float alpi_panes_pass(const alpi_reference *r, alpi_path_wave *w, uint32_t i,
-                      alpi_pane_met_fn *met, float *distance)
+float alpi_panes_pass(const alpi_reference *r, alpi_path_wave *w, uint32_t i, alpi_pane_met_fn *met,
+                      float *distance)
 {
     alpi_hits *hits = &w->hits[i / ALPI_PACKET];
     const int lane = (int)(i % ALPI_PACKET);

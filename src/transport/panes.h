@@ -12,9 +12,9 @@
 void alpi_panes_dim(const alpi_reference *reference, alpi_rays *rays, uint32_t active,
                     vec3 left[ALPI_PACKET]);
 
-/// Path `path`, whose hit is in the wave, goes on straight through each pane it meets, or is kept by
-/// one: by chance, in proportion to what each way brings. Its hit is then that of what kept it or of
-/// what is behind, and its throughput has been multiplied.
+/// Path `path`, whose hit is in the wave, goes on straight through each pane it meets, or is kept
+/// by one: by chance, in proportion to what each way brings. Its hit is then that of what kept it
+/// or of what is behind, and its throughput has been multiplied.
 /// @param met called for each pane that was passed, before, with the distance from the vertex
 /// @param distance out: metres from the vertex to the last hit
 /// @return share that the last surface may reflect of what it meets, 1 / probability included:

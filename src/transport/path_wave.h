@@ -18,11 +18,11 @@ typedef struct alpi_wave_vec {
 typedef struct alpi_path_wave {
     uint32_t count;
     // At its vertex.
-    alpi_wave_vec origin; // where rays start, the offset included; metres
-    alpi_wave_vec normal;              // unit, the hemisphere's axis
-    alpi_wave_vec side;      // unit, of the triangle, on the side that the path came from
-    float offset[ALPI_WAVE];                 // metres
-    alpi_wave_vec throughput;          // multiplies the irradiance there
+    alpi_wave_vec origin;     // where rays start, the offset included; metres
+    alpi_wave_vec normal;     // unit, the hemisphere's axis
+    alpi_wave_vec side;       // unit, of the triangle, on the side that the path came from
+    float offset[ALPI_WAVE];  // metres
+    alpi_wave_vec throughput; // multiplies the irradiance there
     // The ray that is traced next.
     alpi_wave_vec start; // metres: the origin, or behind a pane that was passed
     alpi_wave_vec direction;

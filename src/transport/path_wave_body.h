@@ -18,15 +18,15 @@ static void draw(alpi_path_wave *w, alpi_path_use use, uint32_t ahead)
     EACH_PATH(i, w->count)
     {
         const uint32_t number = (w->event[i] + ahead) * ALPI_USE_COUNT + (uint32_t)use;
-        const vec2 u = alpi_sample_2d(alpi_hash32(w->key[i] ^ alpi_hash32(number + 1u)),
-                                      w->sample[i]);
+        const vec2 u =
+            alpi_sample_2d(alpi_hash32(w->key[i] ^ alpi_hash32(number + 1u)), w->sample[i]);
         w->u[i] = u.x;
         w->v[i] = u.y;
     }
 }
 
-/// Concentric map to the disk, lifted to the hemisphere, in the frame of vec3_frame. Sine and cosine
-/// of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
+/// Concentric map to the disk, lifted to the hemisphere, in the frame of vec3_frame. Sine and
+/// cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
 static void aim(alpi_path_wave *w)
 {
     EACH_PATH(i, w->count)

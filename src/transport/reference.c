@@ -58,8 +58,8 @@ static void finish(const replicate_sums *sums, uint32_t each, alpi_reference_val
     }
 }
 
-/// Panes are this room's to see to. A tail may come through one of them from one receiver and past it
-/// from another: then nothing is shared.
+/// Panes are this room's to see to. A tail may come through one of them from one receiver and past
+/// it from another: then nothing is shared.
 static alpi_reference with_panes(const alpi_reference *reference)
 {
     alpi_reference own = *reference;

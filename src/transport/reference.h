@@ -57,8 +57,8 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
 typedef void alpi_camera_ray_fn(const void *user, uint64_t pixel, vec2 u, vec3 *origin,
                                 vec3 *direction);
 
-/// Radiance L [W·sr⁻¹·m⁻²] that reaches `count` pixels from number `first` on. By any thread; as the
-/// body of a parallel loop it stops when the loop does.
+/// Radiance L [W·sr⁻¹·m⁻²] that reaches `count` pixels from number `first` on. By any thread; as
+/// the body of a parallel loop it stops when the loop does.
 /// @param values  [count] out
 /// @param covered [count] out: share of the paths that met a surface, or light behind all of them
 /// @return ALP_OK; CANCELLED

@@ -322,12 +322,12 @@ static void what_a_camera_sees(void **state)
         r.next_event = k == 0;
         alpi_reference_value v;
         float covered, x = 0.0f;
-        alpi_reference_pixel(&r, look_down, &x, 3, &v, &covered);
+        ASSERT_OK(context, alpi_reference_pixels(&r, look_down, &x, 3, 1, &v, &covered));
         ASSERT_NEAR(covered, 1.0, 0.0);
         ASSERT_NEAR(v.mean[1], L, STANDARD_ERRORS * sqrt((double)v.variance[1]));
         assert_true(sqrt((double)v.variance[1]) < (k == 0 ? 1e-3 : 4e-2) * L);
         x = 8.25f; // a quarter of the pixel lies on the table
-        alpi_reference_pixel(&r, look_down, &x, 4, &v, &covered);
+        ASSERT_OK(context, alpi_reference_pixels(&r, look_down, &x, 4, 1, &v, &covered));
         ASSERT_NEAR(covered, 1.0, 0.0);
         ASSERT_NEAR(v.mean[1], 0.25 * L + 0.75 * 9.0,
                     STANDARD_ERRORS * sqrt((double)v.variance[1]));
@@ -338,7 +338,7 @@ static void what_a_camera_sees(void **state)
     r = test_lit_reference(&lit, 6, 16384);
     alpi_reference_value v;
     float covered;
-    alpi_reference_pixel(&r, look_down, &(float){8.25f}, 4, &v, &covered);
+    ASSERT_OK(context, alpi_reference_pixels(&r, look_down, &(float){8.25f}, 4, 1, &v, &covered));
     ASSERT_NEAR(covered, 0.25, 1e-3); // 16 × 1024 stratified points against an edge
     ASSERT_NEAR(v.mean[1], 0.25 * 0.4 / ALPI_PI * 1000.0 * sin(ELEVATION),
                 STANDARD_ERRORS * sqrt((double)v.variance[1]));

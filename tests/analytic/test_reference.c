@@ -64,12 +64,13 @@ static void furnace_after_n_bounces(void **state)
             alpi_reference r = test_lit_reference(&l, bounces[n], 1u << 13);
             alpi_reference_value v =
                 test_lit_point(&r, (vec3){0.3f, 0.0f, 0.4f}, (vec3){0.0f, 1.0f, 0.0f});
-            // 4 standard errors, and a millionth for single precision
-            ASSERT_NEAR(v.mean[1], exact, 4.0 * sqrt((double)v.variance[1]) + 1e-6 * exact);
-            r.samples = 1u << 16;
+            // 5 standard errors (of 15 degrees of freedom: one of 6000 is further off, and there
+            // are 48), and a millionth for single precision
+            ASSERT_NEAR(v.mean[1], exact, 5.0 * sqrt((double)v.variance[1]) + 1e-6 * exact);
+            r.samples = 1u << 18;
             r.next_event = false; // every ray brings the same: only roulette makes noise
             v = test_lit_point(&r, (vec3){0.3f, 0.0f, 0.4f}, (vec3){0.0f, 1.0f, 0.0f});
-            ASSERT_NEAR(v.mean[1], exact, 4.0 * sqrt((double)v.variance[1]) + 1e-5 * exact);
+            ASSERT_NEAR(v.mean[1], exact, 5.0 * sqrt((double)v.variance[1]) + 1e-5 * exact);
             const double error = fabs((double)v.mean[1] / exact - 1.0);
             worst = fmax(worst, error);
             assert_true(error <= 1e-3);
