@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "maps/lightmap.h"
 #include "scene/select.h"
+#include "transport/examine.h"
 #include "transport/hit.h"
 #include "transport/occlusion.h"
 #include "transport/reference.h"
@@ -282,7 +283,8 @@ static alp_result prepare_reference(render_job *job, alp_image_info info)
         return ALP_OK;
     }
     ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
-    alpi_lighting_warn(job->scene, job->lighting);
+    ALP_TRY(alpi_examine_light(job->tracer, job->occlusion.filter, job->scene, job->lighting,
+                               o->progress, o->progress_user));
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
     job->reference = (alpi_reference){.context = job->scene->context,
                                       .scene = job->scene,
