@@ -281,6 +281,30 @@ static alp_result examine_lamps(examination *e, alp_progress_fn *progress, void 
     return result;
 }
 
+// --- cameras
+// --------------------------------------------------------------------------------------
+
+bool alpi_examine_is_inside(const alpi_tracer *tracer, alpi_trace_filter filter,
+                            const alp_scene *scene, vec3 place, const vec3 *directions,
+                            uint32_t count)
+{
+    const examination e = {.scene = scene, .tracer = tracer, .filter = filter};
+    verdict v = {.around = ALPI_NONE, .in = ALPI_NONE};
+    for (uint32_t first = 0; first < count; first += ALPI_PACKET) {
+        alpi_rays rays;
+        alpi_hits hits;
+        alpi_rays_clear(&rays);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            alpi_rays_set(&rays, (int)i, place, directions[first + i], INFINITY);
+        }
+        alpi_trace_nearest(tracer, &rays, (1u << ALPI_PACKET) - 1u, filter, &hits);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            note_hit(&e, &hits, i, directions[first + (uint32_t)i], &v);
+        }
+    }
+    return is_inside(&v);
+}
+
 // --- the room ------------------------------------------------------------------------------------
 
 /// How many of eight rays from points on front sides leave the scene, or come to what lets light

@@ -149,6 +149,23 @@ static void a_spot_is_judged_by_its_cone(void **state)
     stop(&s);
 }
 
+/// What is beside its cone does not count: in a block without a lid, a spot that looks down.
+static void a_spot_in_an_open_block(void **state)
+{
+    (void)state;
+    setup s = start_room(ALPI_FACE_ALL);
+    alpi_builder_box(&s.builder, (vec3){0.7f, -0.5f, -0.5f}, (vec3){1.7f, 0.5f, 0.5f},
+                     ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_TOP);
+    finish(&s);
+    alpi_light spot = lamp(1.2f, 0.4f, 0.0f);
+    assert_string_equal(told(&s, &spot), ""); // a bare bulb there shines over the rim
+    spot.kind = ALPI_LIGHT_SPOT;
+    spot.outer_cone = 0.7f;
+    spot.direction = (vec3){0, -1, 0};
+    assert_non_null(strstr(told(&s, &spot), "light-inside"));
+    stop(&s);
+}
+
 /// Around a bulb: double-sided, blended, transmissive, or open at both ends.
 static void bulbs_and_shades_are_fine(void **state)
 {
@@ -215,7 +232,12 @@ static void many_lamps_are_counted(void **state)
         set_lights(&s, lights, COUNT);
         test_log_clear();
         ASSERT_OK(s.context, alp_scene_examine(s.scene, NULL, NULL, NULL));
-        assert_non_null(strstr(test_log_text(), "92 more lights")); // of 100, 8 by name
+        uint32_t named = 0;
+        for (const char *at = test_log_text(); (at = strstr(at, "lamp: lies")) != NULL; at++) {
+            named++;
+        }
+        assert_int_equal(named, 8);
+        assert_non_null(strstr(test_log_text(), "92 more lights")); // of 100
         if (run == 0) {
             first = strdup(test_log_text());
         } else {
@@ -347,6 +369,7 @@ int main(void)
         cmocka_unit_test(a_lamp_in_a_block_is_told),
         cmocka_unit_test(a_lamp_behind_the_walls_is_told),
         cmocka_unit_test(a_spot_is_judged_by_its_cone),
+        cmocka_unit_test(a_spot_in_an_open_block),
         cmocka_unit_test(bulbs_and_shades_are_fine),
         cmocka_unit_test(lamps_in_surfaces),
         cmocka_unit_test(many_lamps_are_counted),
