@@ -25,8 +25,11 @@ enum { LEAST_SIDE = 6 };
 static const float LEAST_RISE = 0.05f;
 /// Named one by one; of more only the number is told.
 enum { NAMED_LIMIT = 8 };
-/// Rays of the room, and how many may escape through its cracks.
-enum { ROOM_RAYS = 4096, CRACK_RAYS = 4 };
+/// Points of the surface, walks from each, and surfaces that a walk comes to: an opening of a
+/// thousandth of a room's walls is found from two of three points.
+enum { ROOM_POINTS = 512, ROOM_WALKS = 16, WALK_BOUNCES = 64 };
+/// One in so many points in a closed room is worth a word.
+enum { ROOM_SHARE = 4 };
 enum { STREAM_AROUND = 101, STREAM_ROOM = 102 };
 
 /// What the rays of a lamp met.
@@ -305,37 +308,108 @@ bool alpi_examine_is_inside(const alpi_tracer *tracer, alpi_trace_filter filter,
     return is_inside(&v);
 }
 
-// --- the room ------------------------------------------------------------------------------------
+// --- rooms ---------------------------------------------------------------------------------------
 
-/// How many of eight rays from points on front sides leave the scene, or come to what lets light
-/// through.
-static uint32_t count_escapes(const examination *e, const alpi_area_point *points, uint32_t first)
+typedef struct rooms {
+    const examination *e;
+    alpi_area_point points[ROOM_POINTS];
+    bool closed[ROOM_POINTS];
+} rooms;
+
+/// What became of eight walks, by bits.
+typedef struct fates {
+    uint32_t escaped; // left the scene, or came to what lets light through
+    uint32_t kept;    // still among front sides at the end; the others came to the back of one
+} fates;
+
+static void set_step(alpi_rays *rays, int lane, const alpi_receiver_point *p, vec2 u,
+                     vec3 *direction)
+{
+    vec3 t, b;
+    const vec3 n = p->geometric_normal, local = alpi_warp_cosine_cone(u, 1.0f);
+    vec3_frame(n, &t, &b);
+    *direction =
+        vec3_normalize_or(vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, n), n);
+    alpi_rays_set(rays, lane, vec3_mad(p->position, p->offset, n), *direction, INFINITY);
+}
+
+/// One step of the walks that go on; those that end leave `active`.
+static void take_step(const examination *e, const vec2 u[ALPI_PACKET],
+                      alpi_receiver_point at[ALPI_PACKET], uint32_t *active, fates *f)
 {
     alpi_rays rays;
-    alpi_hits at, hits;
+    alpi_hits hits;
+    vec3 directions[ALPI_PACKET];
     alpi_rays_clear(&rays);
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        at.triangle[i] = points[i].triangle;
-        at.b1[i] = points[i].b1;
-        at.b2[i] = points[i].b2;
-        const alpi_receiver_point p =
-            alpi_hit_point(e->scene, &at, (int)i, (vec3){0.0f, 0.0f, 0.0f}, NULL);
-        vec3 t, b;
-        vec3_frame(p.geometric_normal, &t, &b);
-        const vec3 local = alpi_warp_cosine_cone(
-            alpi_sample_2d(alpi_random_key(0, 0, STREAM_ROOM), first + i), 1.0f);
-        const vec3 d =
-            vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, p.geometric_normal);
-        alpi_rays_set(&rays, (int)i, vec3_mad(p.position, p.offset, p.geometric_normal),
-                      vec3_normalize_or(d, p.geometric_normal), INFINITY);
-    }
-    alpi_trace_nearest(e->tracer, &rays, (1u << ALPI_PACKET) - 1u, e->filter, &hits);
-    uint32_t escaped = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        escaped += hits.triangle[i] == ALPI_NONE ||
-                   is_clear(e->scene, hits.triangle[i], hits.b1[i], hits.b2[i]);
+        if ((*active >> i & 1u) != 0) {
+            set_step(&rays, i, &at[i], u[i], &directions[i]);
+        }
     }
-    return escaped;
+    const uint32_t before = *active;
+    alpi_trace_nearest(e->tracer, &rays, before, e->filter, &hits);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((before >> i & 1u) == 0) {
+            continue;
+        }
+        if (hits.triangle[i] == ALPI_NONE ||
+            is_clear(e->scene, hits.triangle[i], hits.b1[i], hits.b2[i])) {
+            f->escaped |= 1u << i;
+            *active &= ~(1u << i);
+            continue;
+        }
+        bool behind = false;
+        at[i] = alpi_hit_point(e->scene, &hits, i, directions[i], &behind);
+        if (behind && !alpi_surface_is_double_sided(e->scene, hits.triangle[i])) {
+            *active &= ~(1u << i);
+        }
+    }
+}
+
+/// A walk from each of eight points, from front side to front side.
+static fates walk(const rooms *r, uint32_t first, uint32_t round, uint32_t active)
+{
+    fates f = {0, 0};
+    alpi_hits start;
+    alpi_receiver_point at[ALPI_PACKET];
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const alpi_area_point *p = &r->points[first + i];
+        start.triangle[i] = p->triangle;
+        start.b1[i] = p->b1;
+        start.b2[i] = p->b2;
+        at[i] = alpi_hit_point(r->e->scene, &start, (int)i, (vec3){0.0f, 0.0f, 0.0f}, NULL);
+    }
+    for (uint32_t bounce = 0; bounce < WALK_BOUNCES && active != 0; bounce++) {
+        vec2 u[ALPI_PACKET];
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            u[i] = alpi_sample_2d(alpi_random_key(round, first + i, STREAM_ROOM), bounce);
+        }
+        take_step(r->e, u, at, &active, &f);
+    }
+    f.kept = active;
+    return f;
+}
+
+/// Points that lie inside other solids, whose walks come to backs, are in no room.
+static alp_result examine_points(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    rooms *r = user;
+    for (uint32_t packet = begin; packet < end; packet++) {
+        uint32_t inside = (1u << ALPI_PACKET) - 1u, kept[ALPI_PACKET] = {0};
+        for (uint32_t round = 0; round < ROOM_WALKS && inside != 0; round++) {
+            const fates f = walk(r, packet * ALPI_PACKET, round, inside);
+            inside &= ~f.escaped;
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                kept[i] += f.kept >> i & 1u;
+            }
+        }
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            r->closed[packet * ALPI_PACKET + i] =
+                (inside >> i & 1u) != 0 && 2 * kept[i] >= ROOM_WALKS;
+        }
+    }
+    return ALP_OK;
 }
 
 /// Whether a light stands in the scene and need not get in.
@@ -348,30 +422,33 @@ static bool has_light_inside(const alpi_lighting *lighting)
     return any;
 }
 
-static alp_result examine_room(const examination *e)
+static alp_result examine_rooms(const examination *e, alp_progress_fn *progress, void *user)
 {
     alp_context *context = e->scene->context;
     if (has_light_inside(e->lighting)) {
         return ALP_OK;
     }
-    alpi_area_point *points = ALPI_NEW(context, alpi_area_point, ROOM_RAYS);
-    if (points == NULL) {
+    rooms *r = ALPI_NEW(context, rooms, 1);
+    if (r == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alpi_area_points(e->scene, ROOM_RAYS, points);
-    uint32_t escaped = 0;
-    for (uint32_t i = 0; i < ROOM_RAYS && escaped <= CRACK_RAYS; i += ALPI_PACKET) {
-        escaped += count_escapes(e, points + i, i);
+    r->e = e;
+    alpi_area_points(e->scene, ROOM_POINTS, r->points);
+    const alpi_task_progress told = {.callback = progress, .user = user, .stage = "examine"};
+    alp_result result =
+        alpi_parallel_for(context, ROOM_POINTS / ALPI_PACKET, 2, examine_points, r, &told);
+    uint32_t closed = 0;
+    for (uint32_t i = 0; i < ROOM_POINTS; i++) {
+        closed += r->closed[i];
     }
-    alpi_release(context, points);
-    if (escaped <= CRACK_RAYS) {
+    alpi_release(context, r);
+    if (result == ALP_OK && closed * ROOM_SHARE >= ROOM_POINTS) {
         alpi_warn(context, "closed-room", e->scene->name,
-                  "the scene is closed: of %d rays from its surfaces %u get out, so that no sky "
-                  "and no sun gets in, and no lamp or emissive surface is inside; give it one, or "
-                  "an opening",
-                  ROOM_RAYS, escaped);
+                  "%.0f %% of the surface is in closed rooms: no sky and no sun gets in, and no "
+                  "lamp or emissive surface is inside; give them one, or an opening",
+                  100.0 * closed / ROOM_POINTS);
     }
-    return ALP_OK;
+    return result;
 }
 
 // --- all of it -----------------------------------------------------------------------------------
@@ -386,7 +463,7 @@ alp_result alpi_examine_light(const alpi_tracer *tracer, alpi_trace_filter filte
         return ALP_OK;
     }
     ALP_TRY(examine_lamps(&e, progress, progress_user));
-    return examine_room(&e);
+    return examine_rooms(&e, progress, progress_user);
 }
 
 alp_result alp_scene_examine(const alp_scene *scene, const alp_lighting_options *options,

@@ -267,19 +267,61 @@ static void closed_rooms_are_told(void **state)
         setup s = start_room(ALPI_FACE_ALL & ~(unsigned)(closed ? 0 : ALPI_FACE_LEFT));
         add_block(&s);
         finish(&s);
-        assert_int_equal(strstr(told_with_sky(&s), "closed-room test room") != NULL, closed);
+        assert_int_equal(strstr(told_with_sky(&s), "closed-room test room: 100 %") != NULL, closed);
         assert_false(test_log_has("no-light"));
         stop(&s);
     }
 }
 
+/// The room but for a slot in its left wall, of `slot` of its 96 m².
+static void add_slotted_wall(setup *s, float slot)
+{
+    const float top = 2.0f - slot * 96.0f / 4.0f;
+    alpi_builder_quad(&s->builder,
+                      (vec3[]){{-2, -2, -2}, {-2, top, -2}, {-2, top, 2}, {-2, -2, 2}});
+}
+
 static void a_window_of_a_hundredth_is_an_opening(void **state)
 {
     (void)state;
-    setup s = start_room(ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_LEFT);
-    // The left wall but for a slot: of 96 m² it leaves 1 m².
-    alpi_builder_quad(&s.builder,
-                      (vec3[]){{-2, -2, -2}, {-2, 1.75f, -2}, {-2, 1.75f, 2}, {-2, -2, 2}});
+    // 1024 bounces from each point: the slot is missed by e^−10 of them, and by e^−0.01.
+    const float slots[] = {0.01f, 1e-5f};
+    for (int i = 0; i < 2; i++) {
+        setup s = start_room(ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_LEFT);
+        add_slotted_wall(&s, slots[i]);
+        finish(&s);
+        assert_int_equal(strstr(told_with_sky(&s), "closed-room") != NULL, i == 1);
+        stop(&s);
+    }
+}
+
+/// Walls with an outer side: half of what is seen is in a closed room, and all in the open with the
+/// door out of both shells.
+static void walls_may_be_thick(void **state)
+{
+    (void)state;
+    for (int door = 0; door <= 1; door++) {
+        const unsigned faces = ALPI_FACE_ALL & ~(unsigned)(door ? ALPI_FACE_LEFT : 0);
+        setup s = start_room(faces);
+        alpi_builder_box(&s.builder, (vec3){-2.2f, -2.2f, -2.2f}, (vec3){2.2f, 2.2f, 2.2f}, faces);
+        finish(&s);
+        assert_int_equal(strstr(told_with_sky(&s), "closed-room") != NULL, !door);
+        // 96 m² of 96 and 116.16
+        assert_int_equal(strstr(test_log_text(), "45 % of the surface") != NULL, !door);
+        stop(&s);
+    }
+}
+
+/// What is hidden inside other solids is in no room: two blocks of one size in one place.
+static void hidden_faces_are_no_room(void **state)
+{
+    (void)state;
+    setup s = {.context = test_context(1)};
+    alpi_builder *b = &s.builder;
+    alpi_builder_start(b, s.context, "blocks");
+    alpi_builder_surface(b, "blocks", alpi_builder_material(b, "grey", GREY, BLACK));
+    alpi_builder_box(b, (vec3){-1, -1, -1}, (vec3){1, 1, 1}, ALPI_FACE_ALL);
+    alpi_builder_box(b, (vec3){-0.9f, -0.9f, -0.9f}, (vec3){0.9f, 0.9f, 0.9f}, ALPI_FACE_ALL);
     finish(&s);
     assert_string_equal(told_with_sky(&s), "");
     stop(&s);
@@ -375,6 +417,8 @@ int main(void)
         cmocka_unit_test(many_lamps_are_counted),
         cmocka_unit_test(closed_rooms_are_told),
         cmocka_unit_test(a_window_of_a_hundredth_is_an_opening),
+        cmocka_unit_test(walls_may_be_thick),
+        cmocka_unit_test(hidden_faces_are_no_room),
         cmocka_unit_test(closed_rooms_that_are_fine),
         cmocka_unit_test(odd_calls),
         cmocka_unit_test(memory_may_end),
