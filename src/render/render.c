@@ -111,8 +111,9 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
     const float step_y = (float)job->options.height / ACROSS;
     vec3 directions[ACROSS * ACROSS];
     for (int i = 0; i < ACROSS * ACROSS; i++) {
-        directions[i] = camera_direction(job, ((float)(i % ACROSS) + 0.5f) * step_x,
-                                         ((float)(i / ACROSS) + 0.5f) * step_y);
+        const int column = i % ACROSS, row = i / ACROSS;
+        directions[i] =
+            camera_direction(job, ((float)column + 0.5f) * step_x, ((float)row + 0.5f) * step_y);
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
