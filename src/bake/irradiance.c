@@ -57,6 +57,7 @@ static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
         .bounces = o->light.bounces < limit ? o->light.bounces : limit,
         .samples = o->light.samples,
         .next_event = true,
+        .share = true,
         .seed = o->occlusion.seed,
     };
     alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, receivers->count);

@@ -28,6 +28,7 @@ struct alp_context {
     uint32_t worker_count;
     struct alpi_pool *pool;
     alpi_watch watch;
+    struct alpi_loop *loop;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
     _Atomic uint64_t memory_now;
@@ -205,6 +206,23 @@ struct alpi_pool *alpi_context_pool(alp_context *context)
 struct alpi_watch *alpi_context_watch(alp_context *context)
 {
     return &context->watch;
+}
+
+struct alpi_loop **alpi_context_loop(alp_context *context)
+{
+    return &context->loop;
+}
+
+bool alpi_context_has_v3(const alp_context *context)
+{
+    const char *isa = context->options.max_isa;
+#if defined(__x86_64__)
+    return (isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
+           __builtin_cpu_supports("bmi2");
+#else
+    (void)isa;
+    return false;
+#endif
 }
 
 const alp_context_options *alpi_context_options(const alp_context *context)

@@ -39,6 +39,11 @@ struct alpi_pool *alpi_context_pool(alp_context *context);
 struct alpi_watch;
 /// Where the context keeps who is asked whether to go on: see tasks.h.
 struct alpi_watch *alpi_context_watch(alp_context *context);
+struct alpi_loop;
+/// Where the context keeps the parallel loop that runs: see tasks.h.
+struct alpi_loop **alpi_context_loop(alp_context *context);
+/// Whether code for x86-64-v3 (AVX2) may run: this machine has it, and max_isa allows it.
+bool alpi_context_has_v3(const alp_context *context);
 /// The host's scheduler, or NULL.
 const alp_context_options *alpi_context_options(const alp_context *context);
 

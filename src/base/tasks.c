@@ -12,7 +12,7 @@ static const double PROGRESS_INTERVAL = 0.05; // seconds between two calls of a 
 
 /// One running loop. The body's failures are kept by range number, so that the one reported is the
 /// lowest whatever the order in which ranges ran.
-typedef struct loop {
+typedef struct alpi_loop {
     alpi_task_fn *body;
     void *user;
     uint32_t count, grain;
@@ -108,6 +108,18 @@ static void loop_report(loop *l, bool always)
     if (!p->callback(p->user, &report)) {
         loop_fail(l, UINT32_MAX, ALP_ERROR_CANCELLED);
     }
+}
+
+bool alpi_loop_goes_on(alp_context *context)
+{
+    loop *l = *alpi_context_loop(context);
+    if (l == NULL) {
+        return true;
+    }
+    if (pthread_equal(pthread_self(), l->caller)) {
+        loop_report(l, false);
+    }
+    return !atomic_load_explicit(&l->stop, memory_order_relaxed);
 }
 
 static void loop_run_range(loop *l, uint32_t begin, uint32_t end, uint32_t worker)
@@ -264,6 +276,8 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
               .caller = pthread_self(),
               .started = alpi_seconds()};
     pthread_mutex_init(&l.lock, NULL);
+    loop **running = alpi_context_loop(context), *outer = *running;
+    *running = &l;
     loop_report(&l, true);
     const alp_context_options *options = alpi_context_options(context);
     struct alpi_pool *pool = NULL;
@@ -277,6 +291,7 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
     if (l.failure == ALP_OK) {
         loop_report(&l, true);
     }
+    *running = outer;
     pthread_mutex_destroy(&l.lock);
     if (l.failure == ALP_ERROR_CANCELLED) {
         return alpi_fail(context, ALP_ERROR_CANCELLED, "cancelled");

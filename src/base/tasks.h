@@ -29,6 +29,11 @@ typedef struct alpi_task_progress {
 alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grain,
                              alpi_task_fn *body, void *user, const alpi_task_progress *progress);
 
+/// For a body whose range takes long: tells the user where it is called by the thread that called
+/// alpi_parallel_for, and says whether the loop still wants results; if not, return CANCELLED.
+/// Outside of a loop: true.
+bool alpi_loop_goes_on(alp_context *context);
+
 enum { ALPI_SUM_LIMIT = 3 };
 /// Adds items [begin, end) to sums that begin at 0.
 typedef void alpi_sum_fn(const void *user, uint32_t begin, uint32_t end,

@@ -216,31 +216,42 @@ static void reference_ray(const void *user, uint64_t pixel, vec2 u, vec3 *origin
 }
 
 /// Radiance over the whole pixel, the sky included; alpha: what shows something.
-static void render_reference(const render_job *job, uint32_t index, float pixel[4])
+static void keep_reference(const render_job *job, uint32_t index, const alpi_reference_value *value,
+                           float covered)
 {
-    alpi_reference_value value;
-    float covered;
-    alpi_reference_pixel(&job->reference, reference_ray, job, index, &value, &covered);
+    float *pixel = (float *)job->image->pixels + 4 * (size_t)index;
     const float alpha = alpi_lighting_sky(job->lighting) != NULL ? 1.0f : covered;
     for (int k = 0; k < 3; k++) { // colour over what is covered, as of the other methods
-        pixel[k] = alpha > 0.0f ? value.mean[k] / alpha : 0.0f;
+        pixel[k] = alpha > 0.0f ? value->mean[k] / alpha : 0.0f;
     }
     pixel[3] = alpha;
     if (job->error != NULL) {
         float *error = (float *)job->error->pixels + 4 * (size_t)index;
         for (int k = 0; k < 3; k++) {
-            error[k] = alpha > 0.0f ? sqrtf(value.variance[k]) / alpha : 0.0f;
+            error[k] = alpha > 0.0f ? sqrtf(value->variance[k]) / alpha : 0.0f;
         }
         error[3] = alpha > 0.0f ? 1.0f : 0.0f;
     }
 }
 
+static alp_result render_reference(const render_job *job, uint32_t begin, uint32_t end)
+{
+    alpi_reference_value values[PIXELS_PER_RANGE];
+    float covered[PIXELS_PER_RANGE];
+    while (begin < end) {
+        const uint32_t count = end - begin < PIXELS_PER_RANGE ? end - begin : PIXELS_PER_RANGE;
+        ALP_TRY(alpi_reference_pixels(&job->reference, reference_ray, job, begin, count, values,
+                                      covered));
+        for (uint32_t i = 0; i < count; i++) {
+            keep_reference(job, begin + i, &values[i], covered[i]);
+        }
+        begin += count;
+    }
+    return ALP_OK;
+}
+
 static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
 {
-    if (job->options.method == ALP_RENDER_REFERENCE) {
-        render_reference(job, index, pixel);
-        return;
-    }
     uint32_t x = index % job->options.width, y = index / job->options.width;
     uint32_t key = alpi_random_key(job->options.occlusion.seed, index, STREAM_PIXEL);
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
@@ -281,6 +292,9 @@ static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_
 {
     (void)worker;
     const render_job *job = user;
+    if (job->options.method == ALP_RENDER_REFERENCE) {
+        return render_reference(job, begin, end);
+    }
     float *pixels = job->image->pixels;
     for (uint32_t i = begin; i < end; i++) {
         render_pixel(job, i, pixels + 4 * (size_t)i);

@@ -28,6 +28,7 @@ struct alpi_lighting {
     alpi_emitters emitters;
     alpi_sky *sky;      // may be NULL
     double sky_average; // π × mean radiance, mean of the channels
+    int only;           // the one class of which there is light; −1: several, or none
 };
 
 static double channel_mean(vec3 v)
@@ -126,6 +127,27 @@ static alp_result sort_lights(alpi_lighting *lighting)
     return result;
 }
 
+/// The class that draws need not be shared out to.
+static int only_class(const alpi_lighting *lighting)
+{
+    const alpi_punctual *p = &lighting->punctual;
+    const bool there[ALPI_LIGHT_CLASS_COUNT] = {
+        [ALPI_LIGHT_CLASS_PUNCTUAL] = p->listed + p->placed_count > 0,
+        [ALPI_LIGHT_CLASS_SUN] = lighting->sun_count > 0,
+        [ALPI_LIGHT_CLASS_SURFACE] = lighting->emitters.count > 0,
+        [ALPI_LIGHT_CLASS_SKY] = lighting->sky_average > 0.0};
+    int only = -1;
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        if (there[i]) {
+            if (only >= 0) {
+                return -1;
+            }
+            only = i;
+        }
+    }
+    return only;
+}
+
 static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
 {
     alp_context *context = lighting->scene->context;
@@ -137,6 +159,7 @@ static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *opti
     if (lighting->sky != NULL) {
         lighting->sky_average = ALPI_PI * channel_mean(alpi_sky_mean(lighting->sky));
     }
+    lighting->only = only_class(lighting);
     return ALP_OK;
 }
 
@@ -258,6 +281,7 @@ typedef struct place {
     vec3 point, normal;
     double weight[ALPI_LIGHT_CLASS_COUNT]; // sum 1, or all 0
     double sun_sum;                        // importance of all suns
+    bool by_area;                          // triangles are drawn from by area, not solid angle
 } place;
 
 /// Of the emissive triangles together, not more than a sky of the brightest one would give: their
@@ -269,11 +293,15 @@ static double emitters_importance(const alpi_emitters *emitters, vec3 point, vec
                                          ALPI_PI * emitters->largest);
 }
 
-static place place_at(const alpi_lighting *lighting, vec3 point, vec3 normal)
+static place place_at(const alpi_lighting *lighting, vec3 point, vec3 normal, bool by_area)
 {
-    place p = {.lighting = lighting, .point = point, .normal = normal};
+    place p = {.lighting = lighting, .point = point, .normal = normal, .by_area = by_area};
     for (uint32_t i = 0; i < lighting->sun_count; i++) {
         p.sun_sum += alpi_sun_importance(&lighting->suns[i], normal);
+    }
+    if (lighting->only >= 0) {
+        p.weight[lighting->only] = 1.0;
+        return p;
     }
     p.weight[ALPI_LIGHT_CLASS_PUNCTUAL] =
         alpi_punctual_importance(&lighting->punctual, point, normal);
@@ -308,27 +336,55 @@ static double escape_density(const place *p, vec3 direction)
     return density;
 }
 
-static double surface_density(const place *p, uint32_t triangle, vec3 direction)
+/// Density, per steradian, of directions to a triangle whose points are as likely everywhere:
+/// distance² / (area cosθ), where 2 area cosθ = |direction · (c1 − c0) × (c2 − c0)|.
+static double area_density(const vec3 corner[3], vec3 direction, double distance)
 {
-    const alpi_lighting *lighting = p->lighting;
-    uint32_t emitter = alpi_emitters_find(&lighting->emitters, triangle);
+    const vec3 cross = vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0]));
+    const double density = 2.0 * distance * distance / fabs((double)vec3_dot(direction, cross));
+    return isfinite(density) ? density : 0.0;
+}
+
+/// Probability of a class and of one emitter in it; 0: no emitter.
+static double emitter_probability(const place *p, uint32_t triangle)
+{
+    const alpi_emitters *emitters = &p->lighting->emitters;
+    const uint32_t emitter = alpi_emitters_find(emitters, triangle);
     if (emitter == ALPI_NONE || !(p->weight[ALPI_LIGHT_CLASS_SURFACE] > 0.0)) {
         return 0.0;
     }
-    vec3 corner[3];
-    alpi_triangle_corners(lighting->scene, triangle, corner);
-    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
     return p->weight[ALPI_LIGHT_CLASS_SURFACE] *
-           alpi_light_tree_probability(lighting->emitters.tree, p->point, p->normal, emitter) *
-           alpi_triangle_density(&view, double3_from(direction));
+           alpi_light_tree_probability(emitters->tree, p->point, p->normal, emitter);
+}
+
+static double surface_density(const place *p, uint32_t triangle, vec3 direction)
+{
+    const double probability = emitter_probability(p, triangle);
+    if (!(probability > 0.0)) {
+        return 0.0;
+    }
+    vec3 corner[3];
+    alpi_triangle_corners(p->lighting->scene, triangle, corner);
+    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
+    return probability * alpi_triangle_density(&view, double3_from(direction));
 }
 
 float alpi_lighting_density(const alpi_lighting *lighting, vec3 point, vec3 normal, vec3 direction,
                             uint32_t triangle)
 {
-    place p = place_at(lighting, point, normal);
+    place p = place_at(lighting, point, normal, false);
     return (float)(triangle == ALPI_NONE ? escape_density(&p, direction)
                                          : surface_density(&p, triangle, direction));
+}
+
+float alpi_lighting_density_by_area(const alpi_lighting *lighting, vec3 point, vec3 normal,
+                                    vec3 direction, uint32_t triangle, float distance)
+{
+    const place p = place_at(lighting, point, normal, true);
+    vec3 corner[3];
+    alpi_triangle_corners(lighting->scene, triangle, corner);
+    return (float)(emitter_probability(&p, triangle) *
+                   area_density(corner, direction, (double)distance));
 }
 
 static bool sample_punctual(const place *p, double pick, alpi_light_sample *sample)
@@ -346,6 +402,41 @@ static bool sample_punctual(const place *p, double pick, alpi_light_sample *samp
     return true;
 }
 
+/// A direction that is even over the triangle's solid angle, and where it meets it.
+static double aim_by_solid_angle(const place *p, const vec3 corner[3], vec2 u,
+                                 alpi_light_sample *sample, float b[2])
+{
+    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
+    // All that follows is of the direction as a float, so that alpi_lighting_density finds it
+    // again.
+    sample->direction = double3_to_vec3(alpi_triangle_sample(&view, u));
+    double3 direction = double3_from(sample->direction);
+    alpi_triangle_hit hit = alpi_triangle_hit_at(&view, direction);
+    sample->distance = (float)hit.distance;
+    b[0] = hit.b1;
+    b[1] = hit.b2;
+    return alpi_triangle_density(&view, direction);
+}
+
+/// A direction to a point that is even over the triangle's area: √ of one coordinate.
+static double aim_by_area(const place *p, const vec3 corner[3], vec2 u, alpi_light_sample *sample,
+                          float b[2])
+{
+    const float root = sqrtf(u.x);
+    b[0] = root * (1.0f - u.y);
+    b[1] = root * u.y;
+    const vec3 at = vec3_mad(vec3_mad(corner[0], b[0], vec3_sub(corner[1], corner[0])), b[1],
+                             vec3_sub(corner[2], corner[0]));
+    const double3 to = double3_between(p->point, at);
+    const double distance = double3_length(to);
+    if (!(distance > 0.0)) {
+        return 0.0;
+    }
+    sample->direction = double3_to_vec3(double3_scale(to, 1.0 / distance));
+    sample->distance = (float)distance;
+    return area_density(corner, sample->direction, distance);
+}
+
 static bool sample_surface(const place *p, double pick, vec2 u, alpi_light_sample *sample)
 {
     const alpi_emitters *emitters = &p->lighting->emitters;
@@ -354,21 +445,15 @@ static bool sample_surface(const place *p, double pick, vec2 u, alpi_light_sampl
     if (!(part > 0.0)) {
         return false;
     }
-    uint32_t triangle = emitters->triangles[emitter];
     vec3 corner[3];
-    alpi_triangle_corners(p->lighting->scene, triangle, corner);
-    alpi_triangle_view view = alpi_triangle_view_from(p->point, corner);
-    // All that follows is of the direction as a float, so that alpi_lighting_density finds it
-    // again.
-    sample->direction = double3_to_vec3(alpi_triangle_sample(&view, u));
-    double3 direction = double3_from(sample->direction);
-    alpi_triangle_hit hit = alpi_triangle_hit_at(&view, direction);
-    sample->triangle = triangle;
-    sample->distance = (float)hit.distance;
-    sample->light = alpi_surface_emission(p->lighting->scene, triangle, hit.b1, hit.b2,
+    float b[2] = {0.0f, 0.0f};
+    sample->triangle = emitters->triangles[emitter];
+    alpi_triangle_corners(p->lighting->scene, sample->triangle, corner);
+    const double density = p->by_area ? aim_by_area(p, corner, u, sample, b)
+                                      : aim_by_solid_angle(p, corner, u, sample, b);
+    sample->light = alpi_surface_emission(p->lighting->scene, sample->triangle, b[0], b[1],
                                           vec3_scale(sample->direction, -1.0f));
-    sample->density = (float)(p->weight[ALPI_LIGHT_CLASS_SURFACE] * part *
-                              alpi_triangle_density(&view, direction));
+    sample->density = (float)(p->weight[ALPI_LIGHT_CLASS_SURFACE] * part * density);
     return true;
 }
 
@@ -406,19 +491,17 @@ static double finer(float pick, vec2 u)
     return (double)pick + (double)alpi_hash32(alpi_hash32(x) ^ y) * 0x1p-32 * 0x1p-24;
 }
 
-bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal, float pick,
-                          vec2 u, alpi_light_sample *sample)
+static bool draw_light(const place *p, float pick, vec2 u, alpi_light_sample *sample)
 {
-    place p = place_at(lighting, point, normal);
     double rest = finer(pick, u);
     int kind = -1;
     for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
-        if (p.weight[i] > 0.0) {
+        if (p->weight[i] > 0.0) {
             kind = i;
-            if (rest < p.weight[i]) {
+            if (rest < p->weight[i]) {
                 break;
             }
-            rest -= p.weight[i];
+            rest -= p->weight[i];
         }
     }
     *sample = (alpi_light_sample){.distance = INFINITY, .triangle = ALPI_NONE};
@@ -426,10 +509,24 @@ bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal
         return false;
     }
     sample->kind = (alpi_light_class)kind;
-    rest = fmin(rest / p.weight[kind], 1.0 - 0x1p-53);
-    bool drawn = sample->kind == ALPI_LIGHT_CLASS_PUNCTUAL  ? sample_punctual(&p, rest, sample)
-                 : sample->kind == ALPI_LIGHT_CLASS_SURFACE ? sample_surface(&p, rest, u, sample)
-                                                            : sample_escape(&p, rest, u, sample);
+    rest = fmin(rest / p->weight[kind], 1.0 - 0x1p-53);
+    bool drawn = sample->kind == ALPI_LIGHT_CLASS_PUNCTUAL  ? sample_punctual(p, rest, sample)
+                 : sample->kind == ALPI_LIGHT_CLASS_SURFACE ? sample_surface(p, rest, u, sample)
+                                                            : sample_escape(p, rest, u, sample);
     return drawn && sample->density > 0.0f && isfinite(sample->density) && is_lit(sample->light) &&
-           vec3_dot(sample->direction, normal) > 0.0f;
+           vec3_dot(sample->direction, p->normal) > 0.0f;
+}
+
+bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal, float pick,
+                          vec2 u, alpi_light_sample *sample)
+{
+    const place p = place_at(lighting, point, normal, false);
+    return draw_light(&p, pick, u, sample);
+}
+
+bool alpi_lighting_sample_by_area(const alpi_lighting *lighting, vec3 point, vec3 normal,
+                                  float pick, vec2 u, alpi_light_sample *sample)
+{
+    const place p = place_at(lighting, point, normal, true);
+    return draw_light(&p, pick, u, sample);
 }

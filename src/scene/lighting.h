@@ -59,6 +59,14 @@ bool alpi_lighting_sample(const alpi_lighting *lighting, vec3 point, vec3 normal
 float alpi_lighting_density(const alpi_lighting *lighting, vec3 point, vec3 normal, vec3 direction,
                             uint32_t triangle);
 
+/// The same two with less care: directions to emissive triangles are even over their areas, not
+/// their solid angles, which takes a fraction of the time and makes more noise near them.
+bool alpi_lighting_sample_by_area(const alpi_lighting *lighting, vec3 point, vec3 normal,
+                                  float pick, vec2 u, alpi_light_sample *sample);
+/// @param distance metres from the point to where the direction meets emissive triangle `triangle`
+float alpi_lighting_density_by_area(const alpi_lighting *lighting, vec3 point, vec3 normal,
+                                    vec3 direction, uint32_t triangle, float distance);
+
 /// Radiance of sky and sun disks in a direction that leaves the scene.
 vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction);
 
@@ -74,7 +82,7 @@ const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting); // may be NULL
 uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting);
 
 /// Radiance that leaves a triangle towards `direction` at barycentrics: emission × texture, at most
-/// 1e20; 0 from behind unless double-sided, and where alpi_surface_is_cut lets rays through.
+/// 1e20; 0 from behind unless double-sided, and where a mask cuts; of a blended surface its alpha.
 vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, float b2,
                            vec3 direction);
 

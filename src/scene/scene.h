@@ -167,6 +167,18 @@ float alpi_surface_transmission(const alp_scene *scene, uint32_t triangle, float
 bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 /// Whether the triangle's material is double-sided; false without a material.
 bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle);
+/// Whether light passes through the surface's material in part: blended, or with transmission.
+bool alpi_surface_is_pane(const alp_scene *scene, uint32_t surface);
+
+/// What becomes of light that meets a surface, with alpha a (1 unless blended), base colour c and
+/// transmission t, less its metallic part. glTF says how a blended surface covers what is behind
+/// it, 1 − a, and not what it does to light: here its colour takes hold with its alpha.
+typedef struct alpi_pane {
+    vec3 through; // goes straight on: (1 − a) lerp(1, c, a) + a t c
+    float kept;   // of this share the material reflects its albedo: a (1 − t)
+} alpi_pane;
+alpi_pane alpi_surface_pane(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
 /// Whether any point of the surface can be cut (so that the tracer must ask).
 bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 

@@ -156,14 +156,11 @@ float alpi_sky_table_density(const alpi_sky_table *table, vec3 direction)
 /// Index of the first sum above u, and u's place within it. Cells without weight are never found.
 static uint32_t find_cell(const double *sums, uint32_t count, double u, double *rest)
 {
-    uint32_t first = 0, last = count - 1;
-    while (first < last) {
-        uint32_t middle = first + (last - first) / 2;
-        if (sums[middle] > u) {
-            last = middle;
-        } else {
-            first = middle + 1;
-        }
+    uint32_t first = 0; // of [first, first + count), which holds it
+    while (count > 1) { // without a branch that no processor could foresee
+        const uint32_t half = count / 2;
+        first += sums[first + half - 1] > u ? 0 : half;
+        count -= half;
     }
     double below = first > 0 ? sums[first - 1] : 0.0;
     *rest = clamp_unit((u - below) / (sums[first] - below));

@@ -139,23 +139,65 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface)
     return material != ALPI_NONE && scene->materials[material].alpha_mode != ALPI_ALPHA_OPAQUE;
 }
 
+static vec3 base_color_at(const alp_scene *scene, const alpi_material *material, surface_point at)
+{
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, vertex[4], color[3];
+    read_texture(scene, &material->base_color_texture, at, true, texel);
+    read_vertex_color(scene, at.triangle, at.b1, at.b2, vertex);
+    for (int k = 0; k < 3; k++) {
+        color[k] = material->base_color[k] * vertex[k] * texel[k];
+    }
+    return vec3_load(color);
+}
+
+static float clamp_between(float value, float low, float high)
+{
+    return fminf(fmaxf(value, low), high);
+}
+
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2)
 {
     const alpi_material *material = material_of(scene, triangle);
     if (material == NULL) {
         return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
     }
-    float color[4], texel[4], vertex[4];
-    const surface_point at = {triangle, b1, b2};
-    bool textured = read_texture(scene, &material->base_color_texture, at, true, texel);
-    read_vertex_color(scene, triangle, b1, b2, vertex);
-    const float metallic = alpi_surface_metallic(scene, triangle, b1, b2);
-    for (int k = 0; k < 3; k++) {
-        float value =
-            material->base_color[k] * vertex[k] * (textured ? texel[k] : 1.0f) * (1.0f - metallic);
-        color[k] = fminf(fmaxf(value, 0.0f), ALBEDO_LIMIT);
+    const vec3 color = base_color_at(scene, material, (surface_point){triangle, b1, b2});
+    const float dielectric = 1.0f - alpi_surface_metallic(scene, triangle, b1, b2);
+    return (vec3){clamp_between(color.x * dielectric, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.y * dielectric, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.z * dielectric, 0.0f, ALBEDO_LIMIT)};
+}
+
+bool alpi_surface_is_pane(const alp_scene *scene, uint32_t surface)
+{
+    const uint32_t index = scene->surfaces[surface].material;
+    const alpi_material *m = index == ALPI_NONE ? NULL : &scene->materials[index];
+    return m != NULL && (m->alpha_mode == ALPI_ALPHA_BLEND || m->transmission > 0.0f);
+}
+
+alpi_pane alpi_surface_pane(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    const alpi_material *m = material_of(scene, triangle);
+    alpi_pane pane = {.kept = 1.0f};
+    if (m == NULL) {
+        return pane;
     }
-    return (vec3){color[0], color[1], color[2]};
+    const bool blended = m->alpha_mode == ALPI_ALPHA_BLEND;
+    const float a =
+        blended ? clamp_between(alpi_surface_alpha(scene, triangle, b1, b2), 0.0f, 1.0f) : 1.0f;
+    const float t =
+        clamp_between(alpi_surface_transmission(scene, triangle, b1, b2), 0.0f, 1.0f) *
+        (1.0f - clamp_between(alpi_surface_metallic(scene, triangle, b1, b2), 0.0f, 1.0f));
+    const vec3 color = base_color_at(scene, m, (surface_point){triangle, b1, b2});
+    const float c[3] = {clamp_between(color.x, 0.0f, 1.0f), clamp_between(color.y, 0.0f, 1.0f),
+                        clamp_between(color.z, 0.0f, 1.0f)};
+    float through[3];
+    for (int k = 0; k < 3; k++) {
+        through[k] = (1.0f - a) * (1.0f - a + a * c[k]) + a * t * c[k];
+    }
+    pane.through = vec3_load(through);
+    pane.kept = a * (1.0f - t);
+    return pane;
 }
 
 bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
@@ -195,12 +237,17 @@ vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, 
     vec3 c[3];
     alpi_triangle_corners(scene, triangle, c);
     bool behind = !(vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], dark), direction) > 0.0f);
-    if ((behind && !m->double_sided) || alpi_surface_is_cut(scene, triangle, b1, b2)) {
+    const bool masked = m->alpha_mode == ALPI_ALPHA_MASK;
+    if ((behind && !m->double_sided) ||
+        (masked && alpi_surface_is_cut(scene, triangle, b1, b2))) {
         return dark;
     }
+    const float covered = m->alpha_mode == ALPI_ALPHA_BLEND
+                              ? clamp_between(alpi_surface_alpha(scene, triangle, b1, b2), 0, 1)
+                              : 1.0f;
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     read_texture(scene, &m->emission_texture, (surface_point){triangle, b1, b2}, true, texel);
-    return (vec3){bounded_radiance(m->emission[0] * texel[0]),
-                  bounded_radiance(m->emission[1] * texel[1]),
-                  bounded_radiance(m->emission[2] * texel[2])};
+    return (vec3){bounded_radiance(m->emission[0] * texel[0] * covered),
+                  bounded_radiance(m->emission[1] * texel[1] * covered),
+                  bounded_radiance(m->emission[2] * texel[2] * covered)};
 }

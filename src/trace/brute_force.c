@@ -59,8 +59,9 @@ static bool passes(const alp_scene *scene, uint32_t triangle, const hit *h,
 {
     uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
     bool double_sided = material != ALPI_NONE && scene->materials[material].double_sided;
+    const bool met = filter.panes && alpi_surface_is_pane(scene, scene->triangle_surface[triangle]);
     return (filter.one_sided && h->from_behind && !double_sided) ||
-           alpi_surface_is_cut(scene, triangle, (float)h->b1, (float)h->b2);
+           (!met && alpi_surface_is_cut(scene, triangle, (float)h->b1, (float)h->b2));
 }
 
 void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,

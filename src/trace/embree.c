@@ -13,12 +13,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Triangles are in two geometries: those that always stop a ray, and those whose material may cut
-/// it, which alone pay for a filter call at every hit.
+/// Triangles are in three geometries: those that always stop a ray, and those whose material may cut
+/// it or let it through in part, which alone pay for a filter call at every hit.
 typedef enum geometry_kind {
     GEOMETRY_SOLID = 0,
     GEOMETRY_CUT = 1,
-    GEOMETRY_COUNT = 2
+    GEOMETRY_PANE = 2,
+    GEOMETRY_COUNT = 3
 } geometry_kind;
 
 struct alpi_tracer {
@@ -34,6 +35,7 @@ struct alpi_tracer {
 typedef struct trace_context {
     struct RTCIntersectContext embree; // first: filters get its address
     const alpi_tracer *tracer;
+    bool panes; // the caller sees to them
 } trace_context;
 
 // --- filters -------------------------------------------------------------------------------------
@@ -74,6 +76,27 @@ static void cut_filter(const struct RTCFilterFunctionNArguments *a)
                                                     lane_float(a->hit, a->N, HIT_V, i))) {
             a->valid[i] = 0;
         }
+    }
+}
+
+/// Panes do not stop shadow rays whose caller sees to them.
+static void pane_shadow_filter(const struct RTCFilterFunctionNArguments *a)
+{
+    const trace_context *context = (const void *)a->context;
+    if (!context->panes) {
+        cut_filter(a);
+        return;
+    }
+    for (unsigned i = 0; i < a->N; i++) {
+        a->valid[i] = 0;
+    }
+}
+
+static void pane_filter(const struct RTCFilterFunctionNArguments *a)
+{
+    const trace_context *context = (const void *)a->context;
+    if (!context->panes) {
+        cut_filter(a);
     }
 }
 
@@ -158,7 +181,9 @@ static geometry_kind kind_of(const alp_scene *scene, const bool *surfaces, uint3
     if (!scene->triangle_usable[triangle] || !is_chosen(surfaces, surface)) {
         return GEOMETRY_COUNT;
     }
-    return alpi_surface_has_cuts(scene, surface) ? GEOMETRY_CUT : GEOMETRY_SOLID;
+    return alpi_surface_is_pane(scene, surface)    ? GEOMETRY_PANE
+           : alpi_surface_has_cuts(scene, surface) ? GEOMETRY_CUT
+                                                   : GEOMETRY_SOLID;
 }
 
 static void add_triangle(alpi_tracer *tracer, geometry_kind kind, uint32_t triangle)
@@ -233,6 +258,10 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
     if (kind == GEOMETRY_CUT) {
         rtcSetGeometryIntersectFilterFunction(geometry, cut_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, cut_filter);
+    }
+    if (kind == GEOMETRY_PANE) {
+        rtcSetGeometryIntersectFilterFunction(geometry, pane_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, pane_shadow_filter);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tracer->embree_scene, geometry, kind);
@@ -322,7 +351,7 @@ alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progre
 
 static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
 {
-    trace_context context = {.tracer = tracer};
+    trace_context context = {.tracer = tracer, .panes = filter.panes};
     rtcInitIntersectContext(&context.embree);
     context.embree.filter = filter.one_sided ? one_sided_filter : NULL;
     return context;
@@ -350,7 +379,13 @@ static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
 
 uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer)
 {
-    return tracer->count[GEOMETRY_SOLID] + tracer->count[GEOMETRY_CUT];
+    return tracer->count[GEOMETRY_SOLID] + tracer->count[GEOMETRY_CUT] +
+           tracer->count[GEOMETRY_PANE];
+}
+
+bool alpi_tracer_has_panes(const alpi_tracer *tracer)
+{
+    return tracer->count[GEOMETRY_PANE] > 0;
 }
 
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,

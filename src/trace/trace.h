@@ -54,6 +54,9 @@ typedef struct alpi_tracer alpi_tracer;
 /// What a ray may pass through, besides cut surfaces (alpha), which are always open.
 typedef struct alpi_trace_filter {
     bool one_sided; // single-sided materials are open from behind
+    bool panes;     // the caller sees to panes (alpi_surface_is_pane): they do not stop shadow rays,
+                    // and meet other rays whatever their alpha. Else BLEND is cut at one half and
+                    // transmission opaque
 } alpi_trace_filter;
 
 /// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets
@@ -72,6 +75,8 @@ void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
 
 /// How many triangles stop its rays.
 uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer);
+/// Whether any of them is of a pane.
+bool alpi_tracer_has_panes(const alpi_tracer *tracer);
 
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
 /// all ones. A lane that hits anything gets maximum = −∞, others are left alone.

@@ -137,9 +137,7 @@ static uint32_t shared_bits(uint32_t samples)
 static alpi_occlusion_kernel *choose_kernel(alp_context *context)
 {
 #ifdef ALPI_HAS_V3_KERNEL
-    const char *isa = alpi_context_options(context)->max_isa;
-    if ((isa == NULL || strcmp(isa, "avx2") == 0) && __builtin_cpu_supports("avx2") &&
-        __builtin_cpu_supports("bmi2")) {
+    if (alpi_context_has_v3(context)) {
         return alpi_occlusion_kernel_v3;
     }
 #endif

@@ -2,240 +2,19 @@
 #include "transport/reference.h"
 
 #include "base/random.h"
-#include "base/warp.h"
-#include "transport/hit.h"
+#include "base/tasks.h"
+#include "transport/paths.h"
 
 #include <math.h>
+#include <string.h>
 
-// Uses of random numbers at one vertex of a path.
-enum { USE_PLACE = 0, USE_PICK = 1, USE_LIGHT = 2, USE_RAY = 3, USE_ROULETTE = 4, USE_COUNT = 5 };
-enum { STREAM_PATH = 5, CAMERA_DEPTH = -1 };
-// Paths that bring less than this share of what they could at first play roulette. A larger one
-// ends more paths and makes more noise.
-static const float ROULETTE_SHARE = 0.1f;
-
-/// One path. `throughput` multiplies the irradiance at its vertex.
-typedef struct path {
-    alpi_receiver_point at;
-    float throughput[3], light[3];
-    float first;       // throughput at the start, which roulette does not count
-    float ray_density; // per steradian, of the ray that is traced next; < 0: light was not asked
-    vec3 origin, direction;
-    int depth; // bounces behind it; CAMERA_DEPTH: the ray comes from the eye
-    bool alive;
-    uint32_t sample; // of its replicate
-    uint32_t key;    // of the replicate's random numbers
-} path;
-
-/// Eight paths side by side.
-typedef struct path_packet {
-    path paths[ALPI_PACKET];
-    uint32_t covered; // bit i: the first ray of path i, if from the eye, met something
-} path_packet;
-
-static vec2 draw(const path *p, int use)
-{
-    const uint32_t vertex = (uint32_t)(p->depth + 1) * USE_COUNT + (uint32_t)use;
-    return alpi_sample_2d(alpi_hash32(p->key ^ alpi_hash32(vertex + 1u)), p->sample);
-}
-
-// --- rays ----------------------------------------------------------------------------------------
-
-static vec3 ray_start(const alpi_receiver_point *p)
-{
-    return vec3_mad(p->position, p->offset, p->geometric_normal);
-}
-
-// --- light that is asked for ---------------------------------------------------------------------
-
-/// What a light sample gives through a path, before it is known whether anything is in between.
-static bool weigh_sample(const path *p, const alpi_light_sample *s, float given[3])
-{
-    const float cosine = vec3_dot(s->direction, p->at.shading_normal);
-    if (!(cosine > 0.0f)) {
-        return false;
-    }
-    const bool hit_by_chance = s->kind != ALPI_LIGHT_CLASS_PUNCTUAL;
-    const float other = hit_by_chance ? cosine * (float)(1.0 / ALPI_PI) : 0.0f;
-    const float factor = cosine / (s->density + other); // balance heuristic × 1 / density
-    given[0] = p->throughput[0] * s->light.x * factor;
-    given[1] = p->throughput[1] * s->light.y * factor;
-    given[2] = p->throughput[2] * s->light.z * factor;
-    return isfinite(factor);
-}
-
-/// Asks one light from each vertex.
-static void add_next_event(const alpi_reference *r, path_packet *packet)
-{
-    alpi_rays rays;
-    float given[ALPI_PACKET][3];
-    uint32_t active = 0;
-    alpi_rays_clear(&rays);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        path *p = &packet->paths[i];
-        alpi_light_sample s;
-        const vec3 origin = p->alive ? ray_start(&p->at) : (vec3){0.0f, 0.0f, 0.0f};
-        if (!p->alive ||
-            !alpi_lighting_sample(r->lighting, origin, p->at.shading_normal, draw(p, USE_PICK).x,
-                                  draw(p, USE_LIGHT), &s) ||
-            !weigh_sample(p, &s, given[i])) {
-            continue;
-        }
-        // Short of the emitter, which would stop the ray itself.
-        const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * p->at.offset;
-        if (reach > 0.0f) {
-            alpi_rays_set(&rays, i, origin, s.direction, reach);
-            active |= 1u << i;
-        } else { // nothing fits in between
-            for (int k = 0; k < 3; k++) {
-                p->light[k] += given[i][k];
-            }
-        }
-    }
-    if (active != 0) {
-        alpi_trace_occluded(r->tracer, &rays, 1, active, r->filter, false);
-    }
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        for (int k = 0; k < 3 && (active >> i & 1u) != 0 && rays.maximum[i] >= 0.0f; k++) {
-            packet->paths[i].light[k] += given[i][k];
-        }
-    }
-}
-
-// --- light that is met ---------------------------------------------------------------------------
-
-/// Sends each path on in a cosine-distributed direction.
-static void aim(const alpi_reference *r, path_packet *packet)
-{
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        path *p = &packet->paths[i];
-        if (!p->alive) {
-            continue;
-        }
-        vec3 t, b;
-        vec3_frame(p->at.shading_normal, &t, &b);
-        const vec3 local = alpi_warp_cosine_cone(draw(p, USE_RAY), 1.0f);
-        const vec3 d =
-            vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, p->at.shading_normal);
-        p->origin = ray_start(&p->at);
-        p->direction = vec3_normalize_or(d, p->at.shading_normal);
-        p->ray_density = r->next_event ? local.z * (float)(1.0 / ALPI_PI) : -1.0f;
-        p->alive = local.z > 0.0f;
-    }
-}
-
-/// Adds radiance that a ray met, π times for its density cosθ / π, with its share of what the light
-/// sampler would have found too.
-static void add_met(const alpi_reference *r, path *p, vec3 radiance, uint32_t triangle)
-{
-    if (radiance.x <= 0.0f && radiance.y <= 0.0f && radiance.z <= 0.0f) {
-        return;
-    }
-    float weight = (float)ALPI_PI;
-    if (p->ray_density >= 0.0f) {
-        const float asked = alpi_lighting_density(r->lighting, p->origin, p->at.shading_normal,
-                                                  p->direction, triangle);
-        weight *= p->ray_density / (p->ray_density + asked);
-    }
-    p->light[0] += p->throughput[0] * weight * radiance.x;
-    p->light[1] += p->throughput[1] * weight * radiance.y;
-    p->light[2] += p->throughput[2] * weight * radiance.z;
-}
-
-/// Ends a weak path by chance; those that go on make up for it.
-static void play_roulette(path *p)
-{
-    const float most = fmaxf(p->throughput[0], fmaxf(p->throughput[1], p->throughput[2]));
-    const float survival = most / (ROULETTE_SHARE * p->first);
-    if (survival >= 1.0f) {
-        return;
-    }
-    p->alive = draw(p, USE_ROULETTE).x < survival;
-    for (int k = 0; k < 3 && p->alive; k++) {
-        p->throughput[k] /= survival;
-    }
-}
-
-static void arrive(const alpi_reference *r, path *p, const alpi_hits *hits, int lane)
-{
-    const uint32_t triangle = hits->triangle[lane];
-    const float b1 = hits->b1[lane], b2 = hits->b2[lane];
-    bool behind = false;
-    const alpi_receiver_point at = alpi_hit_point(r->scene, hits, lane, p->direction, &behind);
-    const vec3 back = vec3_scale(p->direction, -1.0f);
-    add_met(r, p, alpi_surface_emission(r->scene, triangle, b1, b2, back), triangle);
-    if (p->depth >= (int)r->bounces ||
-        (behind && !alpi_surface_is_double_sided(r->scene, triangle))) {
-        p->alive = false; // a single-sided surface is black from behind
-        return;
-    }
-    const vec3 albedo = alpi_surface_albedo(r->scene, triangle, b1, b2);
-    p->throughput[0] *= albedo.x;
-    p->throughput[1] *= albedo.y;
-    p->throughput[2] *= albedo.z;
-    p->at = at;
-    p->depth++;
-    play_roulette(p);
-}
-
-static void trace_packet(const alpi_reference *r, path_packet *packet)
-{
-    alpi_rays rays;
-    alpi_hits hits;
-    uint32_t active = 0;
-    alpi_rays_clear(&rays);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const path *p = &packet->paths[i];
-        if (p->alive) {
-            alpi_rays_set(&rays, i, p->origin, p->direction, INFINITY);
-            active |= 1u << i;
-        }
-    }
-    alpi_trace_nearest(r->tracer, &rays, active, r->filter, &hits);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        path *p = &packet->paths[i];
-        if (!p->alive) {
-            continue;
-        }
-        if (hits.triangle[i] == ALPI_NONE) {
-            const vec3 sky = alpi_lighting_escaped(r->lighting, p->direction);
-            const bool shows = sky.x > 0.0f || sky.y > 0.0f || sky.z > 0.0f; // a sun's disk too
-            packet->covered |= p->depth == CAMERA_DEPTH && shows ? 1u << i : 0u;
-            add_met(r, p, sky, ALPI_NONE);
-            p->alive = false;
-        } else {
-            packet->covered |= p->depth == CAMERA_DEPTH ? 1u << i : 0u;
-            arrive(r, p, &hits, i);
-        }
-    }
-}
-
-static bool any_alive(const path_packet *packet)
-{
-    bool alive = false;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        alive = alive || packet->paths[i].alive;
-    }
-    return alive;
-}
-
-/// From vertices to the ends of all paths.
-static void run_paths(const alpi_reference *r, path_packet *packet)
-{
-    while (any_alive(packet)) {
-        if (r->next_event) {
-            add_next_event(r, packet);
-        }
-        aim(r, packet);
-        trace_packet(r, packet);
-    }
-}
+enum { STREAM_PATH = 5, PATHS_PER_RANGE = 4096 /* a few milliseconds */ };
 
 // --- means ---------------------------------------------------------------------------------------
 
 typedef struct replicate_sums {
     double light[ALPI_REFERENCE_REPLICATES][3];
-    double covered;
+    uint32_t covered;
 } replicate_sums;
 
 /// How many paths each replicate has.
@@ -250,31 +29,15 @@ uint32_t alpi_reference_samples(const alpi_reference *reference)
     return samples_each(reference) * ALPI_REFERENCE_REPLICATES;
 }
 
-/// A fresh path of sample `index` of all: the replicates take turns.
-static path start_path(const alpi_reference *r, uint64_t receiver, uint32_t index, float first,
-                       int depth)
+static void add_path(const alpi_path_wave *wave, uint32_t slot, uint32_t sample,
+                     replicate_sums *sums)
 {
-    const uint32_t replicate = index % ALPI_REFERENCE_REPLICATES;
-    const uint32_t key = alpi_random_key(r->seed, receiver, STREAM_PATH);
-    path p = {.first = first,
-              .depth = depth,
-              .ray_density = -1.0f,
-              .sample = index / ALPI_REFERENCE_REPLICATES,
-              .key = alpi_hash32(key ^ alpi_hash32(replicate + 1u)),
-              .throughput = {first, first, first},
-              .alive = true};
-    return p;
-}
-
-static void add_paths(const path_packet *packet, uint32_t first, replicate_sums *sums)
-{
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        double *sum = sums->light[(first + i) % ALPI_REFERENCE_REPLICATES];
-        for (int k = 0; k < 3; k++) {
-            sum[k] += (double)packet->paths[i].light[k];
-        }
-        sums->covered += (double)(packet->covered >> i & 1u);
-    }
+    double *sum = sums->light[sample % ALPI_REFERENCE_REPLICATES];
+    const vec3 light = alpi_paths_light(wave, slot);
+    sum[0] += (double)light.x;
+    sum[1] += (double)light.y;
+    sum[2] += (double)light.z;
+    sums->covered += wave->covered[slot];
 }
 
 /// Mean of the replicates' means, and its variance by their spread.
@@ -295,6 +58,109 @@ static void finish(const replicate_sums *sums, uint32_t each, alpi_reference_val
     }
 }
 
+/// Panes are this room's to see to. A tail may come through one of them from one receiver and past it
+/// from another: then nothing is shared.
+static alpi_reference with_panes(const alpi_reference *reference)
+{
+    alpi_reference own = *reference;
+    own.filter.panes = alpi_tracer_has_panes(reference->tracer);
+    own.share = reference->share && !own.filter.panes;
+    return own;
+}
+
+// --- waves ---------------------------------------------------------------------------------------
+
+/// A run of items (receivers or pixels), each with as many paths. Waves go on from one item to the
+/// next, so that they are full whatever the number of paths.
+typedef struct path_run {
+    const alpi_reference *reference;
+    uint32_t begin, end; // items
+    uint32_t samples;    // of each
+    uint32_t lanes;      // so many items share what their paths find
+    int depth;           // −1: from the eye
+    float first;         // throughput of a fresh path
+    uint64_t (*key)(const struct path_run *run, uint32_t item);
+    /// Places or aims the slots whose items and samples are listed, by their u and v.
+    void (*place)(const struct path_run *run, alpi_path_wave *wave, const uint32_t *items);
+    void (*take)(const struct path_run *run, uint32_t item, const replicate_sums *sums);
+    void *user;
+} path_run;
+
+/// Where a run is: sample `sample` of the items of one block comes next.
+typedef struct run_cursor {
+    uint32_t block, lanes; // items [block, block + lanes)
+    uint32_t sample;
+} run_cursor;
+
+static void open_block(const path_run *run, uint32_t block, run_cursor *cursor)
+{
+    const uint32_t left = run->end - block;
+    *cursor = (run_cursor){block, left < run->lanes ? left : run->lanes, 0};
+}
+
+/// A fresh path; the replicates take turns.
+static void start_path(const path_run *run, const run_cursor *at, uint32_t lane, uint32_t slot,
+                       alpi_path_wave *w)
+{
+    const uint32_t replicate = at->sample % ALPI_REFERENCE_REPLICATES;
+    const uint64_t item_key = run->key(run, at->block + lane);
+    const uint32_t key = alpi_random_key(run->reference->seed, item_key, STREAM_PATH);
+    w->key[slot] = alpi_hash32(key ^ alpi_hash32(replicate + 1u));
+    w->sample[slot] = at->sample / ALPI_REFERENCE_REPLICATES;
+    w->event[slot] = 0;
+    w->depth[slot] = run->depth;
+    w->slot[slot] = slot;
+    w->block[slot] = slot - lane;
+    w->lanes[slot] = at->lanes;
+    w->throughput.x[slot] = w->throughput.y[slot] = w->throughput.z[slot] = run->first;
+}
+
+/// Fills a wave; a sample of a block is never parted. @param items, samples out: of each slot
+static void fill_wave(const path_run *run, run_cursor *at, alpi_path_wave *w, uint32_t *items,
+                      uint32_t *samples)
+{
+    w->count = 0;
+    while (at->lanes > 0 && w->count + at->lanes <= ALPI_WAVE) {
+        for (uint32_t lane = 0; lane < at->lanes; lane++) {
+            items[w->count + lane] = at->block + lane;
+            samples[w->count + lane] = at->sample;
+            start_path(run, at, lane, w->count + lane, w);
+        }
+        w->count += at->lanes;
+        if (++at->sample == run->samples) {
+            open_block(run, at->block + at->lanes, at);
+        }
+    }
+}
+
+static alp_result run_paths(const path_run *run)
+{
+    alpi_path_wave wave;
+    uint32_t items[ALPI_WAVE], samples[ALPI_WAVE];
+    replicate_sums sums[ALPI_PACKET] = {{{{0}}, 0}};
+    run_cursor cursor;
+    open_block(run, run->begin, &cursor);
+    while (cursor.lanes > 0) {
+        fill_wave(run, &cursor, &wave, items, samples);
+        const uint32_t count = wave.count;
+        alpi_paths_draw_places(run->reference, &wave);
+        run->place(run, &wave, items);
+        alpi_paths_run(run->reference, &wave);
+        for (uint32_t i = 0; i < count; i++) {
+            replicate_sums *sum = &sums[(items[i] - run->begin) % run->lanes];
+            add_path(&wave, i, samples[i], sum);
+            if (samples[i] + 1 == run->samples) {
+                run->take(run, items[i], sum);
+                memset(sum, 0, sizeof *sum);
+            }
+        }
+        if (!alpi_loop_goes_on(run->reference->context)) {
+            return ALP_ERROR_CANCELLED;
+        }
+    }
+    return ALP_OK;
+}
+
 // --- receivers -----------------------------------------------------------------------------------
 
 typedef struct irradiance_job {
@@ -304,40 +170,47 @@ typedef struct irradiance_job {
     alpi_reference_value *values;
 } irradiance_job;
 
-static void gather_receiver(const irradiance_job *job, uint32_t receiver)
+static uint32_t receiver_of(const irradiance_job *job, uint32_t item)
 {
-    const alpi_reference *r = job->reference;
-    const uint32_t each = samples_each(r);
-    replicate_sums sums = {{{0}}, 0.0};
-    for (uint32_t first = 0; first < each * ALPI_REFERENCE_REPLICATES; first += ALPI_PACKET) {
-        path_packet packet = {.covered = 0};
-        alpi_receiver_point points[ALPI_PACKET];
-        float square[ALPI_PACKET][2];
-        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            packet.paths[i] = start_path(r, receiver, first + i, 1.0f, 0);
-            const vec2 u = draw(&packet.paths[i], USE_PLACE);
-            square[i][0] = u.x;
-            square[i][1] = u.y;
-        }
-        job->receivers->place(job->receivers->user, receiver, ALPI_PACKET,
-                              (const float(*)[2])square, points);
-        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            packet.paths[i].at = points[i];
-        }
-        run_paths(r, &packet);
-        add_paths(&packet, first, &sums);
+    return job->list != NULL ? job->list[item] : item;
+}
+
+static uint64_t receiver_key(const path_run *run, uint32_t item)
+{
+    return receiver_of(run->user, item);
+}
+
+static void place_receivers(const path_run *run, alpi_path_wave *w, const uint32_t *items)
+{
+    const irradiance_job *job = run->user;
+    for (uint32_t i = 0; i < w->count; i++) {
+        const float square[1][2] = {{w->u[i], w->v[i]}};
+        alpi_receiver_point point;
+        job->receivers->place(job->receivers->user, receiver_of(job, items[i]), 1, square, &point);
+        alpi_paths_place(w, i, &point);
     }
-    finish(&sums, each, &job->values[receiver]);
+}
+
+static void take_receiver(const path_run *run, uint32_t item, const replicate_sums *sums)
+{
+    const irradiance_job *job = run->user;
+    finish(sums, samples_each(job->reference), &job->values[receiver_of(job, item)]);
 }
 
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const irradiance_job *job = user;
-    for (uint32_t i = begin; i < end; i++) {
-        gather_receiver(job, job->list != NULL ? job->list[i] : i);
-    }
-    return ALP_OK;
+    return run_paths(&(path_run){.reference = job->reference,
+                                 .begin = begin,
+                                 .end = end,
+                                 .samples = alpi_reference_samples(job->reference),
+                                 .lanes = job->reference->share ? ALPI_PACKET : 1,
+                                 .first = 1.0f,
+                                 .key = receiver_key,
+                                 .place = place_receivers,
+                                 .take = take_receiver,
+                                 .user = user});
 }
 
 alp_result alpi_reference_irradiance(const alpi_reference *reference,
@@ -345,37 +218,68 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      uint32_t list_count, const alpi_task_progress *progress,
                                      alpi_reference_value *values)
 {
+    const alpi_reference own = with_panes(reference);
     irradiance_job job = {
-        .reference = reference, .receivers = receivers, .list = list, .values = values};
+        .reference = &own, .receivers = receivers, .list = list, .values = values};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     const uint32_t samples = alpi_reference_samples(reference);
-    const uint32_t grain = samples < 512 ? 512 / samples : 1; // a few milliseconds
+    // Whole blocks, so that who shares with whom does not depend on the ranges.
+    const uint32_t lanes = own.share ? ALPI_PACKET : 1, each = samples * lanes;
+    const uint32_t grain = (each < PATHS_PER_RANGE ? PATHS_PER_RANGE / each : 1) * lanes;
     told.units_per_item = (double)samples;
     return alpi_parallel_for(reference->context, count, grain, gather_range, &job, &told);
 }
 
 // --- pictures ------------------------------------------------------------------------------------
 
-void alpi_reference_pixel(const alpi_reference *reference, alpi_camera_ray_fn *camera,
-                          const void *camera_user, uint64_t pixel, alpi_reference_value *value,
-                          float *covered)
+typedef struct pixel_job {
+    alpi_camera_ray_fn *camera;
+    const void *camera_user;
+    uint64_t first;
+    alpi_reference_value *values;
+    float *covered;
+} pixel_job;
+
+static uint64_t pixel_key(const path_run *run, uint32_t item)
 {
-    const float through = (float)(1.0 / ALPI_PI); // L = Le + ρ/π · E, and add_met counts π
-    const uint32_t each = samples_each(reference);
-    const uint32_t all = each * ALPI_REFERENCE_REPLICATES;
-    replicate_sums sums = {{{0}}, 0.0};
-    for (uint32_t first = 0; first < all; first += ALPI_PACKET) {
-        path_packet packet = {.covered = 0};
-        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            path *p = &packet.paths[i];
-            *p = start_path(reference, pixel, first + i, through, CAMERA_DEPTH);
-            camera(camera_user, pixel, draw(p, USE_PLACE), &p->origin, &p->direction);
-        }
-        trace_packet(reference, &packet);
-        run_paths(reference, &packet);
-        add_paths(&packet, first, &sums);
+    const pixel_job *job = run->user;
+    return job->first + item;
+}
+
+static void aim_pixels(const path_run *run, alpi_path_wave *w, const uint32_t *items)
+{
+    const pixel_job *job = run->user;
+    for (uint32_t i = 0; i < w->count; i++) {
+        vec3 origin, direction;
+        job->camera(job->camera_user, job->first + items[i], (vec2){w->u[i], w->v[i]}, &origin,
+                    &direction);
+        alpi_paths_aim(w, i, origin, direction);
     }
-    finish(&sums, each, value);
-    *covered = (float)(sums.covered / all);
+}
+
+static void take_pixel(const path_run *run, uint32_t item, const replicate_sums *sums)
+{
+    const pixel_job *job = run->user;
+    finish(sums, samples_each(run->reference), &job->values[item]);
+    job->covered[item] = (float)sums->covered / (float)run->samples;
+}
+
+alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_ray_fn *camera,
+                                 const void *camera_user, uint64_t first, uint32_t count,
+                                 alpi_reference_value *values, float *covered)
+{
+    const alpi_reference own = with_panes(reference);
+    pixel_job job = {camera, camera_user, first, values, covered};
+    // L = Le + ρ/π · E, and what is met counts π.
+    return run_paths(&(path_run){.reference = &own,
+                                 .end = count,
+                                 .samples = alpi_reference_samples(reference),
+                                 .lanes = 1,
+                                 .depth = -1,
+                                 .first = (float)(1.0 / ALPI_PI),
+                                 .key = pixel_key,
+                                 .place = aim_pixels,
+                                 .take = take_pixel,
+                                 .user = &job});
 }

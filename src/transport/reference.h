@@ -31,6 +31,9 @@ typedef struct alpi_reference {
     uint32_t samples; // paths of each receiver or pixel
     bool next_event;  // false: light is only found by rays that hit it, a cross-check; lights
                       // without extent then give nothing
+    bool share;       // eight receivers that follow each other, best if neighbours, share what
+                      // their paths find after the first bounce: less noise for as many paths,
+                      // alike in all eight. Pixels do not
     uint64_t seed;
 } alpi_reference;
 
@@ -54,10 +57,13 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
 typedef void alpi_camera_ray_fn(const void *user, uint64_t pixel, vec2 u, vec3 *origin,
                                 vec3 *direction);
 
-/// Radiance L [W·sr⁻¹·m⁻²] that reaches a pixel. Called for one pixel at a time, by any thread.
-/// @param covered out: share of the paths that met a surface, or light behind all of them
-void alpi_reference_pixel(const alpi_reference *reference, alpi_camera_ray_fn *camera,
-                          const void *camera_user, uint64_t pixel, alpi_reference_value *value,
-                          float *covered);
+/// Radiance L [W·sr⁻¹·m⁻²] that reaches `count` pixels from number `first` on. By any thread; as the
+/// body of a parallel loop it stops when the loop does.
+/// @param values  [count] out
+/// @param covered [count] out: share of the paths that met a surface, or light behind all of them
+/// @return ALP_OK; CANCELLED
+alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_ray_fn *camera,
+                                 const void *camera_user, uint64_t first, uint32_t count,
+                                 alpi_reference_value *values, float *covered);
 
 #endif

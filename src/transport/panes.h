@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Rays through panes: surfaces that are blended or transmit, and filter light by their colour.
+#ifndef ALPI_TRANSPORT_PANES_H
+#define ALPI_TRANSPORT_PANES_H
+
+#include "transport/path_wave.h"
+
+/// What is left, per channel, of light along each ray of a packet that nothing opaque stops, after
+/// all panes on its way. The filter must have `panes` set.
+/// @param rays   origins, directions and lengths; destroyed
+/// @param active bit i: lane i
+void alpi_panes_dim(const alpi_reference *reference, alpi_rays *rays, uint32_t active,
+                    vec3 left[ALPI_PACKET]);
+
+/// Path `path`, whose hit is in the wave, goes on straight through each pane it meets, or is kept by
+/// one: by chance, in proportion to what each way brings. Its hit is then that of what kept it or of
+/// what is behind, and its throughput has been multiplied.
+/// @param met called for each pane that was passed, before, with the distance from the vertex
+/// @param distance out: metres from the vertex to the last hit
+/// @return share that the last surface may reflect of what it meets, 1 / probability included:
+///         multiplies its albedo; 0: the path ends
+typedef void alpi_pane_met_fn(const alpi_reference *reference, alpi_path_wave *wave, uint32_t path,
+                              uint32_t triangle, float b1, float b2, float distance);
+float alpi_panes_pass(const alpi_reference *reference, alpi_path_wave *wave, uint32_t path,
+                      alpi_pane_met_fn *met, float *distance);
+
+#endif

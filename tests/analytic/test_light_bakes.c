@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// Baked irradiance against closed forms, texel by texel: a convex solid under a sun, a sky and a
+// lamp, where each facet sees all that is above it; the furnace; the mean over a closed room.
+#include "test_lit.h"
+#include "test_scenes.h"
+
+#include "maps/lightmap.h"
+#include "scene/mesh_builder.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static alp_context *context;
+
+/// 16 replicates measure the spread (Student's t of 15 degrees of freedom), of hundreds of texels:
+/// the largest of 500 is beyond this once in 10,000 bakes.
+static const double STANDARD_ERRORS = 9.0;
+
+static int setup(void **state)
+{
+    (void)state;
+    context = test_context(2);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    alp_context_destroy(context);
+    return 0;
+}
+
+// --- bakes ---------------------------------------------------------------------------------------
+
+/// A chart to each facet, so that no texel has two normals.
+static alp_bake_options light_options(uint32_t samples)
+{
+    alp_bake_options o = alp_bake_options_default();
+    o.maps = ALP_MAP_LIGHT;
+    o.light.samples = samples;
+    o.atlas.mode = ALP_ATLAS_CHARTS;
+    o.atlas.size = 64;
+    o.atlas.max_angle = 0.01f;
+    return o;
+}
+
+/// A texel of a bake: where it is, its value and its standard error in one channel.
+typedef struct texel {
+    vec3 position, normal;
+    double value, error, coverage, area;
+} texel;
+
+static texel texel_of(const alp_lightmap *lightmap, uint32_t i, int channel)
+{
+    const alpi_texels *t = &lightmap->texels;
+    vec3 c[3];
+    alpi_triangle_corners(lightmap->scene, t->triangles[i], c);
+    const float *b = t->barycentrics[i];
+    uint32_t width = 0;
+    const float *page = alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, t->pages[i], &width, NULL);
+    const size_t place = 4 * ((size_t)t->pixels[i][1] * width + t->pixels[i][0]) + (size_t)channel;
+    return (texel){
+        .position =
+            vec3_mad(vec3_mad(c[0], b[0], vec3_sub(c[1], c[0])), b[1], vec3_sub(c[2], c[0])),
+        .normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 1, 0}),
+        .value = (double)page[place],
+        .error = (double)lightmap->irradiance_error_pages[t->pages[i]][place],
+        .coverage = (double)t->coverages[i],
+        .area = (double)t->areas[i],
+    };
+}
+
+/// A ball of 10 × 6 flat facets of different size, 1 m in radius.
+static alp_scene *make_solid(void)
+{
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0.3, 0.1, -0.2}, 1.0, 10, 6, 1.0, 1);
+    return test_mesh_scene(context, mesh, 0);
+}
+
+/// What is expected of a bake.
+typedef struct expected {
+    const char *name;
+    /// What the light gives at a point; < 0: no closed form there (the horizon cuts a disk).
+    double (*exact)(vec3 position, vec3 normal);
+    double largest;     // of E
+    double texel, mean; // parts of it that may be missing of each, and of their mean
+} expected;
+
+/// Bakes the solid and holds every texel to what is expected.
+static void hold(const expected *e, alp_scene *scene, const alp_bake_options *o)
+{
+    alp_lightmap *lightmap = NULL;
+    alp_bake_report report;
+    uint32_t lit = 0, dark = 0;
+    double worst = 0.0, apart = 0.0, variance = 0.0, area = 0.0;
+    ASSERT_OK(context, alp_bake(scene, o, &lightmap, &report));
+    for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+        const texel t = texel_of(lightmap, i, 1);
+        const double wanted = e->exact(t.position, t.normal);
+        if (wanted < 0.0 || t.coverage < 0.999) {
+            continue;
+        }
+        ASSERT_NEAR(t.value, wanted, STANDARD_ERRORS * t.error + e->texel * e->largest);
+        worst = fmax(worst, fabs(t.value - wanted) / e->largest);
+        apart += t.area * (t.value - wanted);
+        variance += t.area * t.area * t.error * t.error;
+        area += t.area;
+        lit += wanted > 0.0;
+        dark += wanted == 0.0 && t.value == 0.0;
+    }
+    printf("accuracy: a baked solid under %s, %u texels lit, %u dark: largest error %.1e, mean "
+           "%+.1e of the largest E\n",
+           e->name, lit, dark, worst, apart / area / e->largest);
+    assert_true(lit > 200);
+    ASSERT_NEAR(apart / area, 0.0, 4.0 * sqrt(variance) / area + e->mean * e->largest);
+    assert_int_equal(report.light_samples, o->light.samples);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+}
+
+// --- a convex solid ------------------------------------------------------------------------------
+
+static const double AZIMUTH = 2.1, ELEVATION = 0.6, SIZE = 0.2;
+
+static double sun_cosine(vec3 normal)
+{
+    return cos(ELEVATION) * (sin(AZIMUTH) * (double)normal.x + cos(AZIMUTH) * (double)normal.z) +
+           sin(ELEVATION) * (double)normal.y;
+}
+
+/// E⊥ cosθ⁺ of 500 lux.
+static double exact_sun(vec3 position, vec3 normal)
+{
+    (void)position;
+    return 500.0 * fmax(sun_cosine(normal), 0.0);
+}
+
+static double exact_wide_sun(vec3 position, vec3 normal)
+{
+    return fabs(sun_cosine(normal)) > sin(0.5 * SIZE) ? exact_sun(position, normal) : -1.0;
+}
+
+/// Oracle 3's light: E = E⊥ cosθ⁺, of a point and of a disk.
+static void a_solid_under_a_sun(void **state)
+{
+    (void)state;
+    alp_bake_options o = light_options(16);
+    o.light.lighting.sun.azimuth = (float)AZIMUTH;
+    o.light.lighting.sun.elevation = (float)ELEVATION;
+    o.light.lighting.sun.illuminance = 500.0f;
+    o.light.lighting.sun.size = 0.0f;
+    hold(&(expected){"a sun", exact_sun, 500.0, 2e-6, 2e-6}, make_solid(), &o); // floats
+    o.light.lighting.sun.size = (float)SIZE;
+    o.light.samples = 256;
+    // The balance heuristic leaves sin² of the light to rays that meet the disk by chance: one or
+    // two of a texel's 256, which may be none.
+    hold(&(expected){"a wide sun", exact_wide_sun, 500.0, pow(sin(0.5 * SIZE), 2.0), 2e-6},
+         make_solid(), &o);
+}
+
+/// π (up (1 + cos t) + down (1 − cos t)) / 2 with up 2 and down .5 (oracle 2).
+static double exact_sky(vec3 position, vec3 normal)
+{
+    (void)position;
+    const double c = (double)normal.y;
+    return ALPI_PI * (2.0 * (1.0 + c) + 0.5 * (1.0 - c)) / 2.0;
+}
+
+static void a_solid_under_a_sky(void **state)
+{
+    (void)state;
+    alp_bake_options o = light_options(256);
+    o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    o.light.lighting.sky.up[1] = 2.0f;
+    o.light.lighting.sky.down[1] = 0.5f;
+    hold(&(expected){"a sky of two colours", exact_sky, 2.0 * ALPI_PI, 2e-6, 2e-6}, make_solid(),
+         &o);
+}
+
+static const vec3 LAMP = {3.0f, 2.0f, 1.0f};
+
+/// I/r² cosθ⁺ of 50 candela.
+static double exact_lamp(vec3 position, vec3 normal)
+{
+    const vec3 d = vec3_sub(LAMP, position);
+    const double r = (double)vec3_length(d);
+    return 50.0 / (r * r) * fmax((double)vec3_dot(d, normal) / r, 0.0);
+}
+
+/// A texel is the mean over its area. Half of one is h = 0.06 m, the lamp r = 2.7 m away: its
+/// middle is right to (h/r)² = 5e-4 of it, and twice that leaves room for the cosine.
+static void a_solid_under_a_lamp(void **state)
+{
+    (void)state;
+    const alp_bake_options o = light_options(16);
+    alp_scene *scene = make_solid();
+    test_lit_set_lamps(scene,
+                       &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                                     .color = {1, 1, 1},
+                                     .intensity = 50.0f,
+                                     .position = LAMP,
+                                     .range = INFINITY},
+                       1);
+    hold(&(expected){"a lamp", exact_lamp, 50.0 / (2.7 * 2.7), 1e-3, 1e-3}, scene, &o);
+}
+
+// --- closed rooms --------------------------------------------------------------------------------
+
+/// Oracle 14: the furnace is of radiance 2 everywhere, E = 2π; after no bounce it is of 1.
+static void every_texel_of_the_furnace(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        alp_bake_options o = light_options(256);
+        alp_scene *scene = NULL;
+        alp_lightmap *lightmap = NULL;
+        alp_bake_report report;
+        double sum = 0.0, area = 0.0, variance = 0.0;
+        const double exact = k == 0 ? ALPI_PI : 2.0 * ALPI_PI;
+        o.atlas.size = 32;
+        o.light.bounces = k == 0 ? 0 : ALP_BOUNCES_CONVERGE;
+        ASSERT_OK(context, alp_scene_load(context, "builtin:furnace", &scene));
+        ASSERT_OK(context, alp_bake(scene, &o, &lightmap, &report));
+        for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+            const texel t = texel_of(lightmap, i, 2);
+            ASSERT_NEAR(t.value, exact, STANDARD_ERRORS * t.error + 1e-6 * exact);
+            sum += t.area * t.value;
+            variance += t.area * t.area * t.error * t.error;
+            area += t.area;
+        }
+        ASSERT_NEAR(area, 6.0, 1e-4);
+        ASSERT_NEAR(sum / area, exact, 4.0 * sqrt(variance) / area + 1e-6 * exact);
+        ASSERT_NEAR(report.light_mean, exact, 2e-3 * exact);
+        printf("accuracy: baked furnace, %u texels: mean %+.1e\n", lightmap->texels.count,
+               sum / area / exact - 1.0);
+        alp_lightmap_destroy(lightmap);
+        alp_scene_destroy(scene);
+    }
+}
+
+/// A room of one albedo with a box in it and a glowing ceiling: the mean of the texels by their
+/// area is Φ / ((1 − ρ) A), as each texel's value is the mean over it.
+static void the_mean_over_a_closed_room(void **state)
+{
+    (void)state;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alp_lightmap *lightmap = NULL;
+    const double rho = 0.6;
+    const float a = (float)rho;
+    const vec3 high = {1, 1, 1}, low = {0, 0, 0};
+    alpi_builder_start(&b, context, "room");
+    const uint32_t dull = alpi_builder_material(&b, "dull", (vec3){a, a, a}, low);
+    alpi_builder_surface(&b, "walls", dull);
+    alpi_builder_box(&b, high, low, ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_TOP);
+    alpi_builder_surface(&b, "box", dull);
+    alpi_builder_box(&b, (vec3){0.2f, 0.3f, 0.1f}, (vec3){0.5f, 0.7f, 0.6f}, ALPI_FACE_ALL);
+    alpi_builder_surface(&b, "ceiling",
+                         alpi_builder_material(&b, "ceiling", (vec3){a, a, a}, high));
+    alpi_builder_box(&b, high, low, ALPI_FACE_TOP);
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_bake_options o = light_options(256);
+    o.atlas.size = 40;
+    ASSERT_OK(context, alp_bake(scene, &o, &lightmap, NULL));
+    double sum = 0.0, area = 0.0, variance = 0.0;
+    for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+        const texel t = texel_of(lightmap, i, 0);
+        sum += t.area * t.value;
+        variance += t.area * t.area * t.error * t.error;
+        area += t.area;
+    }
+    const double exact = ALPI_PI / ((1.0 - rho) * scene->area), error = sqrt(variance) / area;
+    printf("accuracy: baked closed room, %u texels: mean %+.1e, standard error %.1e\n",
+           lightmap->texels.count, sum / area / exact - 1.0, error / exact);
+    ASSERT_NEAR(area, scene->area, 1e-4 * area);
+    ASSERT_NEAR(sum / area, exact, 4.0 * error);
+    assert_true(error < 3e-3 * exact);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_solid_under_a_sun),         cmocka_unit_test(a_solid_under_a_sky),
+        cmocka_unit_test(a_solid_under_a_lamp),        cmocka_unit_test(every_texel_of_the_furnace),
+        cmocka_unit_test(the_mean_over_a_closed_room),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
