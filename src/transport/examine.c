@@ -58,16 +58,11 @@ static bool is_lamp(const alpi_light *light)
            (light->color.x > 0.0f || light->color.y > 0.0f || light->color.z > 0.0f);
 }
 
-/// Light passes it, more or less.
+/// Light passes it in part.
 static bool is_clear(const alp_scene *scene, uint32_t triangle, float b1, float b2)
 {
-    const uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;
-    if (material == ALPI_NONE) {
-        return false;
-    }
-    const bool blended = scene->materials[material].alpha_mode == ALPI_ALPHA_BLEND;
-    return (blended && alpi_surface_alpha(scene, triangle, b1, b2) < 1.0f) ||
-           alpi_surface_transmission(scene, triangle, b1, b2) > 0.0f;
+    const vec3 through = alpi_surface_pane(scene, triangle, b1, b2).through;
+    return through.x > 0.0f || through.y > 0.0f || through.z > 0.0f;
 }
 
 static vec3 normal_of(const alp_scene *scene, uint32_t triangle)
