@@ -62,6 +62,38 @@ static const char *light_unit(const alp_light_info *l)
     return l->kind == ALP_LIGHT_DIRECTIONAL ? "lux" : "candela";
 }
 
+static void print_light_name(const alp_light_info *l, uint32_t index)
+{
+    if (l->name[0] != '\0') {
+        print_clean(stdout, l->name);
+    } else {
+        printf("light %u", index); // as in warnings
+    }
+}
+
+/// Where a light is and shines, as far as its kind has it.
+static void print_place(const alp_light_info *l)
+{
+    const double degrees = 180.0 / M_PI;
+    if (l->kind != ALP_LIGHT_DIRECTIONAL) {
+        printf(", at %g %g %g m", (double)l->position[0], (double)l->position[1],
+               (double)l->position[2]);
+    }
+    if (l->kind != ALP_LIGHT_POINT) {
+        printf(", towards %g %g %g", (double)l->direction[0], (double)l->direction[1],
+               (double)l->direction[2]);
+    }
+    if (l->kind == ALP_LIGHT_SPOT) {
+        printf(", cone %g inside %g degrees", (double)l->inner_cone * degrees,
+               (double)l->outer_cone * degrees);
+    }
+    if (l->kind == ALP_LIGHT_DIRECTIONAL) {
+        printf(", size %g degrees", (double)l->size * degrees);
+    } else if (isfinite(l->range)) {
+        printf(", range %g m", (double)l->range);
+    }
+}
+
 /// What gives light, with units.
 static void print_lights(const alp_scene *scene, const alp_scene_info *info)
 {
@@ -78,9 +110,11 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     for (uint32_t i = 0; i < info->lights; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
         printf("%slight      ", i + emissive == 0 ? "\n" : "");
-        print_clean(stdout, l.name[0] != '\0' ? l.name : "(no name)");
-        printf(", %s: %g %s, colour %g %g %g\n", light_kinds[l.kind], (double)l.intensity,
+        print_light_name(&l, i);
+        printf(", %s: %g %s, colour %g %g %g", light_kinds[l.kind], (double)l.intensity,
                light_unit(&l), (double)l.color[0], (double)l.color[1], (double)l.color[2]);
+        print_place(&l);
+        putchar('\n');
     }
     if (info->lights + emissive == 0) {
         printf("\nlight      none; --maps light needs a --sky or a --sun\n");
@@ -120,17 +154,31 @@ static json_t *make_surfaces(const alp_scene *scene, uint32_t count)
     return list;
 }
 
+/// An angle in degrees, null for a light that has none.
+static json_t *make_angle(bool has, float radians)
+{
+    return has ? json_number((double)radians * 180.0 / M_PI) : json_null();
+}
+
+static json_t *make_light(const alp_light_info *l)
+{
+    const bool spot = l->kind == ALP_LIGHT_SPOT;
+    return json_pack("{s:o, s:s, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name",
+                     json_text(l->name), "kind", light_kinds[l->kind], "intensity",
+                     json_number((double)l->intensity), "unit", light_unit(l), "color",
+                     make_vector(l->color), "position", make_vector(l->position), "direction",
+                     make_vector(l->direction), "range", json_number((double)l->range),
+                     "inner_cone_degrees", make_angle(spot, l->inner_cone), "outer_cone_degrees",
+                     make_angle(spot, l->outer_cone), "size_degrees",
+                     make_angle(l->kind == ALP_LIGHT_DIRECTIONAL, l->size));
+}
+
 static json_t *make_lights(const alp_scene *scene, uint32_t count)
 {
     json_t *list = json_array();
     for (uint32_t i = 0; i < count; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
-        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s, s:o, s:o, s:o}", "name",
-                                              json_text(l.name), "kind", light_kinds[l.kind],
-                                              "intensity", json_number((double)l.intensity), "unit",
-                                              light_unit(&l), "color", make_vector(l.color),
-                                              "position", make_vector(l.position), "direction",
-                                              make_vector(l.direction)));
+        json_array_append_new(list, make_light(&l));
     }
     return list;
 }
@@ -170,6 +218,9 @@ int command_info(const command_line *a)
     int code = session_open(&s, a);
     if (code == EXIT_DONE) {
         code = session_load(&s, a->operands[0]);
+    }
+    if (code == EXIT_DONE) {
+        code = session_end(&s, alp_scene_examine(s.scene, NULL, session_progress, &s));
     }
     if (code == EXIT_DONE) {
         alp_scene_info info = alp_scene_get_info(s.scene);

@@ -63,7 +63,7 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
     } else if (!read_colors(value->text, sky)) {
         return usage_error(a->command,
                            "--sky: '%s' is no sky; give a .hdr or .exr file, R,G,B, R,G,B/R,G,B "
-                           "(above and below the horizon), numbers 0 or more, or clear",
+                           "(above and below the horizon), numbers 0 to 1e9, or clear",
                            value->text);
     }
     if (sky->kind != ALP_SKY_IMAGE && a->values[OPTION_SKY_TURN].given) {
@@ -85,7 +85,7 @@ static int read_sun(const command_line *a, alp_sun_options *sun)
         numbers[2] < 0.0) {
         return usage_error(a->command,
                            "--sun: '%s' is no sun; give AZ,EL,LUX: degrees from +Z towards +X, "
-                           "degrees above the horizon, and lux, 0 or more",
+                           "degrees above the horizon, and lux, 0 to 1e9",
                            value->text);
     }
     sun->azimuth = (float)(numbers[0] * radians);

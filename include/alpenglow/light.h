@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light that a scene gets beside what is in its file: a sky and a sun.
+// Light that a scene gets beside what is in its file: a sky and a sun; and a look at what it does.
 #ifndef ALPENGLOW_LIGHT_H
 #define ALPENGLOW_LIGHT_H
 
 #include <alpenglow/image.h>
+#include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS
 
@@ -52,6 +53,28 @@ typedef struct alp_lighting_options {
     float file_sun_size; ///< radians, full angle of the directional lights of the file; default 0
 } alp_lighting_options;
 ALP_API alp_lighting_options alp_lighting_options_default(void);
+
+/// Tells the context's log what will surprise who lights this scene so, by rays:
+///   no-light          nothing gives light at all
+///   light-inside      a point or spot light whose rays meet (95 % of them, of 128) the backs of
+///                     single-sided surfaces first, so that it lights nothing: it lies inside
+///                     something or behind a wall. What is double-sided, blended or transmissive
+///                     does not count
+///   light-on-surface  one that lies in a surface and lights both its sides
+///   closed-room       from a quarter of the surface, or more, no way leads out by any number of
+///                     bounces between front sides, and the scene has no lamp or emissive surface:
+///                     sky and sun do not get in. By 16 random walks of 64 bounces from each of 512
+///                     points, which find most openings of a thousandth of the walls
+/// alp_bake (irradiance) and alp_render (REFERENCE) tell the same.
+/// @param lighting as of a bake; NULL = the lights of the file alone
+/// @param progress NULL, or asked whether to go on
+/// @return ALP_OK, whatever was found; INVALID_ARGUMENT; OUT_OF_MEMORY; UNSUPPORTED (the ray
+/// tracer fails); CANCELLED
+/// Cost: the acceleration structure, which the scene keeps, 256 rays a light, and half a million
+/// for rooms, at most.
+ALP_API ALP_NODISCARD alp_result alp_scene_examine(const alp_scene *scene,
+                                                   const alp_lighting_options *lighting,
+                                                   alp_progress_fn *progress, void *progress_user);
 
 ALP_END_DECLS
 

@@ -85,6 +85,8 @@ typedef struct alp_light_info {
     float position[3], direction[3]; ///< metres; unit, where the light travels
     float range;                     ///< metres, INFINITY = none
     float inner_cone, outer_cone;    ///< of a spot: radians from its axis
+    float size; ///< of a directional light: radians, full angle of its disk; 0 = a point, which
+                ///< alp_lighting_options.file_sun_size may widen
 } alp_light_info;
 /// @param index < lights, else a zeroed struct with an empty name
 ALP_API alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index);

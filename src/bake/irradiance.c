@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/stated_error.h"
+#include "transport/examine.h"
 #include "transport/reference.h"
 
 #include <math.h>
@@ -86,8 +87,12 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     }
     alpi_lighting *lighting = NULL;
     ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
-    alpi_lighting_warn(job->scene, lighting);
-    const alp_result result = gather(job, lighting, tracer, receivers, order, count, progress);
+    const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    alp_result result = alpi_examine_light(tracer, filter, job->scene, lighting, progress->callback,
+                                           progress->user);
+    if (result == ALP_OK) {
+        result = gather(job, lighting, tracer, receivers, order, count, progress);
+    }
     alpi_lighting_destroy(job->context, lighting);
     return result;
 }

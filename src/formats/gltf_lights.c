@@ -45,10 +45,20 @@ static alp_result read_cone(const alpi_gltf_reader *reader, json_t *object, cons
     return ALP_OK;
 }
 
-/// Intensity, colour and range; what is negative is set right with a warning.
+/// Brought into [0, most]. @return whether it was above
+static bool clamp_strength(double *value, double most)
+{
+    const bool above = *value > most;
+    *value = above ? most : fmax(*value, 0.0);
+    return above;
+}
+
+/// Intensity, colour and range; what is negative, or so much that sums of it overflow, is set right
+/// with a warning.
 static alp_result read_strength(const alpi_gltf_reader *reader, json_t *object, const char *owner,
                                 alpi_light *light)
 {
+    const double most_intensity = 1e20, most_color = 1e10; // as of a sun that is given
     double color[3] = {1.0, 1.0, 1.0}, intensity = 1.0, range = HUGE_VAL;
     ALP_TRY(alpi_gltf_numbers(reader->document, object, "color", owner, 3, color));
     ALP_TRY(alpi_gltf_number(reader->document, object, "intensity", owner, &intensity));
@@ -59,10 +69,17 @@ static alp_result read_strength(const alpi_gltf_reader *reader, json_t *object, 
                   "a negative intensity or colour is taken as 0, a range that is not positive as "
                   "none");
     }
-    light->intensity = alpi_gltf_float(fmax(intensity, 0.0));
-    light->color =
-        (vec3){alpi_gltf_float(fmax(color[0], 0.0)), alpi_gltf_float(fmax(color[1], 0.0)),
-               alpi_gltf_float(fmax(color[2], 0.0))};
+    bool above = clamp_strength(&intensity, most_intensity);
+    for (int k = 0; k < 3; k++) {
+        above |= clamp_strength(&color[k], most_color);
+    }
+    if (above) {
+        alpi_warn(reader->context, "light", owner,
+                  "an intensity above %g is taken as that, a colour above %g as that",
+                  most_intensity, most_color);
+    }
+    light->intensity = (float)intensity;
+    light->color = (vec3){(float)color[0], (float)color[1], (float)color[2]};
     light->range = range > 0.0 && isfinite(range) ? alpi_gltf_float(range) : INFINITY;
     return ALP_OK;
 }

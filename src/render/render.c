@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "maps/lightmap.h"
 #include "scene/select.h"
+#include "transport/examine.h"
 #include "transport/hit.h"
 #include "transport/occlusion.h"
 #include "transport/reference.h"
@@ -91,6 +92,40 @@ static alp_result place_camera(render_job *job)
     return ALP_OK;
 }
 
+/// Through the point (x, y) of the picture, in pixels from its upper left corner.
+static vec3 camera_direction(const render_job *job, float x, float y)
+{
+    float sx = (2.0f * x / (float)job->options.width - 1.0f) * job->aspect;
+    float sy = 1.0f - 2.0f * y / (float)job->options.height;
+    vec3 d = vec3_mad(vec3_mad(job->forward, sx, job->right), sy, job->up);
+    return vec3_normalize_or(d, job->forward);
+}
+
+/// Says where a picture will be black because the camera stands in a wall: methods that light the
+/// scene leave the backs of single-sided surfaces black.
+static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
+{
+    enum { ACROSS = 8 };
+    const alp_render_method method = job->options.method;
+    const float step_x = (float)job->options.width / ACROSS;
+    const float step_y = (float)job->options.height / ACROSS;
+    vec3 directions[ACROSS * ACROSS];
+    for (int i = 0; i < ACROSS * ACROSS; i++) {
+        const int column = i % ACROSS, row = i / ACROSS;
+        directions[i] =
+            camera_direction(job, ((float)column + 0.5f) * step_x, ((float)row + 0.5f) * step_y);
+    }
+    const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
+        alpi_examine_is_inside(tracer, filter, job->scene, job->origin, directions,
+                               ACROSS * ACROSS)) {
+        alpi_warn(job->scene->context, "camera-inside", job->scene->name,
+                  "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
+                  "the backs of single-sided surfaces, which are black; move it (--camera)",
+                  (double)job->origin.x, (double)job->origin.y, (double)job->origin.z);
+    }
+}
+
 /// The ambient light of two half skies, which is exact for what nothing covers.
 static void shade_by_hemisphere(const render_job *job, const alpi_hits *hits, int lane,
                                 vec3 direction, float rgb[3])
@@ -169,15 +204,6 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
             rgb[i][0] = rgb[i][1] = rgb[i][2] = values[i];
         }
     }
-}
-
-/// Through the point (x, y) of the picture, in pixels from its upper left corner.
-static vec3 camera_direction(const render_job *job, float x, float y)
-{
-    float sx = (2.0f * x / (float)job->options.width - 1.0f) * job->aspect;
-    float sy = 1.0f - 2.0f * y / (float)job->options.height;
-    vec3 d = vec3_mad(vec3_mad(job->forward, sx, job->right), sy, job->up);
-    return vec3_normalize_or(d, job->forward);
 }
 
 static void reference_ray(const void *user, uint64_t pixel, vec2 u, vec3 *origin, vec3 *direction)
@@ -296,7 +322,8 @@ static alp_result prepare_reference(render_job *job, alp_image_info info)
         return ALP_OK;
     }
     ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
-    alpi_lighting_warn(job->scene, job->lighting);
+    ALP_TRY(alpi_examine_light(job->tracer, job->occlusion.filter, job->scene, job->lighting,
+                               o->progress, o->progress_user));
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
     job->reference = (alpi_reference){.context = job->scene->context,
                                       .scene = job->scene,
@@ -317,6 +344,7 @@ static alp_result run(render_job *job)
     alpi_tracer *tracer = NULL;
     ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &tracer, NULL));
     job->tracer = tracer;
+    warn_of_walls(job, tracer);
     alp_occlusion_options occlusion = o->occlusion;
     occlusion.samples =
         o->occlusion.samples / o->samples + (o->occlusion.samples % o->samples != 0);

@@ -3,6 +3,7 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
+#include "scene/area_points.h"
 
 #include <math.h>
 #include <string.h>
@@ -215,26 +216,31 @@ static void clamp_materials(alp_scene *scene)
 }
 
 /// A metal has no diffuse albedo, and glTF's default material is one: a scene of it bounces no
-/// light.
+/// light. Textures count: what is looked at are points spread over the area.
 static void warn_of_metal(const alp_scene *scene)
 {
-    double metal = 0.0;
-    for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        uint32_t material = scene->surfaces[scene->triangle_surface[t]].material;
-        if (material != ALPI_NONE && scene->triangle_usable[t] &&
-            scene->materials[material].metallic >= 1.0f &&
-            scene->materials[material].metallic_texture.image == ALPI_NONE) {
-            vec3 c[3];
-            alpi_triangle_corners(scene, t, c);
-            metal += vec3_triangle_area(c[0], c[1], c[2]);
-        }
+    enum { POINTS = 1024 };
+    static const float METAL = 0.9f;
+    alpi_area_point points[POINTS];
+    uint32_t metal = 0;
+    bool any = false;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        any = any || scene->materials[i].metallic >= METAL;
     }
-    if (metal > 0.5 * scene->area) {
+    if (!any || !alpi_area_points(scene, POINTS, points)) {
+        return;
+    }
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const alpi_area_point *p = &points[i];
+        metal += alpi_surface_metallic(scene, p->triangle, p->b1, p->b2) >= METAL;
+    }
+    if (metal > POINTS / 2) {
         alpi_warn(
             scene->context, "metal", scene->name,
             "%.0f %% of the surface is metal, which is what glTF takes a material for that does "
-            "not say: it has no diffuse colour and will bounce no light",
-            100.0 * metal / scene->area);
+            "not say: it has no diffuse colour, is black to a bake and will bounce no light; give "
+            "what is no metal a metallicFactor of 0",
+            100.0 * metal / POINTS);
     }
 }
 
@@ -324,7 +330,8 @@ alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
                             .intensity = l->intensity,
                             .range = l->range,
                             .inner_cone = l->inner_cone,
-                            .outer_cone = l->outer_cone};
+                            .outer_cone = l->outer_cone,
+                            .size = l->size};
     vec3_store(info.color, l->color);
     vec3_store(info.position, l->position);
     vec3_store(info.direction, l->direction);

@@ -9,11 +9,11 @@ try bake scene.glb -o out.glb --maps light --maps-dir maps
 try bake scene.glb -o out.glb --maps ao,light --maps-dir maps --ao-self
 bake --time-limit 5
 bake --keep-partial
-for sky in 1 1,1 1,1,1,1 1,1,-1 1,1,1/ 1,1,1/1,1 a,b,c 1,1,x '' sky.png nan,1,1; do bake --sky "$sky"; done
-for sun in 1 1,2 1,2,3,4 361,0,1 0,91,1 0,0,-1 x,0,1; do bake --sun "$sun"; done
+for sky in 1 1,1 1,1,1,1 1,1,-1 1,1,1/ 1,1,1/1,1 a,b,c 1,1,x "" sky.png nan,1,1 1,1,inf 1,1,1e10; do bake --sky "$sky"; done
+for sun in 1 1,2 1,2,3,4 361,0,1 0,91,1 0,0,-1 x,0,1 0,45,nan 0,45,inf 0,45,1e10; do bake --sun "$sun"; done
 bake --sky-turn 5
-bake --sky 1,1,1 --sky-strength -1
-bake --sun 0,45,1 --sun-size 91
+for strength in -1 nan inf; do bake --sky 1,1,1 --sky-strength $strength; done
+for size in 91 -1 nan; do bake --sun 0,45,1 --sun-size $size; done
 bake --bounces -1
 bake --bounces 1001
 bake --bounces many

@@ -353,6 +353,8 @@ static void transmission(void **state)
     size_t size = 0;
     ASSERT_OK(context, alpi_gltf_export_scene(scene, &bytes, &size));
     alp_scene_destroy(scene);
+    const char *json = (const char *)bytes + 20; // it ends in a BIN chunk's zeros
+    assert_non_null(strstr(json, "\"extensionsUsed\":[\"KHR_materials_transmission\"]"));
     alpi_gltf_document *document = NULL;
     ASSERT_OK(context, alpi_gltf_document_parse(context, "again.glb", bytes, size, &document));
     ASSERT_OK(context, alpi_gltf_scene_from_document(document, &scene));
@@ -444,6 +446,43 @@ static void lights(void **state)
     alp_context_destroy(context);
 }
 
+/// What is negative is none, and what sums of it could not hold is cut off.
+static void light_values_out_of_range(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *light;
+        float intensity, red, range;
+        bool told;
+    } cases[] = {
+        {"'intensity':1e20,'color':[1e10,1,1],'range':1e300", 1e20f, 1e10f, 3.4028235e38f, false},
+        {"'intensity':1.1e20", 1e20f, 1.0f, INFINITY, true},
+        {"'intensity':1e300", 1e20f, 1.0f, INFINITY, true},
+        {"'intensity':-1e-9", 0.0f, 1.0f, INFINITY, true},
+        {"'color':[-1,1,1]", 1.0f, 0.0f, INFINITY, true},
+        {"'color':[1e11,1,1]", 1.0f, 1e10f, INFINITY, true},
+        {"'range':0", 1.0f, 1.0f, INFINITY, true},
+        {"'range':-3", 1.0f, 1.0f, INFINITY, true},
+    };
+    alp_context *context = test_context(1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char rest[512];
+        snprintf(rest, sizeof rest,
+                 "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point',%s}]}},"
+                 "'nodes':[{'extensions':{'KHR_lights_punctual':{'light':0}}}]",
+                 cases[i].light);
+        alp_scene *scene = load(context, rest);
+        assert_int_equal(scene->light_count, 1);
+        const alpi_light *light = &scene->lights[0];
+        assert_true(light->intensity == cases[i].intensity);
+        assert_true(light->color.x == cases[i].red && light->color.y == 1.0f);
+        assert_true(light->range == cases[i].range);
+        assert_int_equal(test_log_has("light"), cases[i].told);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
 static void cameras(void **state)
 {
     (void)state;
@@ -513,6 +552,7 @@ int main(void)
         cmocka_unit_test(transmission),
         cmocka_unit_test(transmission_that_is_none),
         cmocka_unit_test(lights),
+        cmocka_unit_test(light_values_out_of_range),
         cmocka_unit_test(cameras),
         cmocka_unit_test(oddities_are_told),
         cmocka_unit_test(input_hash),

@@ -2,6 +2,8 @@
 // What finishing a scene repairs, leaves out, clamps and says.
 #include "test_support.h"
 
+#include "base/image.h"
+#include "base/memory.h"
 #include "scene/mesh_builder.h"
 
 #include <math.h>
@@ -227,7 +229,37 @@ static void a_metal_scene_says_so(void **state)
         start(&builder, context);
         add_triangle(&builder, 2.0f, UP);
         alp_scene *scene = finish(&builder);
-        scene->materials[0].metallic = metal ? 1.0f : 0.99f;
+        scene->materials[0].metallic = metal ? 0.9f : 0.89f;
+        test_log_clear();
+        ASSERT_OK(context, alpi_scene_finish(scene));
+        assert_int_equal(test_log_has("metal"), metal);
+        alp_scene_destroy(scene);
+    }
+    alp_context_destroy(context);
+}
+
+/// Of a picture with one texel of metal and one of none.
+static void metal_in_a_texture_counts(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    for (int metal = 0; metal <= 1; metal++) {
+        alpi_builder builder;
+        start(&builder, context);
+        add_triangle(&builder, 2.0f, UP);
+        alp_scene *scene = finish(&builder);
+        scene->uvs[0] = alpi_allocate(context, 3, sizeof *scene->uvs[0]);
+        scene->images = ALPI_NEW(context, alp_image *, 1);
+        assert_true(scene->uvs[0] != NULL && scene->images != NULL);
+        scene->image_count = 1;
+        ASSERT_OK(context, alp_image_create(context, (alp_image_info){2, 1, 4, ALP_COMPONENT_U8},
+                                            &scene->images[0]));
+        memcpy(alp_image_bytes(scene->images[0]), (uint8_t[]){0, 0, 255, 0, 0, 0, 0, 0}, 8);
+        for (int v = 0; v < 3; v++) { // everywhere in the middle of texel 0, or of texel 1
+            scene->uvs[0][v][0] = metal ? 0.25f : 0.75f;
+        }
+        scene->materials[0].metallic = 1.0f;
+        scene->materials[0].metallic_texture.image = 0;
         test_log_clear();
         ASSERT_OK(context, alpi_scene_finish(scene));
         assert_int_equal(test_log_has("metal"), metal);
@@ -241,6 +273,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_good_scene_says_nothing),
         cmocka_unit_test(a_metal_scene_says_so),
+        cmocka_unit_test(metal_in_a_texture_counts),
         cmocka_unit_test(triangles_without_area_are_left_out),
         cmocka_unit_test(coordinates_that_are_no_numbers),
         cmocka_unit_test(bad_normals_become_the_triangles),

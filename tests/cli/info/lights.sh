@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# What info says of lights: where they are and shine, and what of them will surprise.
+. "$(dirname "$0")/../scenes.bash"
+grey='{"pbrMetallicRoughness":{"metallicFactor":0}}'
+lights='{"type":"point","name":"bulb","intensity":40,"range":7},
+{"type":"spot","intensity":2,"color":[1,0.5,0.25],"spot":{"innerConeAngle":0.5235987755982988,
+"outerConeAngle":0.7853981633974483}},{"type":"directional","name":"sun","intensity":1000}'
+room "$grey" "$(lamp 0 0 1 0),$(lamp 1 1 1.5 0),$(lamp 2 0 0 0),$(lamp 0 0 9 0)" "$lights" >lit.gltf
+room "$grey" "$(lamp 2 0 0 0)" "$lights" >closed.gltf
+room '{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}' "" "" >metal.gltf
+for scene in lit closed metal; do
+    echo "== $scene"
+    alpenglow info $scene.gltf 2>&1 | grep -E '^(light|warning)'
+    alpenglow info $scene.gltf --json 2>/dev/null | grep '"code"'
+done
+alpenglow info lit.gltf --json 2>/dev/null >lit.json
+json_shape lit.json | grep lights
+grep -A2 _degrees lit.json | grep degrees
+echo "== bake and render say the same"
+alpenglow bake closed.gltf --maps light --maps-dir maps --size 16 --samples 1 --sky 1,1,1 2>&1 |
+    grep warning
+alpenglow bake lit.gltf --maps light --maps-dir maps --size 16 --samples 1 -f 2>&1 | grep warning
+alpenglow render lit.gltf --with reference -o a.png --resolution 8x8 --samples 1 2>&1 | grep warning
+alpenglow render lit.gltf --with reference -o a.png --resolution 8x8 --samples 1 -f \
+    --warnings-as-errors >/dev/null 2>&1
+echo "$?, $(ls a.png)"
