@@ -3,8 +3,6 @@
 // ends soon after it is cancelled, within one receiver too.
 #include "test_direct_stage.h"
 
-#include <math.h>
-
 enum { POINTS = 32, PARTS = 3 };
 static test_patch patches[POINTS];
 
@@ -146,12 +144,45 @@ static void counts_are_true(void **state)
     alp_context_destroy(context);
 }
 
+/// Of lamps enough to be drawn, emitters and a sky.
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    enum { LAMPS = 80 };
+    int left = 0;
+    alp_context *context = test_context_failing(&left);
+    left = 1 << 30;
+    alpi_light lamps[LAMPS];
+    for (int i = 0; i < LAMPS; i++) {
+        lamps[i] = test_lamp((vec3){0.005f * (float)i, 0.3f, -0.2f}, 0.1f);
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    test_stage stage = test_stage_open(context, scene, lamps, LAMPS, NULL);
+    const alpi_direct_options o = test_stage_options(&stage, 8);
+    alpi_direct *direct = NULL;
+    left = 1 << 30;
+    ASSERT_OK(context, alpi_direct_create(&o, &direct));
+    alpi_direct_destroy(direct);
+    const int needed = (1 << 30) - left;
+    assert_true(needed > 8);
+    for (int i = 0; i < needed; i++) {
+        left = i;
+        assert_int_equal(alpi_direct_create(&o, &direct), ALP_ERROR_OUT_OF_MEMORY);
+        assert_null(direct);
+    }
+    left = 1 << 30;
+    test_stage_close(&stage);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(workers_change_nothing),
         cmocka_unit_test(one_receiver_can_be_cancelled),
         cmocka_unit_test(counts_are_true),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
