@@ -55,8 +55,9 @@ static void look_at_few(alpi_emitter_view *view)
         double f = alpi_polygon_form_factor(view->point, view->normal, corner, 3);
         f = alpi_surface_is_double_sided(e->scene, triangle) ? fabs(f) : fmax(f, 0.0);
         const alpi_triangle_view seen = alpi_triangle_view_from(view->point, corner);
-        view->weight[i] = e->radiance[i] * sqrt(largest_cosine(&seen, view->normal) * f * ALPI_PI *
-                                                seen.solid_angle);
+        const double cosine = largest_cosine(&seen, view->normal);
+        const double angle = fmax(seen.solid_angle, ALPI_PI * f); // a speck's may round to 0
+        view->weight[i] = e->radiance[i] * sqrt(cosine * ALPI_PI * f * angle);
         view->sum += view->weight[i];
         filled += f;
     }
