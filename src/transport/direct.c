@@ -79,13 +79,14 @@ static vec3 ray_start(const alpi_receiver_point *p)
 
 static void add(gather *g, const arrival *given)
 {
+    const uint32_t each = g->direct->samples / R;
     for (int k = 0; k < 3; k++) {
         if (given->replicate != EVERY) {
             g->sums[given->part][given->replicate][k] += (double)given->light[k];
             continue;
         }
         for (int r = 0; r < R; r++) {
-            g->sums[given->part][r][k] += (double)given->light[k] * (g->direct->samples / R);
+            g->sums[given->part][r][k] += (double)given->light[k] * each;
         }
     }
 }
@@ -238,7 +239,7 @@ static void add_suns(gather *g)
         const alpi_sun *sun = NULL;
         const double pick = (double)draw(g, USE_SUN + 1, i).x;
         const double part = pick_sun(d, g->points[i].shading_normal, pick, &sun);
-        if (part > 0.0) {
+        if (part > 0.0 && sun != NULL) {
             ask_sun(g, sun, i, USE_SUN, (float)(1.0 / part));
         }
     }
@@ -351,9 +352,10 @@ static void trace_met(gather *g, met_packet *m)
 {
     const alpi_direct_options *o = &g->direct->options;
     alpi_hits hits;
-    if (m->count > 0) {
-        alpi_trace_nearest(o->tracer, &m->rays, (1u << m->count) - 1u, o->filter, &hits);
+    if (m->count == 0) {
+        return;
     }
+    alpi_trace_nearest(o->tracer, &m->rays, (1u << m->count) - 1u, o->filter, &hits);
     for (uint32_t lane = 0; lane < m->count; lane++) {
         add_hit(g, m, &hits, (int)lane);
     }
@@ -397,18 +399,19 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
 static void add_surfaces(gather *g)
 {
     const alpi_direct *d = g->direct;
+    const uint32_t count = g->count;
     alpi_emitter_view views[CHUNK];
     met_packet met = {.count = 0};
     if (d->emitters.all.count == 0 && d->sky == NULL) {
         return;
     }
-    for (uint32_t i = 0; i < g->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const alpi_receiver_point *p = &g->points[i];
         views[i] = alpi_emitter_view_from(&d->emitters, ray_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
     flush(g, false);
-    for (uint32_t i = 0; i < g->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         aim(g, &views[i], i, &met);
     }
     trace_met(g, &met);

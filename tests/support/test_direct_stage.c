@@ -80,7 +80,7 @@ alpi_reference_value test_stage_direct(const test_stage *stage, const test_patch
     alpi_direct_options o = test_stage_options(stage, samples);
     o.seed = seed;
     alpi_direct *direct = NULL;
-    alpi_reference_value value;
+    alpi_reference_value value = {.mean = {0.0f}};
     alpi_direct_output output = {.values = &value};
     ASSERT_OK(stage->context, alpi_direct_create(&o, &direct));
     ASSERT_OK(stage->context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
