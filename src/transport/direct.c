@@ -405,9 +405,11 @@ static void add_surfaces(gather *g)
     if (d->emitters.all.count == 0 && d->sky == NULL) {
         return;
     }
+    const alpi_emitter_choice choice =
+        alpi_emitter_choose(&d->emitters, g->points, g->job->receivers->extended ? count : 1);
     for (uint32_t i = 0; i < count; i++) {
         const alpi_receiver_point *p = &g->points[i];
-        views[i] = alpi_emitter_view_from(&d->emitters, ray_start(p), p->shading_normal);
+        views[i] = alpi_emitter_view_from(&choice, ray_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
     flush(g, false);

@@ -5,9 +5,10 @@
 
 #include "scene/lighting.h"
 #include "scene/lighting_emitters.h"
+#include "scene/receivers.h"
 
-/// Up to here each triangle's form factor is computed at each point, so that little is left to
-/// chance but what hides them. More are drawn by their hierarchy.
+/// Up to here form factors say how often each triangle is drawn, so that little is left to chance
+/// but what hides them. More are drawn by their hierarchy.
 enum { ALPI_DIRECT_FEW = 8 };
 
 typedef struct alpi_direct_emitters {
@@ -21,15 +22,25 @@ typedef struct alpi_direct_emitters {
 alp_result alpi_direct_emitters_collect(const alp_scene *scene, alpi_direct_emitters *emitters);
 void alpi_direct_emitters_clear(alpi_direct_emitters *emitters);
 
-/// The emitters as one point sees them.
-typedef struct alpi_emitter_view {
+/// How triangles are drawn at some points, where there are few: as they look from some of these.
+typedef struct alpi_emitter_choice {
     const alpi_direct_emitters *emitters;
+    double weight[ALPI_DIRECT_FEW]; // 0 only of one that gives nothing at any of the points
+    double sum;
+    double share; // of the hemisphere that they fill
+} alpi_emitter_choice;
+alpi_emitter_choice alpi_emitter_choose(const alpi_direct_emitters *emitters,
+                                        const alpi_receiver_point *points, uint32_t count);
+
+/// The emitters as one of these points sees them.
+typedef struct alpi_emitter_view {
+    const alpi_emitter_choice *choice;
     vec3 point, normal;
-    double weight[ALPI_DIRECT_FEW], sum; // where few
-    double share;                        // of the hemisphere's light that they may fill, estimated;
-                                         // 0 only where they give nothing
+    double share; // of the hemisphere's light that they may give, estimated; 0 only where they
+                  // give nothing
 } alpi_emitter_view;
-alpi_emitter_view alpi_emitter_view_from(const alpi_direct_emitters *emitters, vec3 point,
+/// @param point where its rays start
+alpi_emitter_view alpi_emitter_view_from(const alpi_emitter_choice *choice, vec3 point,
                                          vec3 normal);
 
 /// Draws a triangle and a direction in its solid angle, as alpi_lighting_sample does of all light.
