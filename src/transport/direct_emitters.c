@@ -34,7 +34,7 @@ void alpi_direct_emitters_clear(alpi_direct_emitters *emitters)
 /// From how many of the points form factors are computed, each of which costs some rays' time; and
 /// the least weight, as a cosine, of a triangle that these see from behind or below the horizon.
 enum { LOOKS = 4 };
-static const double LEAST_COSINE = 1.0 / 32.0;
+static const double LEAST_COSINE = 1.0 / 8.0;
 
 /// The largest cosine at a corner of a triangle, at least 0.
 static double largest_cosine(const alpi_triangle_view *seen, vec3 normal)

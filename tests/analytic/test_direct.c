@@ -362,6 +362,39 @@ static void a_polygon_from_any_side(void **state)
     }
 }
 
+static const vec3 screens[2][4] = {
+    {{0, 0.2f, 3}, {0, 0.2f, 2}, {0, 1.2f, 2}, {0, 1.2f, 3}},
+    {{-2, 0.2f, -2}, {-2, 0.2f, -3}, {-2, 1.2f, -3}, {-2, 1.2f, -2}}};
+
+static void add_screens(alpi_builder *b)
+{
+    alpi_builder_quad(b, screens[0]);
+    alpi_builder_quad(b, screens[1]);
+}
+
+/// Three quarters of a strip are behind the first of two screens, a quarter behind both: what the
+/// points see that emitters are chosen by is not what all of them see.
+static void a_patch_that_is_partly_behind(void **state)
+{
+    (void)state;
+    enum { CUTS = 20000 };
+    test_stage s = test_stage_open(context, make_shape(add_screens, 2.0f), NULL, 0, NULL);
+    const test_patch strip = {{-3, 0, 0}, {4, 0, 0}, {0, 0, 1e-3f}, UP};
+    double sum = 0.0;
+    for (int i = 0; i < CUTS; i++) {
+        const vec3 at = {(float)(-3.0 + 4.0 * (i + 0.5) / CUTS), 0, 5e-4f};
+        for (int k = 0; k < 2; k++) {
+            sum += 2.0 * ALPI_PI * fmax(alpi_polygon_form_factor(at, UP, screens[k], 4), 0.0);
+        }
+    }
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        const alpi_reference_value v = test_stage_direct(&s, &strip, 16384, seed, NULL);
+        ASSERT_LIGHT(v, sum / CUTS);
+        assert_true(sqrt((double)v.variance[0]) < 1e-2 * sum / CUTS);
+    }
+    test_stage_close(&s);
+}
+
 // --- skies ---------------------------------------------------------------------------------------
 
 static alp_lighting_options sky_of(alp_sky_kind kind)
@@ -466,6 +499,7 @@ int main(void)
         cmocka_unit_test(a_disk),
         cmocka_unit_test(a_ball),
         cmocka_unit_test(a_polygon_from_any_side),
+        cmocka_unit_test(a_patch_that_is_partly_behind),
         cmocka_unit_test(an_even_sky),
         cmocka_unit_test(a_sky_beside_a_wall),
         cmocka_unit_test(an_uneven_sky),
