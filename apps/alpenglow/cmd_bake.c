@@ -302,8 +302,11 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
 
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
 {
-    printf("light      %u paths per texel, ", r->light_samples);
-    if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
+    printf("light      %u %s, ", r->light_samples,
+           r->light_direct ? "samples of each light per texel" : "paths per texel");
+    if (r->light_direct) {
+        printf("no bounce");
+    } else if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
         printf("all bounces");
     } else {
         printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");

@@ -341,7 +341,8 @@ static const option options[] = {
      .maximum = 65536,
      .unit = "paths per texel",
      .initial = "256",
-     .help = "Of --maps light, rounded up to a multiple of 16; --ao-samples are those of ao."},
+     .help = "Of --maps light, rounded up to a multiple of 16; with --bounces 0 samples of each "
+             "light, rounded up to a multiple of 8. --ao-samples are those of ao."},
     {.id = OPTION_BOUNCES,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,

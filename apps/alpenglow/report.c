@@ -153,9 +153,10 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
         json_object_clear(error);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        json_object_set_new(document, "light",
-                            json_pack("{s:I, s:o}", "paths_per_texel", (json_int_t)r->light_samples,
-                                      "mean_irradiance", json_number(r->light_mean)));
+        json_object_set_new(
+            document, "light",
+            json_pack("{s:I, s:o}", r->light_direct ? "samples_per_light" : "paths_per_texel",
+                      (json_int_t)r->light_samples, "mean_irradiance", json_number(r->light_mean)));
         json_object_set_new(error, "irradiance",
                             json_pack("{s:o, s:o}", "relative",
                                       json_number(r->light_relative_error), "p99",

@@ -52,12 +52,13 @@ typedef enum alp_map {
 /// `bounces` of light that goes on as long as it brings anything.
 #define ALP_BOUNCES_CONVERGE UINT32_MAX
 
-/// How ALP_MAP_LIGHT is gathered: by the reference path tracer.
+/// How ALP_MAP_LIGHT is gathered: by the reference path tracer; without bounces each light by
+/// samples of its own (of more than 64 lamps, and suns, one at a time).
 typedef struct alp_light_options {
     alp_lighting_options lighting; ///< beside the lights and emissive materials of the scene
     uint32_t bounces;              ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    uint32_t samples; ///< paths of a texel, [1, 65536], rounded up to a multiple of 16;
-                      ///< default 256
+    uint32_t samples; ///< paths of a texel, [1, 65536], rounded up to a multiple of 16; without
+                      ///< bounces rays to each light, to a multiple of 8; default 256
 } alp_light_options;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
@@ -140,14 +141,16 @@ typedef struct alp_bake_report {
     /// of rays came to its end.
     double ao_relative_error, ao_p99_error;
     bool cut_off;      ///< by the time limit or by cancelling: another run gives other bits
+    bool light_direct; ///< ALP_MAP_LIGHT was asked for without bounces
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_mean; NaN if dark.
     double light_relative_error, light_p99_error;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
-    uint64_t rays;           ///< of occlusion; of light the paths, which are several rays each
-    uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT
+    uint64_t rays; ///< of occlusion; of light the paths, which are several rays each, or all rays
+                   ///< where light_direct
+    uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT; of each light: light_direct
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Irradiance at the texels of a bake, by the reference.
+// Irradiance at the texels of a bake: direct light alone, or all of it by the reference.
 #include "bake/job.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/stated_error.h"
+#include "transport/direct.h"
 #include "transport/examine.h"
 #include "transport/reference.h"
 
@@ -42,17 +43,50 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
     return ALP_OK;
 }
 
-static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
-                         const alpi_tracer *tracer, const alpi_receivers *receivers,
-                         const uint32_t *order, uint32_t count, const alpi_task_progress *progress)
+/// Where light is gathered, and what it becomes.
+typedef struct light_task {
+    const alpi_lighting *lighting;
+    const alpi_tracer *tracer;
+    const alpi_receivers *receivers;
+    const uint32_t *order; // [count] receivers
+    uint32_t count;
+    alpi_task_progress progress;
+    alpi_reference_value *values; // [receivers]
+} light_task;
+
+/// Light that comes straight from where it is made.
+static alp_result gather_direct(alpi_bake_job *job, const light_task *t)
+{
+    const alp_bake_options *o = &job->options;
+    const alpi_direct_options options = {
+        .context = job->context,
+        .scene = job->scene,
+        .tracer = t->tracer,
+        .lighting = t->lighting,
+        .filter = {.one_sided = o->occlusion.one_sided},
+        .samples = o->light.samples,
+        .seed = o->occlusion.seed,
+    };
+    alpi_direct *direct = NULL;
+    alpi_direct_output output = {.values = t->values};
+    ALP_TRY(alpi_direct_create(&options, &direct));
+    const alp_result result =
+        alpi_direct_irradiance(direct, t->receivers, t->order, t->count, &t->progress, &output);
+    job->report.light_samples = alpi_direct_samples(direct);
+    job->report.rays += output.rays;
+    alpi_direct_destroy(direct);
+    return result;
+}
+
+static alp_result gather_paths(alpi_bake_job *job, const light_task *t)
 {
     const alp_bake_options *o = &job->options;
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
     const alpi_reference reference = {
         .context = job->context,
         .scene = job->scene,
-        .tracer = tracer,
-        .lighting = lighting,
+        .tracer = t->tracer,
+        .lighting = t->lighting,
         .filter = {.one_sided = o->occlusion.one_sided},
         .bounces = o->light.bounces < limit ? o->light.bounces : limit,
         .samples = o->light.samples,
@@ -60,20 +94,28 @@ static alp_result gather(alpi_bake_job *job, const alpi_lighting *lighting,
         .share = true,
         .seed = o->occlusion.seed,
     };
-    alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, receivers->count);
-    float *errors = ALPI_NEW(job->context, float, receivers->count);
-    alp_result result = values != NULL && errors != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
-    alpi_task_progress told = *progress;
-    told.stage = "light";
+    ALP_TRY(alpi_reference_irradiance(&reference, t->receivers, t->order, t->count, &t->progress,
+                                      t->values));
+    job->report.light_samples = alpi_reference_samples(&reference);
+    job->report.rays += (uint64_t)t->count * job->report.light_samples;
+    return ALP_OK;
+}
+
+static alp_result gather(alpi_bake_job *job, light_task *t)
+{
+    const uint32_t count = t->receivers->count;
+    t->progress.stage = "light";
+    t->values = ALPI_NEW(job->context, alpi_reference_value, count);
+    float *errors = ALPI_NEW(job->context, float, count);
+    alp_result result = t->values != NULL && errors != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
-        result = alpi_reference_irradiance(&reference, receivers, order, count, &told, values);
+        job->report.light_direct = job->options.light.bounces == 0;
+        result = job->report.light_direct ? gather_direct(job, t) : gather_paths(job, t);
     }
     if (result == ALP_OK) {
-        result = take_values(job, order, count, values, errors);
-        job->report.light_samples = alpi_reference_samples(&reference);
-        job->report.rays += (uint64_t)count * job->report.light_samples;
+        result = take_values(job, t->order, t->count, t->values, errors);
     }
-    alpi_release(job->context, values);
+    alpi_release(job->context, t->values);
     alpi_release(job->context, errors);
     return result;
 }
@@ -90,8 +132,14 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     alp_result result = alpi_examine_light(tracer, filter, job->scene, lighting, progress->callback,
                                            progress->user);
+    light_task task = {.lighting = lighting,
+                       .tracer = tracer,
+                       .receivers = receivers,
+                       .order = order,
+                       .count = count,
+                       .progress = *progress};
     if (result == ALP_OK) {
-        result = gather(job, lighting, tracer, receivers, order, count, progress);
+        result = gather(job, &task);
     }
     alpi_lighting_destroy(job->context, lighting);
     return result;

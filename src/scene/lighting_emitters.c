@@ -50,6 +50,16 @@ static double mean_radiance(const alp_scene *scene, uint32_t triangle, const alp
     return fmax(sum / (LOOKS_ACROSS * LOOKS_ACROSS), LEAST_SHARE * full);
 }
 
+double alpi_emitters_radiance(const alp_scene *scene, uint32_t triangle)
+{
+    const alpi_material *m = emissive_material(scene, scene->triangle_surface[triangle]);
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    return m == NULL ? 0.0
+                     : mean_radiance(scene, triangle, m,
+                                     vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 1, 0}));
+}
+
 static alpi_light_bound bound_triangle(const alp_scene *scene, uint32_t triangle,
                                        const alpi_material *m, double *radiance)
 {

@@ -20,6 +20,10 @@ typedef struct alpi_emitters {
 alp_result alpi_emitters_collect(const alp_scene *scene, alpi_emitters *emitters);
 void alpi_emitters_clear(alp_context *context, alpi_emitters *emitters);
 
+/// Radiance of an emissive triangle, mean over it (by a few looks at its texture, but never 0) and
+/// over the channels; 0 where its material emits nothing.
+double alpi_emitters_radiance(const alp_scene *scene, uint32_t triangle);
+
 /// Place of a triangle in `triangles`, ALPI_NONE if it is none of them.
 uint32_t alpi_emitters_find(const alpi_emitters *emitters, uint32_t triangle);
 

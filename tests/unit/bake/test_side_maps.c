@@ -285,6 +285,7 @@ static void the_sun_on_a_plane(void **state)
     assert_true(access(test_path(options.maps_folder, "irradiance.exr"), F_OK) == 0);
     assert_true(access(test_path(options.maps_folder, "irradiance.error.exr"), F_OK) == 0);
     assert_true(access(test_path(options.maps_folder, "ao.exr"), F_OK) != 0);
+    options.maps_folder = NULL;
     const float *page = alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, 0, NULL, NULL);
     const double exact = 1000.0 * sin(0.5);
     uint32_t lit = 0, dark = 0;
@@ -296,6 +297,16 @@ static void the_sun_on_a_plane(void **state)
     }
     assert_true(lit > 100 && dark > 10);
     assert_true(report.light_mean > 0.0 && report.light_relative_error < 0.2);
+    // One light: a ray of each sample that faces it, and those that look for texels inside others.
+    assert_true(report.light_direct && report.light_samples == 16);
+    options.light.lighting.sun.illuminance = 0.0f;
+    alp_bake_report darkness;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &darkness));
+    assert_true(report.rays > darkness.rays &&
+                report.rays - darkness.rays <= 16 * report.atlas.texels);
+    options.light.bounces = 1;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &darkness));
+    assert_false(darkness.light_direct);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
     alp_context_destroy(context);

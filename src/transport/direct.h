@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Direct light at receivers: what lights, emissive surfaces and sky give without a bounce, each
+// with samples of its own.
+//
+// Lamps and suns are asked by shadow rays, suns at stratified points of their disk. An emissive
+// triangle is drawn in proportion to what it can give, and a stratified direction within its solid
+// angle. Sky, and surfaces that fill much of the hemisphere, are also met by cosine-distributed
+// rays; the balance heuristic weighs who asks against who meets.
+// Based on: E. Veach, L. J. Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995;
+//           J. Arvo. Stratified Sampling of Spherical Triangles. SIGGRAPH 1995.
+#ifndef ALPI_TRANSPORT_DIRECT_H
+#define ALPI_TRANSPORT_DIRECT_H
+
+#include "transport/reference.h"
+
+/// Independently scrambled parts of a receiver's samples: see ALPI_REFERENCE_REPLICATES. Half as
+/// many here, for they cost stratification, of which direct light lives: 16 have an error 15 to
+/// 20 % larger at the same number of rays (penumbrae and polygons of test_direct.c).
+enum { ALPI_DIRECT_REPLICATES = 8 };
+/// Up to here each light, and each emissive material, has a part of its own. More lights are drawn
+/// in proportion to what they give, with as many samples as one of them would have.
+enum { ALPI_DIRECT_LIGHT_LIMIT = 64 };
+
+typedef struct alpi_direct_options {
+    alp_context *context; // its workers, its memory
+    const alp_scene *scene;
+    const alpi_tracer *tracer;
+    const alpi_lighting *lighting; // all three borrowed
+    alpi_trace_filter filter;
+    uint32_t samples; // of each light at each receiver, rounded up to a multiple of REPLICATES
+    uint64_t seed;
+} alpi_direct_options;
+
+typedef enum alpi_direct_kind {
+    ALPI_DIRECT_LIGHT,     // one light, `index` of alpi_lighting_light
+    ALPI_DIRECT_LIGHTS,    // lights without size, where they are too many; so for suns
+    ALPI_DIRECT_SUNS,      //
+    ALPI_DIRECT_MATERIAL,  // emissive triangles of one material, `index` of scene.materials
+    ALPI_DIRECT_MATERIALS, // of all of them, where they are too many
+    ALPI_DIRECT_SKY
+} alpi_direct_kind;
+
+/// Light that can be told apart. Lights that give nothing have none.
+typedef struct alpi_direct_part {
+    alpi_direct_kind kind;
+    uint32_t index; // ALPI_NONE where it is not one
+} alpi_direct_part;
+
+typedef struct alpi_direct alpi_direct; // immutable
+
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_direct_create(const alpi_direct_options *options, alpi_direct **direct);
+void alpi_direct_destroy(alpi_direct *direct); // NULL does nothing
+
+/// Samples of each light: options.samples rounded up.
+uint32_t alpi_direct_samples(const alpi_direct *direct);
+/// The parts, in the order in which they are summed: lights as listed, materials, sky.
+const alpi_direct_part *alpi_direct_parts(const alpi_direct *direct, uint32_t *count);
+
+/// What is written of each receiver.
+typedef struct alpi_direct_output {
+    alpi_reference_value *values; // [receivers] of all light together
+    alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
+                                  // order, are the mean of all; variances do not add up: parts
+                                  // share the points of a receiver
+    uint64_t rays;                // that were traced
+} alpi_direct_output;
+
+/// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased;
+/// a lamp at a receiver without extent takes one ray and is exact.
+/// @param output values and parts of the listed receivers are written, rays is added to
+/// @return ALP_OK; CANCELLED
+/// Progress counts the most rays there may be. Cost: samples × (lights up to 64, else 1; suns; 1
+/// for emissive triangles, and 1 more near them; 1 for a sky, 2 for an uneven one).
+alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receivers *receivers,
+                                  const uint32_t *list, uint32_t list_count,
+                                  const alpi_task_progress *progress, alpi_direct_output *output);
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What direct light is gathered from: all light of a scene, sorted by how it is asked.
+#ifndef ALPI_TRANSPORT_DIRECT_SETUP_H
+#define ALPI_TRANSPORT_DIRECT_SETUP_H
+
+#include "scene/lighting_punctual.h"
+#include "scene/lighting_suns.h"
+#include "transport/direct.h"
+#include "transport/direct_emitters.h"
+
+/// A part of each light up to the limit and as many materials, or one of many; and the sky.
+enum { ALPI_DIRECT_PART_LIMIT = 3 * ALPI_DIRECT_LIGHT_LIMIT + 1 };
+
+struct alpi_direct {
+    alpi_direct_options options;
+    uint32_t samples; // of each light, a multiple of the replicates
+    alpi_direct_part parts[ALPI_DIRECT_PART_LIMIT];
+    uint32_t part_count;
+    alpi_light *lights;       // [alpi_lighting_light_count]; names are borrowed
+    uint32_t *light_parts;    // of each of them, ALPI_NONE: it gives nothing
+    uint32_t *lamps;          // [lamp_count] lights without size
+    uint32_t lamp_count;      //
+    bool lamps_drawn;         // one at a time, from `drawn`
+    alpi_punctual drawn;      //
+    alpi_sun *suns;           // [sun_count]
+    uint32_t sun_count;       //
+    bool suns_drawn;          // one at a time
+    uint32_t *material_parts; // [scene.material_count], ALPI_NONE: it emits nothing
+    alpi_direct_emitters emitters;
+    const alpi_sky *sky; // NULL: none
+    uint32_t sky_part;
+    bool sky_drawn; // it is uneven: directions to it are drawn besides those that meet it
+};
+
+#endif

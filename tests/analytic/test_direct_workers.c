@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Direct light has the same bits for any number of workers and whatever else is in the list; it
+// ends soon after it is cancelled, within one receiver too.
+#include "test_direct_stage.h"
+
+enum { POINTS = 32, PARTS = 3 };
+static test_patch patches[POINTS];
+
+typedef struct result {
+    alpi_reference_value values[POINTS], parts[POINTS][PARTS];
+} result;
+
+static test_stage open_cornell(alp_context *context)
+{
+    alp_scene *scene = NULL;
+    const alpi_light lamp = test_lamp((vec3){0.2f, 0.3f, -0.2f}, 0.1f);
+    alp_lighting_options o = alp_lighting_options_default();
+    o.sky.kind = ALP_SKY_CONSTANT;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    return test_stage_open(context, scene, &lamp, 1, &o);
+}
+
+static test_patches floor_patches(void)
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        patches[i] = (test_patch){
+            {0.05f + 0.014f * (float)i, 0.0f, -0.4f}, {0.014f, 0, 0}, {0, 0, 0.014f}, {0, 1, 0}};
+    }
+    return (test_patches){.count = POINTS, .patches = patches, .offset = 1e-6f};
+}
+
+static void gather(const test_stage *stage, uint32_t workers, const uint32_t *list,
+                   uint32_t list_count, result *made)
+{
+    alp_context *context = test_context(workers);
+    alpi_direct_options o = test_stage_options(stage, 100); // rounded up to 104
+    o.context = context;
+    const test_patches floor = floor_patches();
+    const alpi_receivers receivers = test_patches_receivers(&floor);
+    alpi_direct *direct = NULL;
+    uint32_t parts;
+    alpi_direct_output output = {.values = made->values, .parts = made->parts[0]};
+    ASSERT_OK(context, alpi_direct_create(&o, &direct));
+    alpi_direct_parts(direct, &parts);
+    assert_int_equal(parts, PARTS);
+    ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, list, list_count, NULL, &output));
+    alpi_direct_destroy(direct);
+    alp_context_destroy(context);
+}
+
+static void workers_change_nothing(void **state)
+{
+    (void)state;
+    static result results[5];
+    static const uint32_t workers[4] = {1, 2, 7, 32};
+    alp_context *context = test_context(1);
+    test_stage stage = open_cornell(context);
+    for (int k = 0; k < 4; k++) {
+        gather(&stage, workers[k], NULL, 0, &results[k]);
+        assert_memory_equal(&results[k], &results[0], sizeof results[0]);
+    }
+    assert_true(results[0].values[7].mean[0] > 0.0f && results[0].values[7].variance[0] > 0.0f);
+    const uint32_t some[2] = {7, 3};
+    gather(&stage, 2, some, 2, &results[4]);
+    for (int i = 0; i < 2; i++) {
+        assert_memory_equal(&results[4].values[some[i]], &results[0].values[some[i]],
+                            sizeof results[0].values[0]);
+        assert_memory_equal(results[4].parts[some[i]], results[0].parts[some[i]],
+                            sizeof results[0].parts[0]);
+    }
+    assert_true(results[4].values[5].mean[0] == 0.0f); // not in the list
+    test_stage_close(&stage);
+    alp_context_destroy(context);
+}
+
+/// What the user hears, and when the answer is no.
+typedef struct listener {
+    uint32_t calls, refuse_at;
+    uint64_t done, total;
+    bool backwards;
+} listener;
+
+static bool listen(void *user, const alp_progress *progress)
+{
+    listener *l = user;
+    l->backwards = l->backwards || progress->done < l->done || progress->done > progress->total;
+    l->done = progress->done;
+    l->total = progress->total;
+    return ++l->calls != l->refuse_at;
+}
+
+static void one_receiver_can_be_cancelled(void **state)
+{
+    (void)state;
+    // 2^26 samples of one receiver take minutes.
+    for (uint32_t workers = 1; workers <= 2; workers++) {
+        alp_context *context = test_context(workers);
+        test_stage stage = open_cornell(context);
+        alpi_direct_options o = test_stage_options(&stage, 1u << 26);
+        const test_patches floor = floor_patches();
+        const alpi_receivers receivers = test_patches_receivers(&floor);
+        static alpi_reference_value values[POINTS];
+        alpi_direct_output output = {.values = values};
+        alpi_direct *direct = NULL;
+        listener l = {.refuse_at = 3};
+        const alpi_task_progress told = {.callback = listen, .user = &l, .stage = "light"};
+        ASSERT_OK(context, alpi_direct_create(&o, &direct));
+        const double started = alpi_seconds();
+        assert_int_equal(alpi_direct_irradiance(direct, &receivers, NULL, 0, &told, &output),
+                         ALP_ERROR_CANCELLED);
+        // Asked at once and twice more, every 50 ms; the rest is for a machine that is busy.
+        assert_true(alpi_seconds() - started < 2.0);
+        assert_int_equal(l.calls, 3); // who refused is not asked again
+        assert_false(l.backwards);
+        alpi_direct_destroy(direct);
+        test_stage_close(&stage);
+        alp_context_destroy(context);
+    }
+}
+
+/// Rays are counted as they are traced, and progress ends at its total.
+static void counts_are_true(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    test_stage stage = open_cornell(context);
+    const alpi_direct_options o = test_stage_options(&stage, 64);
+    const test_patches floor = floor_patches();
+    const alpi_receivers receivers = test_patches_receivers(&floor);
+    static alpi_reference_value values[POINTS];
+    alpi_direct_output output = {.values = values, .rays = 5}; // added to
+    alpi_direct *direct = NULL;
+    listener l = {0};
+    const alpi_task_progress told = {.callback = listen, .user = &l, .stage = "light"};
+    ASSERT_OK(context, alpi_direct_create(&o, &direct));
+    ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, &told, &output));
+    assert_true(l.done == l.total && !l.backwards);
+    // The lamp, the quad and the even sky: at most three rays a sample; all points see the first
+    // two, of which none is below their horizon.
+    assert_int_equal(l.total, 3 * 64 * POINTS);
+    assert_int_equal(output.rays - 5, 3 * 64 * POINTS);
+    alpi_direct_destroy(direct);
+    test_stage_close(&stage);
+    alp_context_destroy(context);
+}
+
+/// Of lamps enough to be drawn, emitters and a sky.
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    enum { LAMPS = 80 };
+    int left = 0;
+    alp_context *context = test_context_failing(&left);
+    left = 1 << 30;
+    alpi_light lamps[LAMPS];
+    for (int i = 0; i < LAMPS; i++) {
+        lamps[i] = test_lamp((vec3){0.005f * (float)i, 0.3f, -0.2f}, 0.1f);
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    test_stage stage = test_stage_open(context, scene, lamps, LAMPS, NULL);
+    const alpi_direct_options o = test_stage_options(&stage, 8);
+    alpi_direct *direct = NULL;
+    left = 1 << 30;
+    ASSERT_OK(context, alpi_direct_create(&o, &direct));
+    alpi_direct_destroy(direct);
+    const int needed = (1 << 30) - left;
+    assert_true(needed > 8);
+    for (int i = 0; i < needed; i++) {
+        left = i;
+        assert_int_equal(alpi_direct_create(&o, &direct), ALP_ERROR_OUT_OF_MEMORY);
+        assert_null(direct);
+    }
+    left = 1 << 30;
+    test_stage_close(&stage);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(one_receiver_can_be_cancelled),
+        cmocka_unit_test(counts_are_true),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

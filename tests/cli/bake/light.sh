@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+# light with and without bounces: what is said of the samples; direct light in the same bits for any
+# number of threads
+bake() {
+    alpenglow bake builtin:cornell --size 32 --maps light --samples 20 --threads 2 "$@" ||
+        echo "failed: $*"
+}
+said() {
+    grep '^light' | sed 's/;.*//'
+}
+bake --bounces 0 --maps-dir direct --json direct.json | said
+bake --bounces 1 --maps-dir paths --json paths.json | said
+bake --bounces 0 --maps-dir again --threads 1 -q
+ls direct
+cmp direct/irradiance.exr again/irradiance.exr
+grep -ho '"[a-z_]*per[a-z_]*": [0-9]*' direct.json paths.json
