@@ -282,9 +282,11 @@ static void print_scenes(const truth_summary *told, int count, const bench_optio
     bench_table table;
     bench_table_start(
         &table, "The truths",
-        "Irradiance of texels chosen at random, by the reference: all bounces, as many paths as "
-        "bring its own error to 1 % of the mean, 16,384 at most. Own error: root mean square of "
-        "the texels' standard errors over the mean of E; of the mean: that of the mean of E.",
+        "Irradiance of texels chosen at random on all surfaces, the outsides of rooms too, by the "
+        "reference: all bounces, as many paths as bring its own error to 1 % of the mean, 16,384 "
+        "at most. Own error: root mean square of the texels' standard errors over the mean of E; "
+        "of the mean: that of the mean of E. The clear sky is that of a sun at azimuth 150°, 40° "
+        "high, without the sun.",
         "scene|light|map|asked|mean of E|paths|own error|of the mean");
     for (const truth_summary *t = told; t < told + count; t++) {
         if (t->known) {
@@ -350,7 +352,9 @@ static void print_all(const truth_summary *told, int count, const bench_options 
                  options);
     print_matrix(told, count, true, "Bias of the mean, in percent",
                  "Mean of E less that of the truth, over the latter, ± the standard error of both "
-                 "together: beyond three of them it is more than noise.",
+                 "together: beyond three of them it is more than noise. Only without next-event "
+                 "estimation, where few paths meet a small sun, and those by chance, it may be "
+                 "more than is stated.",
                  options);
 }
 

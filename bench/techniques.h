@@ -29,7 +29,8 @@ typedef struct bench_technique {
     const char *name;
     bench_technique_fn *run;
     uint32_t paths;
-    bool exact; // its mean over seeds is the truth: a bias beyond its noise is a fault in one
+    bool exact; // its mean over seeds is the truth and its stated error true: a bias beyond it is a
+                // fault in one of the two
 } bench_technique;
 /// Those that there are, from 0. @return NULL past the last
 const bench_technique *bench_technique_at(int index);
