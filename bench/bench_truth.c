@@ -23,11 +23,11 @@ static const double GREATEST_Z = 6.0; // of the mean of a technique without bias
 
 typedef struct truth_scene {
     const char *name, *title;
-    bool shared; // a file below $ALPENGLOW_SHARED
-    uint32_t size;
-    double texels_per_metre; // 0: `size` is that of the page
     const char *sky;         // a picture below $ALPENGLOW_SHARED, or NULL
-    bool clear;              // the sky of a clear day, without the sun's disk
+    double texels_per_metre; // 0: `size` is that of the page
+    uint32_t size;
+    bool shared; // a file below $ALPENGLOW_SHARED
+    bool clear;  // the sky of a clear day, without the sun's disk
 } truth_scene;
 
 // The scenes of the truth table: fixed, so that figures compare over the years. The atrium has no
@@ -115,11 +115,8 @@ static void choose_texels(truth_case *c, uint32_t count)
         order[i] = texel;
     }
     c->list = order;
-    c->question = (bench_question){.scene = &c->scene,
-                                   .map = &c->map,
-                                   .lighting = c->lighting,
-                                   .count = count,
-                                   .list = order};
+    c->question = (bench_question){
+        .scene = &c->scene, .map = &c->map, .lighting = c->lighting, .count = count, .list = order};
 }
 
 static void close_case(truth_case *c)
@@ -253,8 +250,11 @@ static bool ask_techniques(truth_case *c, bool quick)
 {
     alpi_reference_value *values = bench_allocate(c->question.count, sizeof *values);
     bool good = true;
-    const bench_technique *t;
-    for (int i = 0; good && i < TECHNIQUE_LIMIT && (t = bench_technique_at(i)) != NULL; i++) {
+    for (int i = 0; good && i < TECHNIQUE_LIMIT; i++) {
+        const bench_technique *t = bench_technique_at(i);
+        if (t == NULL) {
+            break;
+        }
         good = t->run(&c->question, quick ? t->paths / 8 : t->paths, values);
         c->told->verdicts[i] = judge(c, values);
         const double z = fabs(c->told->verdicts[i].bias) / c->told->verdicts[i].doubt;
@@ -329,9 +329,12 @@ static void print_matrix(const truth_summary *told, int count, bool bias, const 
         length += snprintf(row + length, ROW_SIZE - (size_t)length, "|%s", told[i].what->title);
     }
     bench_table_start(&table, title, note, row);
-    const bench_technique *t = NULL;
-    for (int k = -1; k < TECHNIQUE_LIMIT && (k < 0 || (t = bench_technique_at(k)) != NULL); k++) {
-        length = snprintf(row, ROW_SIZE, "%s", k < 0 ? "the truth itself" : t->name);
+    for (int k = -1; k < TECHNIQUE_LIMIT; k++) {
+        const bench_technique *t = bench_technique_at(k);
+        if (k >= 0 && t == NULL) {
+            break;
+        }
+        length = snprintf(row, ROW_SIZE, "%s", t == NULL ? "the truth itself" : t->name);
         for (int i = 0; i < count; i++) {
             write_cell(&told[i], k, bias, cell);
             length += snprintf(row + length, ROW_SIZE - (size_t)length, "|%s", cell);
@@ -376,9 +379,9 @@ static bool run_scene(const truth_scene *what, bool quick, truth_summary *told)
         return true;
     }
     truth_case c = {.what = what, .told = told};
-    told->known = open_case(&c, what->shared ? path : what->name, what->sky != NULL ? sky : NULL,
-                            quick) &&
-                  find_truth(&c, quick) && ask_techniques(&c, quick);
+    told->known =
+        open_case(&c, what->shared ? path : what->name, what->sky != NULL ? sky : NULL, quick) &&
+        find_truth(&c, quick) && ask_techniques(&c, quick);
     close_case(&c);
     return told->known;
 }

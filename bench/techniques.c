@@ -23,10 +23,9 @@ bool bench_reference(const bench_question *question, bench_paths paths,
                                       .next_event = paths.next_event,
                                       .seed = paths.seed};
     alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
-    const bool good =
-        bench_good(question->scene, alpi_reference_irradiance(&reference, &receivers,
-                                                              question->list, question->count,
-                                                              NULL, all));
+    const bool good = bench_good(question->scene,
+                                 alpi_reference_irradiance(&reference, &receivers, question->list,
+                                                           question->count, NULL, all));
     for (uint32_t i = 0; i < question->count; i++) {
         values[i] = all[question->list[i]];
     }
@@ -74,7 +73,7 @@ static void fit(const bench_question *question, const float (*weights)[2],
         const double determinant = aa * bb - ab * ab;
         const bool both = determinant > 1e-12 * aa * bb; // else one weight says all there is
         const double one = both ? (ay * bb - by * ab) / determinant : aa > 0.0 ? ay / aa : 0.0;
-        const double two = both                   ? (by * aa - ay * ab) / determinant
+        const double two = both                    ? (by * aa - ay * ab) / determinant
                            : aa <= 0.0 && bb > 0.0 ? by / bb
                                                    : 0.0;
         for (uint32_t i = 0; i < question->count; i++) {
@@ -125,8 +124,7 @@ static bool run_occlusion(const bench_question *question, uint32_t paths,
     alp_occlusion_options options = alp_occlusion_options_default();
     options.seed = SEED;
     alpi_occlusion_setup setup;
-    if (!bench_good(scene,
-                    alpi_occlusion_prepare(scene->scene, scene->tracer, &options, &setup))) {
+    if (!bench_good(scene, alpi_occlusion_prepare(scene->scene, scene->tracer, &options, &setup))) {
         return false;
     }
     float *all = bench_allocate(receivers.count, sizeof *all);
