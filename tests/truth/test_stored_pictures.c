@@ -9,7 +9,7 @@
 // of 3,600 sums 3.5. 4 pictures × 26 sums × 3 channels beyond ±5 by chance: once in 5,600 changes
 // of the random numbers; as long as these stay, the test always says the same.
 //
-//     build/release/tests/test_stored_pictures --update [PATHS]
+//     build/dev/tests/test_stored_pictures --update [PATHS]
 //
 // writes the stored pictures anew. Do so only after a change that is known to make them truer.
 #include "test_support.h"
