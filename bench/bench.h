@@ -17,7 +17,7 @@ typedef struct bench_options {
 
 /// One bench: prints its tables. @return 0, or 1 after a message
 typedef int bench_fn(const bench_options *options);
-bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy;
+bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, bench_against_truth;
 bench_fn bench_direct; // the second table of transport
 
 // --- tables --------------------------------------------------------------------------------------
@@ -71,6 +71,8 @@ typedef struct bench_map {
     double atlas_seconds, texel_seconds, validity_seconds;
 } bench_map;
 bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map);
+bool bench_map_open_with(const bench_scene *scene, const alp_atlas_options *options,
+                         bench_map *map);
 void bench_map_close(const bench_scene *scene, bench_map *map);
 
 /// Prints the context's message. @return whether the result is ALP_OK

@@ -132,11 +132,16 @@ static alp_result look_around(const bench_scene *scene, bench_map *map)
 
 bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map)
 {
-    memset(map, 0, sizeof *map);
     alp_atlas_options options = alp_atlas_options_default();
     options.size = size;
+    return bench_map_open_with(scene, &options, map);
+}
+
+bool bench_map_open_with(const bench_scene *scene, const alp_atlas_options *options, bench_map *map)
+{
+    memset(map, 0, sizeof *map);
     const double started = alpi_seconds();
-    if (!bench_good(scene, alp_atlas_create(scene->scene, &options, &map->atlas))) {
+    if (!bench_good(scene, alp_atlas_create(scene->scene, options, &map->atlas))) {
         return false;
     }
     const double made = alpi_seconds();

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Writes docs/speed.md and docs/accuracy.md anew from measurements, in some minutes.
+# Writes docs/speed.md and docs/accuracy.md anew from measurements, in a quarter of an hour.
 #
 #   scripts/make_docs.sh [COMMAND [TESTS]]
 #
 # COMMAND is a release build of alpenglow (default build/release/apps/alpenglow/alpenglow), TESTS the
 # folder of the test programs (default build/dev/tests), whose lines "accuracy: …" are collected.
-# Run it on a machine that has nothing else to do.
+# Run it on a machine that has nothing else to do, with ALPENGLOW_SHARED set to the shared scenes:
+# those that are not there show as skipped.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command=${1:-build/release/apps/alpenglow/alpenglow}
@@ -54,12 +55,13 @@ accuracy() {
     cat <<'TEXT'
 # Accuracy
 
-Written by `scripts/make_docs.sh`; do not edit. Errors are in units of accessibility, 0 to 1, or in
-percent of the mean of the map where they say so. What interpolation costs and gains stands in
-[speed.md](speed.md), "Error per second": the lines `adaptive off` and `auto` of a scene.
+Written by `scripts/make_docs.sh`; do not edit. Errors of occlusion are in units of accessibility, 0
+to 1, or in percent of the mean of the map where they say so. What interpolation costs and gains
+stands in [speed.md](speed.md), "Error per second": the lines `adaptive off` and `auto` of a scene.
 
 TEXT
     machine
+    section 'Techniques against the truth' truth
     section 'Stated errors' accuracy
     closed_forms
 }

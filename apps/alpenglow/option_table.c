@@ -31,9 +31,10 @@ static const command_entry commands[COMMAND_COUNT] = {
          command_bench,
          "Measures this machine: in turns, what the hardware and the ray tracer give at most, and "
          "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
-         "(the innermost loop), atlas, maps (error per second) or accuracy (stated against true "
-         "errors); without it all are run, which takes some minutes. Other work on the machine "
-         "makes the figures worse and the ratios little."},
+         "(the innermost loop), atlas, maps (error per second), accuracy (stated against true "
+         "errors) or truth (each technique against the reference); without it all are run, which "
+         "takes a quarter of an hour. Other work on the machine makes the figures worse and the "
+         "ratios little."},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
                         "bake --maps ao puts light on surfaces"},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "techniques.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SEED = 1 }; // of techniques; the truth has others
+
+// --- the reference -------------------------------------------------------------------------------
+
+bool bench_reference(const bench_question *question, bench_paths paths,
+                     alpi_reference_value *values)
+{
+    const alpi_receivers receivers = alpi_texels_receivers(&question->map->texels);
+    const alpi_reference reference = {.context = question->scene->context,
+                                      .scene = question->scene->scene,
+                                      .tracer = question->scene->tracer,
+                                      .lighting = question->lighting,
+                                      .bounces = paths.bounces,
+                                      .samples = paths.count,
+                                      .next_event = paths.next_event,
+                                      .seed = paths.seed};
+    alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
+    const bool good = bench_good(question->scene,
+                                 alpi_reference_irradiance(&reference, &receivers, question->list,
+                                                           question->count, NULL, all));
+    for (uint32_t i = 0; i < question->count; i++) {
+        values[i] = all[question->list[i]];
+    }
+    free(all);
+    return good;
+}
+
+static bool run_reference(const bench_question *question, uint32_t paths,
+                          alpi_reference_value *values)
+{
+    const bench_paths how = {paths, ALPI_REFERENCE_BOUNCE_LIMIT, true, SEED};
+    return bench_reference(question, how, values);
+}
+
+static bool run_by_chance(const bench_question *question, uint32_t paths,
+                          alpi_reference_value *values)
+{
+    const bench_paths how = {paths, ALPI_REFERENCE_BOUNCE_LIMIT, false, SEED};
+    return bench_reference(question, how, values);
+}
+
+static bool run_direct(const bench_question *question, uint32_t paths, alpi_reference_value *values)
+{
+    const bench_paths how = {paths, 0, true, SEED};
+    return bench_reference(question, how, values);
+}
+
+// --- ambient models ------------------------------------------------------------------------------
+
+/// E = c₀ a + c₁ b with the colours of least squares, for two weights a and b of each texel.
+static void fit(const bench_question *question, const float (*weights)[2],
+                alpi_reference_value *values)
+{
+    for (int k = 0; k < 3; k++) {
+        double aa = 0.0, ab = 0.0, bb = 0.0, ay = 0.0, by = 0.0;
+        for (uint32_t i = 0; i < question->count; i++) {
+            const double a = (double)weights[i][0], b = (double)weights[i][1];
+            const double y = (double)question->truth[i].mean[k];
+            aa += a * a;
+            ab += a * b;
+            bb += b * b;
+            ay += a * y;
+            by += b * y;
+        }
+        const double determinant = aa * bb - ab * ab;
+        const bool both = determinant > 1e-12 * aa * bb; // else one weight says all there is
+        const double one = both ? (ay * bb - by * ab) / determinant : aa > 0.0 ? ay / aa : 0.0;
+        const double two = both                    ? (by * aa - ay * ab) / determinant
+                           : aa <= 0.0 && bb > 0.0 ? by / bb
+                                                   : 0.0;
+        for (uint32_t i = 0; i < question->count; i++) {
+            values[i].mean[k] = (float)(one * (double)weights[i][0] + two * (double)weights[i][1]);
+            values[i].variance[k] = 0.0f;
+        }
+    }
+}
+
+/// The same light everywhere: OpenGL's GL_AMBIENT, and the mean that a picture is exposed for.
+static bool run_constant(const bench_question *question, uint32_t paths,
+                         alpi_reference_value *values)
+{
+    (void)paths;
+    float(*weights)[2] = bench_allocate(question->count, sizeof *weights);
+    for (uint32_t i = 0; i < question->count; i++) {
+        weights[i][0] = 1.0f;
+    }
+    fit(question, (const float(*)[2])weights, values);
+    free(weights);
+    return true;
+}
+
+/// One colour from above, one from below, nothing in their way.
+static bool run_hemisphere(const bench_question *question, uint32_t paths,
+                           alpi_reference_value *values)
+{
+    (void)paths;
+    float(*weights)[2] = bench_allocate(question->count, sizeof *weights);
+    for (uint32_t i = 0; i < question->count; i++) {
+        const float up = question->map->texels.normals[question->list[i]][1];
+        weights[i][0] = 0.5f * (1.0f + up);
+        weights[i][1] = 0.5f * (1.0f - up);
+    }
+    fit(question, (const float(*)[2])weights, values);
+    free(weights);
+    return true;
+}
+
+/// The same light everywhere, as much of it as the occlusion of a bake with default options lets
+/// through.
+static bool run_occlusion(const bench_question *question, uint32_t paths,
+                          alpi_reference_value *values)
+{
+    (void)paths;
+    const bench_scene *scene = question->scene;
+    const alpi_receivers receivers = alpi_texels_receivers(&question->map->texels);
+    alp_occlusion_options options = alp_occlusion_options_default();
+    options.seed = SEED;
+    alpi_occlusion_setup setup;
+    if (!bench_good(scene, alpi_occlusion_prepare(scene->scene, scene->tracer, &options, &setup))) {
+        return false;
+    }
+    float *all = bench_allocate(receivers.count, sizeof *all);
+    float(*weights)[2] = bench_allocate(question->count, sizeof *weights);
+    const bool good = bench_good(
+        scene, alpi_occlusion_gather(&setup, &receivers, question->list, question->count, all));
+    for (uint32_t i = 0; i < question->count; i++) {
+        weights[i][0] = all[question->list[i]];
+    }
+    fit(question, (const float(*)[2])weights, values);
+    alpi_occlusion_release(&setup);
+    free(weights);
+    free(all);
+    return good;
+}
+
+// --- the table -----------------------------------------------------------------------------------
+
+const bench_technique *bench_technique_at(int index)
+{
+    static const bench_technique techniques[] = {
+        {"reference, 64 paths", run_reference, 64, true},
+        {"reference, 256 paths", run_reference, 256, true},
+        // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
+        // too little of their own spread.
+        {"without next event, 256 paths", run_by_chance, 256, false},
+        {"direct light alone", run_direct, 1024, false},
+        {"constant ambient", run_constant, 0, false},
+        {"hemisphere ambient", run_hemisphere, 0, false},
+        {"constant x occlusion", run_occlusion, 0, false},
+    };
+    const int count = sizeof techniques / sizeof *techniques;
+    return index >= 0 && index < count ? &techniques[index] : NULL;
+}
