@@ -4,6 +4,7 @@
 #include "scene/triangle_light.h"
 #include "transport/direct_setup.h"
 #include "transport/hit.h"
+#include "transport/panes.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -21,7 +22,6 @@ _Static_assert(CHUNK % R == 0 && (R & (R - 1)) == 0, "replicates take turns, and
 /// Emitters that fill more than this share of the hemisphere are met by cosine-distributed rays
 /// too. Below, such rays cost more than what they find is worth.
 static const double NEAR_SHARE = 1.0 / 16.0;
-static const double ASK_INTERVAL = 0.05; // seconds
 
 /// What one call has in common.
 typedef struct direct_job {
@@ -29,11 +29,6 @@ typedef struct direct_job {
     const alpi_receivers *receivers;
     const uint32_t *list;
     alpi_direct_output *output;
-    const alpi_task_progress *told; // the user's
-    bool asks;                      // worker 0 is the caller, who may ask the user
-    alp_progress last;              // that the user heard, on the caller's thread
-    double asked;                   // alpi_seconds() when
-    _Atomic bool cancelled;
     _Atomic uint64_t rays;
 } direct_job;
 
@@ -47,7 +42,6 @@ typedef struct arrival {
 typedef struct gather {
     direct_job *job;
     const alpi_direct *direct;
-    uint32_t worker;
     uint32_t keys[R];
     alpi_receiver_point points[CHUNK];
     uint32_t first, count; // samples of the chunk
@@ -91,6 +85,32 @@ static void add(gather *g, const arrival *given)
     }
 }
 
+/// Adds what the free rays of a packet bring, through panes.
+static void add_free(gather *g, uint32_t first, uint32_t count)
+{
+    const alpi_direct_options *o = &g->direct->options;
+    alpi_rays *rays = &g->packets[first / ALPI_PACKET];
+    uint32_t free = 0;
+    vec3 left[ALPI_PACKET];
+    for (uint32_t i = 0; i < count; i++) {
+        free |= rays->maximum[i] >= 0.0f ? 1u << i : 0u;
+    }
+    if (o->filter.panes) {
+        alpi_panes_dim(o->scene, o->tracer, o->filter, free, rays, left);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        arrival *given = &g->givens[first + i];
+        if (o->filter.panes) {
+            given->light[0] *= left[i].x;
+            given->light[1] *= left[i].y;
+            given->light[2] *= left[i].z;
+        }
+        if ((free >> i & 1u) != 0) {
+            add(g, given);
+        }
+    }
+}
+
 /// Traces what is queued and adds what arrives, in the order of the queue.
 static void flush(gather *g, bool scattered)
 {
@@ -104,10 +124,8 @@ static void flush(gather *g, bool scattered)
         alpi_trace_occluded(o->tracer, &g->packets[full], 1, (1u << rest) - 1u, o->filter,
                             scattered);
     }
-    for (uint32_t i = 0; i < g->queued; i++) {
-        if (g->packets[i / ALPI_PACKET].maximum[i % ALPI_PACKET] >= 0.0f) {
-            add(g, &g->givens[i]);
-        }
+    for (uint32_t first = 0; first < g->queued; first += ALPI_PACKET) {
+        add_free(g, first, g->queued - first < ALPI_PACKET ? g->queued - first : ALPI_PACKET);
     }
     g->rays += g->queued;
     g->queued = 0;
@@ -319,7 +337,8 @@ typedef struct met_packet {
     uint32_t samples[ALPI_PACKET];
 } met_packet;
 
-static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int lane)
+/// @param left of the light, after panes
+static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int lane, vec3 left)
 {
     const alpi_direct *d = g->direct;
     const vec3 direction = {m->rays.direction_x[lane], m->rays.direction_y[lane],
@@ -342,9 +361,9 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
         light = alpi_sky_radiance(d->sky, direction);
         factor = sky_factor(d, direction, m->densities[lane]);
     }
-    given.light[0] = light.x * factor;
-    given.light[1] = light.y * factor;
-    given.light[2] = light.z * factor;
+    given.light[0] = light.x * factor * left.x;
+    given.light[1] = light.y * factor * left.y;
+    given.light[2] = light.z * factor * left.z;
     add(g, &given);
 }
 
@@ -355,9 +374,19 @@ static void trace_met(gather *g, met_packet *m)
     if (m->count == 0) {
         return;
     }
-    alpi_trace_nearest(o->tracer, &m->rays, (1u << m->count) - 1u, o->filter, &hits);
-    for (uint32_t lane = 0; lane < m->count; lane++) {
-        add_hit(g, m, &hits, (int)lane);
+    vec3 left[ALPI_PACKET];
+    uint32_t active = (1u << m->count) - 1u;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        left[i] = (vec3){1.0f, 1.0f, 1.0f};
+    }
+    for (int passed = 0; active != 0 && passed < ALPI_PANE_LIMIT; passed++) {
+        alpi_trace_nearest(o->tracer, &m->rays, active, o->filter, &hits);
+        for (int lane = 0; lane < ALPI_PACKET; lane++) {
+            if ((active >> lane & 1u) != 0) {
+                add_hit(g, m, &hits, lane, left[lane]);
+            }
+        }
+        active = o->filter.panes ? alpi_panes_go_on(o->scene, &hits, active, &m->rays, left) : 0;
     }
     g->rays += m->count;
     m->count = 0;
@@ -468,28 +497,6 @@ static void finish(gather *g, uint32_t receiver)
 
 // --- receivers -----------------------------------------------------------------------------------
 
-static bool hear(void *user, const alp_progress *progress)
-{
-    direct_job *job = user;
-    job->last = *progress;
-    job->asked = alpi_seconds();
-    return job->told->callback(job->told->user, progress);
-}
-
-/// Whether to go on within a receiver: ten thousand samples of many lights take seconds. The caller
-/// asks the user, the others hear of it. (Whose thread a host's worker is, nobody knows: there the
-/// loop alone asks.)
-static bool goes_on(direct_job *job, uint32_t worker)
-{
-    bool cancelled = atomic_load_explicit(&job->cancelled, memory_order_relaxed);
-    if (job->asks && worker == 0 && !cancelled && alpi_seconds() - job->asked >= ASK_INTERVAL) {
-        const alp_progress again = job->last;
-        cancelled = !hear(job, &again);
-        atomic_store_explicit(&job->cancelled, cancelled, memory_order_relaxed);
-    }
-    return !cancelled;
-}
-
 static void place_points(gather *g, uint32_t receiver)
 {
     float square[CHUNK][2];
@@ -518,7 +525,7 @@ static alp_result gather_receiver(gather *g, uint32_t receiver)
         add_suns(g);
         add_surfaces(g);
         add_sky(g);
-        if (!goes_on(g->job, g->worker)) {
+        if (!alpi_loop_goes_on(d->options.context)) { // ten thousand samples may take seconds
             return ALP_ERROR_CANCELLED;
         }
     }
@@ -532,7 +539,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     gather g;
     g.job = job;
     g.direct = job->direct;
-    g.worker = worker;
+    (void)worker;
     g.rays = 0;
     g.queued = 0;
     alp_result result = ALP_OK;
@@ -559,21 +566,12 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
                                   const uint32_t *list, uint32_t list_count,
                                   const alpi_task_progress *progress, alpi_direct_output *output)
 {
-    direct_job job = {.direct = direct,
-                      .receivers = receivers,
-                      .list = list,
-                      .output = output,
-                      .told = progress,
-                      .asks = progress != NULL && progress->callback != NULL &&
-                              alpi_context_options(direct->options.context)->parallel_for == NULL,
-                      .asked = alpi_seconds()};
+    direct_job job = {.direct = direct, .receivers = receivers, .list = list, .output = output};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     const double rays = fmax(most_rays(direct, receivers), 1.0);
     const uint32_t grain = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // a millisecond
     told.units_per_item = rays;
-    told.user = told.callback != NULL ? (void *)&job : NULL;
-    told.callback = told.callback != NULL ? hear : NULL;
     const alp_result result =
         alpi_parallel_for(direct->options.context, count, grain, gather_range, &job, &told);
     output->rays += atomic_load(&job.rays);

@@ -148,6 +148,7 @@ alp_result alpi_direct_create(const alpi_direct_options *options, alpi_direct **
     }
     const uint32_t replicates = ALPI_DIRECT_REPLICATES;
     made->options = *options;
+    made->options.filter.panes = alpi_tracer_has_panes(options->tracer);
     made->samples = options->samples / replicates * replicates;
     made->samples += made->samples < options->samples || made->samples == 0 ? replicates : 0;
     alp_result result = collect_lights(made);

@@ -4,18 +4,14 @@
 #include "base/random.h"
 #include "transport/hit.h"
 
-// More panes in a row than any scene has; a ray that is held up by rounding ends here.
-enum { PANE_LIMIT = 4096 };
-
 static float mean_of(vec3 v)
 {
     return (v.x + v.y + v.z) * (1.0f / 3.0f);
 }
 
-static bool is_pane(const alpi_reference *r, uint32_t triangle)
+static bool is_pane(const alp_scene *scene, uint32_t triangle)
 {
-    return triangle != ALPI_NONE &&
-           alpi_surface_is_pane(r->scene, r->scene->triangle_surface[triangle]);
+    return triangle != ALPI_NONE && alpi_surface_is_pane(scene, scene->triangle_surface[triangle]);
 }
 
 static vec3 multiply(vec3 a, vec3 b)
@@ -24,37 +20,41 @@ static vec3 multiply(vec3 a, vec3 b)
 }
 
 /// Where a ray goes on behind what it hit.
-static vec3 behind(const alpi_reference *r, const alpi_hits *hits, int lane, vec3 direction)
+static vec3 behind(const alp_scene *scene, const alpi_hits *hits, int lane, vec3 direction)
 {
-    const alpi_receiver_point p = alpi_hit_point(r->scene, hits, lane, direction, NULL);
+    const alpi_receiver_point p = alpi_hit_point(scene, hits, lane, direction, NULL);
     return vec3_mad(p.position, -p.offset, p.geometric_normal);
 }
 
-void alpi_panes_dim(const alpi_reference *r, alpi_rays *rays, uint32_t active,
-                    vec3 left[ALPI_PACKET])
+uint32_t alpi_panes_go_on(const alp_scene *scene, const alpi_hits *hits, uint32_t active,
+                          alpi_rays *rays, vec3 left[ALPI_PACKET])
+{
+    uint32_t on = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((active >> i & 1u) == 0 || !is_pane(scene, hits->triangle[i])) {
+            continue;
+        }
+        const alpi_pane pane =
+            alpi_surface_pane(scene, hits->triangle[i], hits->b1[i], hits->b2[i]);
+        const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
+        const float rest = rays->maximum[i] - hits->distance[i];
+        left[i] = multiply(left[i], pane.through);
+        alpi_rays_set(rays, i, behind(scene, hits, i, direction), direction, rest);
+        on |= rest > 0.0f && mean_of(left[i]) > 0.0f ? 1u << i : 0u;
+    }
+    return on;
+}
+
+void alpi_panes_dim(const alp_scene *scene, const alpi_tracer *tracer, alpi_trace_filter filter,
+                    uint32_t active, alpi_rays *rays, vec3 left[ALPI_PACKET])
 {
     alpi_hits hits;
     for (int i = 0; i < ALPI_PACKET; i++) {
         left[i] = (vec3){1.0f, 1.0f, 1.0f};
     }
-    for (int passed = 0; active != 0 && passed < PANE_LIMIT; passed++) {
-        alpi_trace_nearest(r->tracer, rays, active, r->filter, &hits);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            if ((active >> i & 1u) == 0 || !is_pane(r, hits.triangle[i])) {
-                active &= ~(1u << i);
-                continue;
-            }
-            left[i] = multiply(
-                left[i],
-                alpi_surface_pane(r->scene, hits.triangle[i], hits.b1[i], hits.b2[i]).through);
-            const vec3 direction = {rays->direction_x[i], rays->direction_y[i],
-                                    rays->direction_z[i]};
-            const float rest = rays->maximum[i] - hits.distance[i];
-            alpi_rays_set(rays, i, behind(r, &hits, i, direction), direction, rest);
-            if (!(rest > 0.0f) || !(mean_of(left[i]) > 0.0f)) {
-                active &= ~(1u << i);
-            }
-        }
+    for (int passed = 0; active != 0 && passed < ALPI_PANE_LIMIT; passed++) {
+        alpi_trace_nearest(tracer, rays, active, filter, &hits);
+        active = alpi_panes_go_on(scene, &hits, active, rays, left);
     }
 }
 
@@ -71,7 +71,7 @@ static void trace_behind(const alpi_reference *r, alpi_path_wave *w, uint32_t i,
     const vec3 direction = {w->direction.x[i], w->direction.y[i], w->direction.z[i]};
     alpi_rays rays;
     alpi_rays_clear(&rays);
-    alpi_rays_set(&rays, lane, behind(r, hits, lane, direction), direction, INFINITY);
+    alpi_rays_set(&rays, lane, behind(r->scene, hits, lane, direction), direction, INFINITY);
     alpi_trace_nearest(r->tracer, &rays, 1u << lane, r->filter, hits);
 }
 
@@ -81,9 +81,9 @@ float alpi_panes_pass(const alpi_reference *r, alpi_path_wave *w, uint32_t i, al
     alpi_hits *hits = &w->hits[i / ALPI_PACKET];
     const int lane = (int)(i % ALPI_PACKET);
     *distance = hits->distance[lane];
-    for (int passed = 0; passed < PANE_LIMIT; passed++) {
+    for (int passed = 0; passed < ALPI_PANE_LIMIT; passed++) {
         const uint32_t triangle = hits->triangle[lane];
-        if (!is_pane(r, triangle)) {
+        if (!is_pane(r->scene, triangle)) {
             return 1.0f;
         }
         const float b1 = hits->b1[lane], b2 = hits->b2[lane];

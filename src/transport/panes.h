@@ -5,12 +5,23 @@
 
 #include "transport/path_wave.h"
 
+/// More panes in a row than any scene has; a ray that rounding holds up ends there.
+enum { ALPI_PANE_LIMIT = 4096 };
+
+/// Rays of a packet that hit panes go on behind them.
+/// @param active bit i: lane i has been traced, with what it hit in `hits`
+/// @param left   in, out: what is left of light along each ray, per channel
+/// @return the lanes that go on: their rays start behind what they hit, with what is left of their
+///         length
+uint32_t alpi_panes_go_on(const alp_scene *scene, const alpi_hits *hits, uint32_t active,
+                          alpi_rays *rays, vec3 left[ALPI_PACKET]);
+
 /// What is left, per channel, of light along each ray of a packet that nothing opaque stops, after
 /// all panes on its way. The filter must have `panes` set.
 /// @param rays   origins, directions and lengths; destroyed
 /// @param active bit i: lane i
-void alpi_panes_dim(const alpi_reference *reference, alpi_rays *rays, uint32_t active,
-                    vec3 left[ALPI_PACKET]);
+void alpi_panes_dim(const alp_scene *scene, const alpi_tracer *tracer, alpi_trace_filter filter,
+                    uint32_t active, alpi_rays *rays, vec3 left[ALPI_PACKET]);
 
 /// Path `path`, whose hit is in the wave, goes on straight through each pane it meets, or is kept
 /// by one: by chance, in proportion to what each way brings. Its hit is then that of what kept it

@@ -107,7 +107,7 @@ static void bring_free(const alpi_reference *r, alpi_path_wave *w, uint32_t firs
         free |= rays->maximum[i] >= 0.0f ? 1u << i : 0u;
     }
     if (r->filter.panes) {
-        alpi_panes_dim(r, rays, free, left);
+        alpi_panes_dim(r->scene, r->tracer, r->filter, free, rays, left);
     }
     for (uint32_t i = 0; i < count; i++) {
         vec3 given = at(&w->given, first + i);

@@ -4,6 +4,7 @@
 #include "test_support.h"
 
 #include "scene/mesh_builder.h"
+#include "transport/direct.h"
 
 #include <math.h>
 
@@ -84,6 +85,33 @@ static const pane_material PANES[] = {
     {{0.3f, 0.3f, 0.3f}, 0.0f, 0.0f, 0.0f},   // not there
 };
 
+/// Direct light by the other transport.
+static alpi_reference_value direct_at(const test_lit *lit, uint32_t samples, vec3 position)
+{
+    float positions[1][3], normals[1][3], offsets[1] = {1e-6f};
+    vec3_store(positions[0], position);
+    vec3_store(normals[0], UP);
+    const alpi_point_array array = {.count = 1,
+                                    .positions = positions,
+                                    .geometric_normals = normals,
+                                    .shading_normals = normals,
+                                    .offsets = offsets};
+    const alpi_receivers receivers = alpi_point_array_receivers(&array);
+    const alpi_direct_options options = {.context = context,
+                                         .scene = lit->scene,
+                                         .tracer = lit->tracer,
+                                         .lighting = lit->lighting,
+                                         .samples = samples,
+                                         .seed = 5};
+    alpi_reference_value value;
+    alpi_direct_output output = {.values = &value};
+    alpi_direct *direct = NULL;
+    ASSERT_OK(context, alpi_direct_create(&options, &direct));
+    ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 1, NULL, &output));
+    alpi_direct_destroy(direct);
+    return value;
+}
+
 /// Every combination of the first 2^i panes, under a sun without size: nothing is left to chance.
 static void a_sun_is_filtered_by_every_pane(void **state)
 {
@@ -107,8 +135,10 @@ static void a_sun_is_filtered_by_every_pane(void **state)
         test_lit lit = test_lit_open(make_stack(some, count), &light);
         const alpi_reference r = test_lit_reference(&lit, 0, 16);
         const alpi_reference_value v = test_lit_point(&r, (vec3){0.3f, 0.0f, 0.4f}, UP);
+        const alpi_reference_value direct = direct_at(&lit, 16, (vec3){0.3f, 0.0f, 0.4f});
         for (int k = 0; k < 3; k++) {
             ASSERT_NEAR(v.mean[k], expected[k], 1e-5 * expected[k] + 1e-6);
+            ASSERT_NEAR(direct.mean[k], expected[k], 1e-5 * expected[k] + 1e-6);
         }
         test_lit_close(&lit);
     }
@@ -134,8 +164,11 @@ static void a_sky_is_seen_through_panes(void **state)
             r.next_event = next_event != 0;
             const alpi_reference_value v = test_lit_point(&r, (vec3){0.1f, 0.0f, 0.2f}, UP);
             const float color[3] = {PANES[i].color.x, PANES[i].color.y, PANES[i].color.z};
+            const alpi_reference_value direct = direct_at(&lit, 1u << 12, (vec3){0.1f, 0.0f, 0.2f});
             for (int k = 0; k < 3; k++) {
                 const double expected = PI * through(&PANES[i], (double)color[k]);
+                ASSERT_NEAR(direct.mean[k], expected,
+                            4.0 * sqrt((double)direct.variance[k]) + 1e-5 * expected);
                 ASSERT_NEAR(v.mean[k], expected,
                             4.0 * sqrt((double)v.variance[k]) + 1e-5 * expected);
                 assert_true(sqrt((double)v.variance[k]) < 0.01 * expected + 1e-6);
@@ -203,6 +236,15 @@ static void both_ways_to_light_agree_behind_panes(void **state)
         const double error = sqrt((double)with.variance[k] + (double)without.variance[k]);
         ASSERT_NEAR(with.mean[k], without.mean[k], 4.0 * error);
         assert_true(error < 0.01 * (double)with.mean[k]);
+    }
+    // The lamp fills most of the hemisphere, so that it is met, too, where light is direct alone.
+    r = test_lit_reference(&lit, 0, 1u << 15);
+    const alpi_reference_value path = test_lit_point(&r, (vec3){0.3f, 0.0f, 0.4f}, UP);
+    const alpi_reference_value direct = direct_at(&lit, 1u << 14, (vec3){0.3f, 0.0f, 0.4f});
+    for (int k = 0; k < 3; k++) {
+        const double error = sqrt((double)path.variance[k] + (double)direct.variance[k]);
+        ASSERT_NEAR(path.mean[k], direct.mean[k], 4.0 * error);
+        assert_true(error < 0.01 * (double)direct.mean[k]);
     }
     test_lit_close(&lit);
 }
