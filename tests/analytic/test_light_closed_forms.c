@@ -26,8 +26,7 @@ static int teardown(void **state)
 
 // --- receivers in free space ---------------------------------------------------------------------
 
-/// A square metre of albedo `grey` on the ground, a kilometre from all that is asked: it takes 1e-6
-/// of a hemisphere or less.
+/// A black square metre, a kilometre from all that is asked: it takes 1e-6 of a hemisphere or less.
 static alp_scene *far_ground(void)
 {
     alpi_builder b;
@@ -35,7 +34,7 @@ static alp_scene *far_ground(void)
     alpi_builder_start(&b, context, "far");
     alpi_builder_surface(
         &b, "far",
-        alpi_builder_material(&b, "grey", (vec3){0.5f, 0.5f, 0.5f}, (vec3){0.0f, 0.0f, 0.0f}));
+        alpi_builder_material(&b, "black", (vec3){0.0f, 0.0f, 0.0f}, (vec3){0.0f, 0.0f, 0.0f}));
     alpi_builder_quad(&b,
                       (const vec3[4]){{0, -1000, 1}, {1, -1000, 1}, {1, -1000, 0}, {0, -1000, 0}});
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
