@@ -105,13 +105,14 @@ static bool time_paths(const bench_scene *scene, const alpi_reference *r, const 
     return good;
 }
 
-/// A picture of 160 × 90, 8 bounces, a clear sky and a sun beside the scene's own light.
-static bool run_paths(const bench_scene *scene, const bench_options *options, bench_table *table)
+/// A picture of 160 × 90, 8 bounces, a sky and a sun beside the scene's own light.
+static bool run_paths(const bench_scene *scene, alp_sky_kind sky, const bench_options *options,
+                      bench_table *table)
 {
     alpi_view view;
     const uint32_t pixels = options->quick ? 64 : 160 * 90;
     alp_lighting_options light = alp_lighting_options_default();
-    light.sky.kind = ALP_SKY_CLEAR;
+    light.sky.kind = sky;
     light.sun.illuminance = 1e5f;
     alpi_lighting *lighting = NULL;
     if (!view_of(scene, 160, 90, &view) ||
@@ -132,8 +133,9 @@ static bool run_paths(const bench_scene *scene, const bench_options *options, be
         good = time_paths(scene, &r, &view, pixels, &seconds[i], &outside[i]);
     }
     if (good) {
-        bench_table_add(table, "%s|%u|%.2f|%.0f %%", scene->name,
+        bench_table_add(table, "%s|%u|%s|%.2f|%.0f %%", scene->name,
                         alpi_tracer_triangle_count(scene->tracer),
+                        sky == ALP_SKY_CLEAR ? "clear" : "even",
                         1e-6 * pixels * r.samples / bench_median(seconds, rounds),
                         100.0 * bench_median(outside, rounds));
     }
@@ -151,16 +153,18 @@ int bench_path_tracer(const bench_options *options)
                       "scene|triangles|limit|ours|ratio");
     bench_table_start(&paths, "Paths of the reference, one worker",
                       "A picture of the scene's camera, 16 paths a pixel, at most 8 bounces, a "
-                      "clear sky and a sun beside its own light. Outside: share of the time that is "
+                      "sky and a sun beside its own light. Outside: share of the time that is "
                       "not spent in Embree's calls; reading the clock twice a call counts as ours.",
-                      "scene|triangles|Mpaths/s|outside Embree");
+                      "scene|triangles|sky|Mpaths/s|outside Embree");
     bool good = true;
     const size_t count = options->quick || options->scene != NULL ? 1 : NAMES;
     for (size_t i = 0; i < count && good; i++) {
         bench_scene scene;
         good = bench_scene_open(options->scene != NULL ? options->scene : names[i], 1, &scene);
         if (good) {
-            good = run_camera(&scene, options, &camera) && run_paths(&scene, options, &paths);
+            good = run_camera(&scene, options, &camera) &&
+                   run_paths(&scene, ALP_SKY_CONSTANT, options, &paths) &&
+                   run_paths(&scene, ALP_SKY_CLEAR, options, &paths);
             bench_scene_close(&scene);
         }
     }

@@ -43,6 +43,9 @@ vec3 alpi_sun_sample(const alpi_sun *sun, vec2 u)
 
 bool alpi_sun_holds(const alpi_sun *sun, vec3 direction)
 {
+    if (double3_dot(double3_from(direction), sun->toward) < 1.0 - sun->rise - 1e-4) {
+        return false; // by far, as almost always
+    }
     double3 chord = double3_sub(double3_unit(double3_from(direction)), sun->toward);
     return double3_dot(chord, chord) <= 2.0 * sun->rise; // |chord| = 2 sin(angle/2)
 }
