@@ -11,9 +11,9 @@ typedef enum alpi_hemicube_map {
     ALPI_HEMICUBE_MAP_PERSPECTIVE, // cos³ of the angle to the axis of the pixel's face: what a
                                    // pixel is smaller, seen from the point, than one in the face's
                                    // middle
-    ALPI_HEMICUBE_MAP_LAMBERT, // cosine of the angle to the normal
-    ALPI_HEMICUBE_MAP_WEIGHT   // both: the exact weight over that of a pixel straight ahead,
-                               // 4 / (π n²)
+    ALPI_HEMICUBE_MAP_LAMBERT,     // cosine of the angle to the normal
+    ALPI_HEMICUBE_MAP_WEIGHT       // both: the exact weight over that of a pixel straight ahead,
+                                   // 4 / (π n²)
 } alpi_hemicube_map;
 
 /// The cross of 2n × 2n pixels as a float image of R, G, B and coverage: 1 on faces, 0 in corners.
