@@ -180,6 +180,51 @@ static void turns_are_keyed(void **state)
     test_probe_close(&p);
 }
 
+enum { RECEIVERS = 24 };
+
+typedef struct many {
+    alpi_gatherer gatherer;
+    alpi_receivers receivers;
+    float light[RECEIVERS][3];
+} many;
+
+static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    many *m = user;
+    for (uint32_t i = begin; i < end; i++) {
+        ALP_TRY(m->gatherer.gather(m->gatherer.user, &m->receivers, i, m->light[i]));
+    }
+    return ALP_OK;
+}
+
+static void workers_change_nothing(void **state)
+{
+    (void)state;
+    static test_patch patches[RECEIVERS];
+    static const uint32_t workers[3] = {1, 2, 7};
+    static many made[3];
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    test_probe p = test_probe_open(context, scene, NULL, 16);
+    p.options.turned = true;
+    for (uint32_t i = 0; i < RECEIVERS; i++) {
+        patches[i] = test_point((vec3){0.02f * (float)i + 0.03f, 0, 0.3f}, UP);
+    }
+    const test_patches all = {.count = RECEIVERS, .patches = patches, .offset = 1e-6f};
+    for (int k = 0; k < 3; k++) {
+        alp_context *own = test_context(workers[k]);
+        p.options.context = own;
+        made[k].gatherer = alpi_hemicube_gatherer(&p.options);
+        made[k].receivers = test_patches_receivers(&all);
+        ASSERT_OK(own, alpi_parallel_for(own, RECEIVERS, 1, gather_range, &made[k], NULL));
+        assert_memory_equal(made[k].light, made[0].light, sizeof made[0].light);
+        alp_context_destroy(own);
+    }
+    assert_true(made[0].light[12][0] > 0.0f);
+    test_probe_close(&p);
+}
+
 static bool refuse(void *user, const alp_progress *progress)
 {
     (void)progress;
@@ -220,6 +265,7 @@ int main(void)
         cmocka_unit_test(surfaces_are_asked_for_their_light),
         cmocka_unit_test(lamps_and_suns_are_not_counted),
         cmocka_unit_test(turns_are_keyed),
+        cmocka_unit_test(workers_change_nothing),
         cmocka_unit_test(one_cube_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
