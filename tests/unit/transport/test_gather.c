@@ -180,6 +180,21 @@ static void turns_are_keyed(void **state)
     test_probe_close(&p);
 }
 
+/// Smooth shading turns the cube, and not where its rays start.
+static void the_axis_is_the_shading_normal(void **state)
+{
+    (void)state;
+    const vec3 tilted = {0.6f, 0.8f, 0.0f};
+    test_probe p = test_probe_open(context, test_probe_quad(context, SMALL), NULL, 32);
+    const alpi_receiver_point point = {BLACK, UP, tilted, 0.5f};
+    const alpi_receiver_point raised = {{0, 0.5f, 0}, UP, tilted, 0.0f};
+    const alpi_hemicube_frame f = alpi_hemicube_frame_about(tilted, 0.0f);
+    float e[3];
+    ASSERT_OK(context, alpi_hemicube_gather_in(&p.options, &raised, &f, e));
+    assert_true(e[0] > 0.0f && (double)e[0] == test_probe_gather(&p, &point, 0));
+    test_probe_close(&p);
+}
+
 enum { RECEIVERS = 24 };
 
 typedef struct many {
@@ -209,7 +224,7 @@ static void workers_change_nothing(void **state)
     test_probe p = test_probe_open(context, scene, NULL, 16);
     p.options.turned = true;
     for (uint32_t i = 0; i < RECEIVERS; i++) {
-        patches[i] = test_point((vec3){0.02f * (float)i + 0.03f, 0, 0.3f}, UP);
+        patches[i] = test_point((vec3){0.02f * (float)i + 0.03f, 0, 0.1f}, UP);
     }
     const test_patches all = {.count = RECEIVERS, .patches = patches, .offset = 1e-6f};
     for (int k = 0; k < 3; k++) {
@@ -221,7 +236,7 @@ static void workers_change_nothing(void **state)
         assert_memory_equal(made[k].light, made[0].light, sizeof made[0].light);
         alp_context_destroy(own);
     }
-    assert_true(made[0].light[12][0] > 0.0f);
+    assert_true(made[0].light[RECEIVERS - 1][0] > 0.0f);
     test_probe_close(&p);
 }
 
@@ -265,6 +280,7 @@ int main(void)
         cmocka_unit_test(surfaces_are_asked_for_their_light),
         cmocka_unit_test(lamps_and_suns_are_not_counted),
         cmocka_unit_test(turns_are_keyed),
+        cmocka_unit_test(the_axis_is_the_shading_normal),
         cmocka_unit_test(workers_change_nothing),
         cmocka_unit_test(one_cube_can_be_cancelled),
     };
