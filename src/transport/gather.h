@@ -12,6 +12,7 @@
 /// to meet them, or else are direct light's, which knows better ways to them (alpi_direct). Lamps
 /// and suns always are: no ray meets a point, and a sun's disk is smaller than what is between two
 /// rays, so that it would count in one place for many times what it gives and in most for nothing.
+/// (A sun in the picture of a sky is the sky's.)
 typedef struct alpi_gather_scene {
     const alp_scene *scene;
     const alpi_tracer *tracer;

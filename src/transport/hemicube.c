@@ -139,7 +139,8 @@ static void fill_face(alpi_hemicube *cube, const face *f)
 static alp_result fill_weights(alpi_hemicube *cube)
 {
     const uint32_t n = cube->resolution, half = n / 2;
-    float *eighth = ALPI_NEW(cube->context, float, (size_t)n *half);
+    const size_t count = (size_t)n * half;
+    float *eighth = ALPI_NEW(cube->context, float, count);
     if (eighth == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
