@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
+#include "render/camera_rays.h"
 #include "scene/select.h"
 #include "transport/examine.h"
 #include "transport/hit.h"
@@ -30,8 +31,8 @@ typedef struct render_job {
     alpi_lighting *lighting; // of the reference, else NULL
     alpi_reference reference;
     alp_image *image, *error;        // error: NULL unless asked for
-    vec3 origin, forward, right, up; // right and up span half the picture's height at distance 1
-    float aspect;
+    alpi_view view;
+    const alpi_camera_loops *loops;
 } render_job;
 
 alp_render_options alp_render_options_default(void)
@@ -74,31 +75,25 @@ static alp_result place_camera(render_job *job)
     const alp_camera *o = &job->options.camera;
     alp_camera c =
         o->vertical_fov != 0.0f ? *o : alp_scene_get_camera(job->scene, job->options.camera_index);
-    job->origin = vec3_load(c.position);
-    const vec3 none = {0.0f, 0.0f, 0.0f};
-    vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c.target), job->origin), none);
+    const vec3 none = {0.0f, 0.0f, 0.0f}, origin = vec3_load(c.position);
+    vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c.target), origin), none);
     vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c.up)), none);
     bool fov_is_valid = c.vertical_fov > 0.0f && c.vertical_fov < (float)ALPI_PI;
-    if (!vec3_is_finite(job->origin) || vec3_length(right) == 0.0f || !fov_is_valid) {
+    if (!vec3_is_finite(origin) || vec3_length(right) == 0.0f || !fov_is_valid) {
         return alpi_fail(job->scene->context, ALP_ERROR_INVALID_ARGUMENT,
                          "camera: its position must be finite and differ from the target, the view "
                          "not along up, the field of view inside (0, pi)");
     }
     float half = tanf(0.5f * c.vertical_fov);
-    job->forward = forward;
-    job->right = vec3_scale(right, half);
-    job->up = vec3_scale(vec3_cross(right, forward), half);
-    job->aspect = (float)job->options.width / (float)job->options.height;
+    const float aspect = (float)job->options.width / (float)job->options.height;
+    job->view = (alpi_view){.origin = origin,
+                            .forward = forward,
+                            .right = vec3_scale(right, half * aspect),
+                            .up = vec3_scale(vec3_cross(right, forward), half),
+                            .width = job->options.width,
+                            .height = job->options.height};
+    job->loops = alpi_camera_loops_for(job->scene->context);
     return ALP_OK;
-}
-
-/// Through the point (x, y) of the picture, in pixels from its upper left corner.
-static vec3 camera_direction(const render_job *job, float x, float y)
-{
-    float sx = (2.0f * x / (float)job->options.width - 1.0f) * job->aspect;
-    float sy = 1.0f - 2.0f * y / (float)job->options.height;
-    vec3 d = vec3_mad(vec3_mad(job->forward, sx, job->right), sy, job->up);
-    return vec3_normalize_or(d, job->forward);
 }
 
 /// Says where a picture will be black because the camera stands in a wall: methods that light the
@@ -107,22 +102,25 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
 {
     enum { ACROSS = 8 };
     const alp_render_method method = job->options.method;
-    const float step_x = (float)job->options.width / ACROSS;
-    const float step_y = (float)job->options.height / ACROSS;
-    vec3 directions[ACROSS * ACROSS];
-    for (int i = 0; i < ACROSS * ACROSS; i++) {
-        const int column = i % ACROSS, row = i / ACROSS;
-        directions[i] =
-            camera_direction(job, ((float)column + 0.5f) * step_x, ((float)row + 0.5f) * step_y);
+    enum { COUNT = ACROSS * ACROSS };
+    vec3 directions[COUNT];
+    float x[COUNT], y[COUNT], dx[COUNT], dy[COUNT], dz[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        x[i] = ((float)(i % ACROSS) + 0.5f) * (float)job->options.width / ACROSS;
+        y[i] = ((float)(i / ACROSS) + 0.5f) * (float)job->options.height / ACROSS;
+    }
+    job->loops->aim(&job->view, COUNT, x, y, (float *const[3]){dx, dy, dz});
+    for (int i = 0; i < COUNT; i++) {
+        directions[i] = (vec3){dx[i], dy[i], dz[i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
-        alpi_examine_is_inside(tracer, filter, job->scene, job->origin, directions,
-                               ACROSS * ACROSS)) {
+        alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions,
+                               COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
                   "the backs of single-sided surfaces, which are black; move it (--camera)",
-                  (double)job->origin.x, (double)job->origin.y, (double)job->origin.z);
+                  (double)job->view.origin.x, (double)job->view.origin.y, (double)job->view.origin.z);
     }
 }
 
@@ -173,7 +171,7 @@ static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int la
 }
 
 /// Shades the lanes of a packet that hit something: bit i of `lanes`.
-static void shade(const render_job *job, uint64_t first_key, const vec3 directions[ALPI_PACKET],
+static void shade(const render_job *job, uint64_t first_key, const alpi_rays *rays,
                   const alpi_hits *hits, uint32_t lanes, float rgb[ALPI_PACKET][3])
 {
     alpi_receiver_point points[ALPI_PACKET];
@@ -181,8 +179,9 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
     uint32_t dark = 0; // lanes that need rays
     int one = 0;       // any of them
     for (int i = 0; i < ALPI_PACKET; i++) {
-        if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, directions[i], rgb[i])) {
-            points[i] = alpi_hit_point(job->scene, hits, i, directions[i], NULL);
+        const vec3 d = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
+        if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, d, rgb[i])) {
+            points[i] = alpi_hit_point(job->scene, hits, i, d, NULL);
             keys[i] = first_key + (uint64_t)i;
             dark |= 1u << i;
             one = i;
@@ -206,13 +205,27 @@ static void shade(const render_job *job, uint64_t first_key, const vec3 directio
     }
 }
 
-static void reference_ray(const void *user, uint64_t pixel, vec2 u, vec3 *origin, vec3 *direction)
+static void reference_rays(const void *user, uint32_t count, const uint64_t *pixels, const float *u,
+                           const float *v, const alpi_camera_rays *rays)
 {
     const render_job *job = user;
-    const uint32_t width = job->options.width;
-    *origin = job->origin;
-    const uint64_t row = pixel / width, column = pixel - row * width;
-    *direction = camera_direction(job, (float)column + u.x, (float)row + u.y);
+    const alpi_view *view = &job->view;
+    enum { CHUNK = 64 };
+    for (uint32_t first = 0; first < count; first += CHUNK) {
+        const uint32_t some = count - first < CHUNK ? count - first : CHUNK;
+        float x[CHUNK], y[CHUNK];
+        for (uint32_t i = 0; i < some; i++) {
+            const uint32_t pixel = (uint32_t)pixels[first + i], row = pixel / view->width;
+            x[i] = (float)(pixel - row * view->width) + u[first + i];
+            y[i] = (float)row + v[first + i];
+            rays->start[0][first + i] = view->origin.x;
+            rays->start[1][first + i] = view->origin.y;
+            rays->start[2][first + i] = view->origin.z;
+        }
+        float *const directions[3] = {rays->direction[0] + first, rays->direction[1] + first,
+                                      rays->direction[2] + first};
+        job->loops->aim(view, some, x, y, directions);
+    }
 }
 
 /// Radiance over the whole pixel, the sky included; alpha: what shows something.
@@ -240,7 +253,7 @@ static alp_result render_reference(const render_job *job, uint32_t begin, uint32
     float covered[PIXELS_PER_RANGE];
     while (begin < end) {
         const uint32_t count = end - begin < PIXELS_PER_RANGE ? end - begin : PIXELS_PER_RANGE;
-        ALP_TRY(alpi_reference_pixels(&job->reference, reference_ray, job, begin, count, values,
+        ALP_TRY(alpi_reference_pixels(&job->reference, reference_rays, job, begin, count, values,
                                       covered));
         for (uint32_t i = 0; i < count; i++) {
             keep_reference(job, begin + i, &values[i], covered[i]);
@@ -252,29 +265,23 @@ static alp_result render_reference(const render_job *job, uint32_t begin, uint32
 
 static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
 {
-    uint32_t x = index % job->options.width, y = index / job->options.width;
     uint32_t key = alpi_random_key(job->options.occlusion.seed, index, STREAM_PIXEL);
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     alpi_rays rays;
     alpi_hits hits;
-    vec3 directions[ALPI_PACKET];
     alpi_rays_clear(&rays);
     for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
         uint32_t rest = job->options.samples - first;
         uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
-        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            vec2 u = alpi_sample_2d(key, first + i);
-            vec3 d = camera_direction(job, (float)x + u.x, (float)y + u.y);
-            directions[i] = d;
-            alpi_rays_set(&rays, (int)i, job->origin, d, INFINITY);
-        }
-        alpi_trace_nearest(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter, &hits);
+        job->loops->packet(&job->view, index, key, first, &rays);
+        alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter,
+                                    &hits);
         uint32_t hit = 0;
         for (uint32_t i = 0; i < lanes; i++) {
             hit |= (hits.triangle[i] != ALPI_NONE ? 1u : 0u) << i;
         }
         float rgb[ALPI_PACKET][3];
-        shade(job, (uint64_t)index * job->options.samples + first, directions, &hits, hit, rgb);
+        shade(job, (uint64_t)index * job->options.samples + first, &rays, &hits, hit, rgb);
         for (uint32_t i = 0; i < lanes; i++) {
             for (int k = 0; k < 3 && (hit >> i & 1u) != 0; k++) {
                 sum[k] += (double)rgb[i][k];

@@ -31,6 +31,9 @@ struct alpi_lighting {
     int only;           // the one class of which there is light; −1: several, or none
 };
 
+/// Of draws, that a class of light has wherever it may give any.
+static const double LEAST_SHARE = 1.0 / 16.0;
+
 static double channel_mean(vec3 v)
 {
     return ((double)v.x + (double)v.y + (double)v.z) / 3.0;
@@ -293,6 +296,23 @@ static double emitters_importance(const alpi_emitters *emitters, vec3 point, vec
                                          ALPI_PI * emitters->largest);
 }
 
+/// Probabilities from importances. None that may give light falls below LEAST_SHARE: an importance
+/// is a bound, which for a point among emitters is far above what they give.
+static void share_out(double weight[ALPI_LIGHT_CLASS_COUNT])
+{
+    double sum = 0.0;
+    int there = 0;
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        sum += weight[i];
+        there += weight[i] > 0.0;
+    }
+    const double even = LEAST_SHARE, rest = 1.0 - there * even;
+    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
+        const bool some = weight[i] > 0.0 && sum > 0.0 && isfinite(sum);
+        weight[i] = some ? even + rest * (weight[i] / sum) : 0.0;
+    }
+}
+
 static place place_at(const alpi_lighting *lighting, vec3 point, vec3 normal, bool by_area)
 {
     place p = {.lighting = lighting, .point = point, .normal = normal, .by_area = by_area};
@@ -308,13 +328,7 @@ static place place_at(const alpi_lighting *lighting, vec3 point, vec3 normal, bo
     p.weight[ALPI_LIGHT_CLASS_SUN] = p.sun_sum;
     p.weight[ALPI_LIGHT_CLASS_SURFACE] = emitters_importance(&lighting->emitters, point, normal);
     p.weight[ALPI_LIGHT_CLASS_SKY] = lighting->sky_average;
-    double sum = 0.0;
-    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
-        sum += p.weight[i];
-    }
-    for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
-        p.weight[i] = sum > 0.0 && isfinite(sum) ? p.weight[i] / sum : 0.0;
-    }
+    share_out(p.weight);
     return p;
 }
 

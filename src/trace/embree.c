@@ -404,27 +404,52 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
     }
 }
 
+static void take_hits(const alpi_tracer *tracer, const struct RTCRayHit8 *found, const int *valid,
+                      alpi_hits *hits)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const bool hit = found->hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        const float distance = hit ? found->ray.tfar[i] : INFINITY;
+        const float b1 = hit ? found->hit.u[i] : 0.0f, b2 = hit ? found->hit.v[i] : 0.0f;
+        hits->distance[i] = valid[i] != 0 ? distance : hits->distance[i];
+        hits->b1[i] = valid[i] != 0 ? b1 : hits->b1[i];
+        hits->b2[i] = valid[i] != 0 ? b2 : hits->b2[i];
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t geometry = found->hit.geomID[i];
+        if (valid[i] != 0) {
+            hits->triangle[i] = geometry != RTC_INVALID_GEOMETRY_ID
+                                    ? tracer->triangles[geometry][found->hit.primID[i]]
+                                    : ALPI_NONE;
+        }
+    }
+}
+
+static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                          trace_context *context, alpi_hits *hits)
+{
+    struct RTCRayHit8 found;
+    _Alignas(32) int some[ALPI_PACKET];
+    const int *valid = spread_bits(active, some);
+    memcpy(&found.ray, rays, sizeof found.ray);
+    memset(found.ray.mask, 0xff, sizeof found.ray.mask); // this build of Embree has ray masks on
+    memset(found.hit.geomID, 0xff, sizeof found.hit.geomID); // RTC_INVALID_GEOMETRY_ID
+    memset(found.hit.instID, 0xff, sizeof found.hit.instID);
+    rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
+    take_hits(tracer, &found, valid, hits);
+}
+
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits)
 {
-    struct RTCRayHit8 ray_hit;
-    _Alignas(32) int some[ALPI_PACKET];
-    memcpy(&ray_hit.ray, rays, sizeof ray_hit.ray);
-    memset(ray_hit.ray.mask, 0xff,
-           sizeof ray_hit.ray.mask); // this build of Embree has ray masks on
-    const int *valid = spread_bits(active, some);
-    memset(&ray_hit.hit, 0xff, sizeof ray_hit.hit); // RTC_INVALID_GEOMETRY_ID everywhere
     trace_context context = start_context(tracer, filter);
-    rtcIntersect8(valid, tracer->embree_scene, &context.embree, &ray_hit);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        if (valid[i] == 0) {
-            continue;
-        }
-        uint32_t geometry = ray_hit.hit.geomID[i];
-        bool hit = geometry != RTC_INVALID_GEOMETRY_ID;
-        hits->distance[i] = hit ? ray_hit.ray.tfar[i] : INFINITY;
-        hits->triangle[i] = hit ? tracer->triangles[geometry][ray_hit.hit.primID[i]] : ALPI_NONE;
-        hits->b1[i] = hit ? ray_hit.hit.u[i] : 0.0f;
-        hits->b2[i] = hit ? ray_hit.hit.v[i] : 0.0f;
-    }
+    trace_nearest(tracer, rays, active, &context, hits);
+}
+
+void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                                 alpi_trace_filter filter, alpi_hits *hits)
+{
+    trace_context context = start_context(tracer, filter);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    trace_nearest(tracer, rays, active, &context, hits);
 }

@@ -87,6 +87,10 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);
+/// The same, faster where the rays of a packet leave from about one place in about one direction (a
+/// camera's), and twice as slow where they do not.
+void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                                 alpi_trace_filter filter, alpi_hits *hits);
 
 /// The oracle: the same answers over all triangles in double precision, one ray at a time.
 void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,

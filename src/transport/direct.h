@@ -63,7 +63,7 @@ typedef struct alpi_direct_output {
     alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
                                   // order, are the mean of all; variances do not add up: parts
                                   // share the points of a receiver
-    uint64_t rays;                // that were traced
+    uint64_t rays;                // that were sent; through panes they are several
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased;

@@ -38,13 +38,6 @@ void alpi_paths_place(alpi_path_wave *w, uint32_t i, const alpi_receiver_point *
     w->offset[i] = p->offset;
 }
 
-void alpi_paths_aim(alpi_path_wave *w, uint32_t i, vec3 start, vec3 direction)
-{
-    put(&w->start, i, start);
-    put(&w->direction, i, direction);
-    w->density[i] = -1.0f;
-}
-
 /// The loops for this machine, unless the context asks for less.
 static const alpi_wave_loops *loops_of(const alpi_reference *r)
 {
@@ -279,7 +272,12 @@ static void trace_wave(const alpi_reference *r, alpi_path_wave *w)
         for (int i = 0; i < ALPI_PACKET; i++) {
             rays->maximum[i] = INFINITY;
         }
-        alpi_trace_nearest(r->tracer, rays, active, r->filter, &w->hits[first / ALPI_PACKET]);
+        alpi_hits *hits = &w->hits[first / ALPI_PACKET];
+        if (w->depth[first] < 0) {
+            alpi_trace_nearest_coherent(r->tracer, rays, active, r->filter, hits);
+        } else {
+            alpi_trace_nearest(r->tracer, rays, active, r->filter, hits);
+        }
     }
 }
 

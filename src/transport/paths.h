@@ -8,9 +8,6 @@
 /// Puts path `slot` of a wave at a vertex. The wave is filled from 0; `count` is the caller's.
 void alpi_paths_place(alpi_path_wave *wave, uint32_t slot, const alpi_receiver_point *point);
 
-/// Aims the first ray of path `slot`, which comes from the eye.
-void alpi_paths_aim(alpi_path_wave *wave, uint32_t slot, vec3 start, vec3 direction);
-
 /// u and v: where on its receiver or pixel each fresh path begins.
 void alpi_paths_draw_places(const alpi_reference *reference, alpi_path_wave *wave);
 

@@ -90,12 +90,17 @@ typedef struct path_run {
 typedef struct run_cursor {
     uint32_t block, lanes; // items [block, block + lanes)
     uint32_t sample;
+    uint32_t keys[ALPI_PACKET]; // of their random numbers
 } run_cursor;
 
 static void open_block(const path_run *run, uint32_t block, run_cursor *cursor)
 {
     const uint32_t left = run->end - block;
-    *cursor = (run_cursor){block, left < run->lanes ? left : run->lanes, 0};
+    *cursor = (run_cursor){.block = block, .lanes = left < run->lanes ? left : run->lanes};
+    for (uint32_t i = 0; i < cursor->lanes; i++) {
+        cursor->keys[i] =
+            alpi_random_key(run->reference->seed, run->key(run, block + i), STREAM_PATH);
+    }
 }
 
 /// A fresh path; the replicates take turns.
@@ -103,9 +108,7 @@ static void start_path(const path_run *run, const run_cursor *at, uint32_t lane,
                        alpi_path_wave *w)
 {
     const uint32_t replicate = at->sample % ALPI_REFERENCE_REPLICATES;
-    const uint64_t item_key = run->key(run, at->block + lane);
-    const uint32_t key = alpi_random_key(run->reference->seed, item_key, STREAM_PATH);
-    w->key[slot] = alpi_hash32(key ^ alpi_hash32(replicate + 1u));
+    w->key[slot] = alpi_hash32(at->keys[lane] ^ alpi_hash32(replicate + 1u));
     w->sample[slot] = at->sample / ALPI_REFERENCE_REPLICATES;
     w->event[slot] = 0;
     w->depth[slot] = run->depth;
@@ -234,7 +237,7 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
 // --- pictures ------------------------------------------------------------------------------------
 
 typedef struct pixel_job {
-    alpi_camera_ray_fn *camera;
+    alpi_camera_fn *camera;
     const void *camera_user;
     uint64_t first;
     alpi_reference_value *values;
@@ -250,12 +253,14 @@ static uint64_t pixel_key(const path_run *run, uint32_t item)
 static void aim_pixels(const path_run *run, alpi_path_wave *w, const uint32_t *items)
 {
     const pixel_job *job = run->user;
+    uint64_t pixels[ALPI_WAVE];
     for (uint32_t i = 0; i < w->count; i++) {
-        vec3 origin, direction;
-        job->camera(job->camera_user, job->first + items[i], (vec2){w->u[i], w->v[i]}, &origin,
-                    &direction);
-        alpi_paths_aim(w, i, origin, direction);
+        pixels[i] = job->first + items[i];
+        w->density[i] = -1.0f; // nobody asked for light
     }
+    const alpi_camera_rays rays = {{w->start.x, w->start.y, w->start.z},
+                                   {w->direction.x, w->direction.y, w->direction.z}};
+    job->camera(job->camera_user, w->count, pixels, w->u, w->v, &rays);
 }
 
 static void take_pixel(const path_run *run, uint32_t item, const replicate_sums *sums)
@@ -265,7 +270,7 @@ static void take_pixel(const path_run *run, uint32_t item, const replicate_sums 
     job->covered[item] = (float)sums->covered / (float)run->samples;
 }
 
-alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_ray_fn *camera,
+alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_fn *camera,
                                  const void *camera_user, uint64_t first, uint32_t count,
                                  alpi_reference_value *values, float *covered)
 {

@@ -53,16 +53,21 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      uint32_t list_count, const alpi_task_progress *progress,
                                      alpi_reference_value *values);
 
-/// Where the camera ray of a pixel starts, for a point of the unit square. Called by many threads.
-typedef void alpi_camera_ray_fn(const void *user, uint64_t pixel, vec2 u, vec3 *origin,
-                                vec3 *direction);
+/// Rays of a camera: metres, unit.
+typedef struct alpi_camera_rays {
+    float *start[3], *direction[3]; // [count] each
+} alpi_camera_rays;
+/// Camera rays of `count` pixels, pixel by pixel with a point (u, v) of the unit square in each.
+/// Called by many threads.
+typedef void alpi_camera_fn(const void *user, uint32_t count, const uint64_t *pixels,
+                            const float *u, const float *v, const alpi_camera_rays *rays);
 
 /// Radiance L [W·sr⁻¹·m⁻²] that reaches `count` pixels from number `first` on. By any thread; as
 /// the body of a parallel loop it stops when the loop does.
 /// @param values  [count] out
 /// @param covered [count] out: share of the paths that met a surface, or light behind all of them
 /// @return ALP_OK; CANCELLED
-alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_ray_fn *camera,
+alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_fn *camera,
                                  const void *camera_user, uint64_t first, uint32_t count,
                                  alpi_reference_value *values, float *covered);
 

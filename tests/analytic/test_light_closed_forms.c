@@ -284,12 +284,18 @@ static void lamps_and_spots(void **state)
 // --- pictures ------------------------------------------------------------------------------------
 
 /// A camera that looks straight down on a unit square of places about (0, 2, 0).
-static void look_down(const void *user, uint64_t pixel, vec2 u, vec3 *origin, vec3 *direction)
+static void look_down(const void *user, uint32_t count, const uint64_t *pixels, const float *u,
+                      const float *v, const alpi_camera_rays *rays)
 {
-    (void)pixel;
+    (void)pixels;
     const float *x = user;
-    *origin = (vec3){*x + u.x - 0.5f, 2.0f, u.y - 0.5f};
-    *direction = (vec3){0.0f, -1.0f, 0.0f};
+    for (uint32_t i = 0; i < count; i++) {
+        rays->start[0][i] = *x + u[i] - 0.5f;
+        rays->start[1][i] = 2.0f;
+        rays->start[2][i] = v[i] - 0.5f;
+        rays->direction[0][i] = rays->direction[2][i] = 0.0f;
+        rays->direction[1][i] = -1.0f;
+    }
 }
 
 static alp_scene *table(float albedo, float emission)

@@ -249,12 +249,18 @@ static void both_ways_to_light_agree_behind_panes(void **state)
     test_lit_close(&lit);
 }
 
-static void look_down(const void *user, uint64_t pixel, vec2 u, vec3 *origin, vec3 *direction)
+static void look_down(const void *user, uint32_t count, const uint64_t *pixels, const float *u,
+                      const float *v, const alpi_camera_rays *rays)
 {
     (void)user;
-    (void)pixel;
-    *origin = (vec3){0.1f + 0.01f * u.x, 5.0f, 0.2f + 0.01f * u.y};
-    *direction = (vec3){0.0f, -1.0f, 0.0f};
+    (void)pixels;
+    for (uint32_t i = 0; i < count; i++) {
+        rays->start[0][i] = 0.1f + 0.01f * u[i];
+        rays->start[1][i] = 5.0f;
+        rays->start[2][i] = 0.2f + 0.01f * v[i];
+        rays->direction[0][i] = rays->direction[2][i] = 0.0f;
+        rays->direction[1][i] = -1.0f;
+    }
 }
 
 /// A glowing pane over a lamp, seen from above: L = a Le of the pane + what it lets through of the

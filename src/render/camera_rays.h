@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Rays of a pinhole camera through points of a picture.
+#ifndef ALPI_RENDER_CAMERA_RAYS_H
+#define ALPI_RENDER_CAMERA_RAYS_H
+
+#include "trace/trace.h"
+
+/// A camera and its picture.
+typedef struct alpi_view {
+    vec3 origin, forward; // metres; unit
+    vec3 right, up;       // half the picture's height at distance 1; right already times the aspect
+    uint32_t width, height;
+} alpi_view;
+
+/// Compiled for each instruction set; the same bits.
+typedef struct alpi_camera_loops {
+    /// Eight rays: samples first … first + 7 of the sequence of `key` in one pixel (row by row from
+    /// the upper left corner). Lanes must have been cleared once.
+    void (*packet)(const alpi_view *view, uint32_t pixel, uint32_t key, uint32_t first,
+                   alpi_rays *rays);
+    /// Unit directions through points x, y (pixels from the upper left corner), `count` of each.
+    void (*aim)(const alpi_view *view, uint32_t count, const float *x, const float *y,
+                float *const direction[3]);
+} alpi_camera_loops;
+
+extern const alpi_camera_loops alpi_camera_loops_baseline, alpi_camera_loops_v3;
+/// The loops for this machine, unless the context asks for less.
+const alpi_camera_loops *alpi_camera_loops_for(const alp_context *context);
+
+#endif

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Neighbours that share what their paths find: the same light on the whole, less noise at each, and
+// no bias where they see different things. Long receivers hear when nobody waits any more.
+#include "test_lit.h"
+#include "test_support.h"
+
+#include "base/tasks.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static alp_context *context;
+
+static int setup(void **state)
+{
+    (void)state;
+    context = test_context(2);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    alp_context_destroy(context);
+    return 0;
+}
+
+static test_lit open_builtin(const char *name)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    return test_lit_open(scene, NULL);
+}
+
+enum { POINTS = 40, LANES = 8 };
+
+/// Blocks of the Cornell box's floor and walls: close neighbours, then points around a corner of
+/// the short block, of which some see a light side and some a dark one.
+static void set_points(vec3 *positions, vec3 *normals)
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const float step = 0.004f * (float)(i % LANES);
+        positions[i] = (vec3){0.1f + 0.08f * (float)(i / LANES) + step, 0.0f, 0.02f + step};
+        normals[i] = (vec3){0.0f, 1.0f, 0.0f};
+        if (i / LANES == 4) { // one block with all six normals in the middle of the room
+            static const vec3 around[6] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                           {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+            positions[i] = (vec3){0.25f + 2.0f * step, 0.4f, 0.25f};
+            normals[i] = around[i % 6];
+        }
+    }
+}
+
+static void gather(const test_lit *lit, bool share, uint32_t samples, uint64_t seed,
+                   alpi_reference_value values[POINTS])
+{
+    vec3 positions[POINTS], normals[POINTS];
+    set_points(positions, normals);
+    alpi_reference r = test_lit_reference(lit, 6, samples);
+    r.share = share;
+    r.seed = seed;
+    test_lit_irradiance(&r, positions, normals, 1e-6f, POINTS, values);
+}
+
+static void a_block_keeps_its_light(void **state)
+{
+    (void)state;
+    test_lit lit = open_builtin("builtin:cornell");
+    alpi_reference_value alone[POINTS], shared[POINTS];
+    gather(&lit, false, 256, 1, alone);
+    gather(&lit, true, 256, 1, shared);
+    for (uint32_t block = 0; block < POINTS; block += LANES) {
+        double sums[2] = {0.0, 0.0};
+        for (uint32_t i = block; i < block + LANES; i++) {
+            sums[0] += (double)alone[i].mean[1];
+            sums[1] += (double)shared[i].mean[1];
+        }
+        // The same paths: only the order of sums and weights of single precision differ.
+        ASSERT_NEAR(sums[1], sums[0], 1e-5 * sums[0]);
+    }
+    test_lit_close(&lit);
+}
+
+static void sharing_is_unbiased(void **state)
+{
+    (void)state;
+    test_lit lit = open_builtin("builtin:cornell");
+    alpi_reference_value alone[POINTS], shared[POINTS];
+    gather(&lit, false, 1u << 14, 1, alone);
+    gather(&lit, true, 1u << 13, 2, shared);
+    double squares = 0.0;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double error = sqrt((double)alone[i].variance[k] + (double)shared[i].variance[k]);
+            const double z = ((double)shared[i].mean[k] - (double)alone[i].mean[k]) / error;
+            // Of 15 degrees of freedom, one of 8000 is further off; there are 120.
+            ASSERT_NEAR(z, 0.0, 5.2);
+            squares += z * z / (3.0 * POINTS);
+            assert_true(error < 0.02 * (double)alone[i].mean[k] + 2e-3);
+        }
+    }
+    // Neighbours' errors are alike: of 120 squares about 15 are independent, 1.15 ± .45.
+    assert_true(squares < 2.7);
+    printf("accuracy: shared against unshared paths, %d receivers: mean Z² %.2f\n", POINTS,
+           squares);
+    test_lit_close(&lit);
+}
+
+/// Error against many paths, over seeds. Direct light is no one's to share: what is left of the
+/// noise is more than an eighth of its square.
+static void sharing_leaves_less_noise(void **state)
+{
+    (void)state;
+    test_lit lit = open_builtin("builtin:cornell");
+    alpi_reference_value truth[POINTS], values[POINTS];
+    double squares[2] = {0.0, 0.0}, stated = 0.0;
+    gather(&lit, true, 1u << 14, 99, truth);
+    enum { SEEDS = 16, NEAR = 32 };
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        for (int share = 0; share < 2; share++) {
+            gather(&lit, share != 0, 64, seed, values);
+            for (uint32_t i = 0; i < NEAR; i++) {
+                const double error = (double)values[i].mean[1] - (double)truth[i].mean[1];
+                squares[share] += error * error;
+                stated += share != 0 ? (double)values[i].variance[1] : 0.0;
+            }
+        }
+    }
+    const double gain = squares[0] / squares[1], truthful = sqrt(stated / squares[1]);
+    printf("accuracy: shared paths, squared error of unshared over shared %.1f; stated over true "
+           "error %.2f\n",
+           gain, truthful);
+    assert_true(gain > 1.8);
+    // 16 seeds of 4 blocks, each one error: 4 standard errors of their spread.
+    ASSERT_NEAR(truthful, 1.0, 0.35);
+    test_lit_close(&lit);
+}
+
+static void workers_change_nothing(void **state)
+{
+    (void)state;
+    alpi_reference_value values[3][POINTS];
+    static const uint32_t workers[3] = {1, 2, 7};
+    for (int k = 0; k < 3; k++) {
+        alp_context *other = test_context(workers[k]), *kept = context;
+        context = other;
+        alp_scene *scene = NULL;
+        ASSERT_OK(other, alp_scene_load(other, "builtin:cornell", &scene));
+        test_lit lit = test_lit_open(scene, NULL);
+        gather(&lit, true, 100, 1, values[k]);
+        test_lit_close(&lit);
+        alp_context_destroy(other);
+        context = kept;
+        assert_memory_equal(values[k], values[0], sizeof values[0]);
+    }
+}
+
+typedef struct listener {
+    uint32_t calls;
+    uint64_t done, total;
+} listener;
+
+static bool refuse_second(void *user, const alp_progress *progress)
+{
+    listener *l = user;
+    l->done = progress->done;
+    l->total = progress->total;
+    return ++l->calls < 2;
+}
+
+/// One receiver with paths for half a minute is left in the middle.
+static void a_long_receiver_hears_the_end(void **state)
+{
+    (void)state;
+    test_lit lit = open_builtin("builtin:cornell");
+    float positions[1][3] = {{0.2f, 0.0f, 0.1f}}, normals[1][3] = {{0.0f, 1.0f, 0.0f}};
+    float offsets[1] = {1e-6f};
+    const alpi_point_array array = {.count = 1,
+                                    .positions = positions,
+                                    .geometric_normals = normals,
+                                    .shading_normals = normals,
+                                    .offsets = offsets};
+    const alpi_receivers receivers = alpi_point_array_receivers(&array);
+    const alpi_reference r = test_lit_reference(&lit, 6, 1u << 24);
+    alpi_reference_value value;
+    listener l = {0};
+    const alpi_task_progress progress = {.callback = refuse_second, .user = &l};
+    assert_int_equal(alpi_reference_irradiance(&r, &receivers, NULL, 1, &progress, &value),
+                     ALP_ERROR_CANCELLED);
+    assert_int_equal(l.calls, 2);
+    assert_true(l.done < l.total);
+    test_lit_close(&lit);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_block_keeps_its_light),       cmocka_unit_test(sharing_is_unbiased),
+        cmocka_unit_test(sharing_leaves_less_noise),     cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(a_long_receiver_hears_the_end),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
