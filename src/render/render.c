@@ -30,7 +30,7 @@ typedef struct render_job {
     alpi_occlusion_setup occlusion;
     alpi_lighting *lighting; // of the reference, else NULL
     alpi_reference reference;
-    alp_image *image, *error;        // error: NULL unless asked for
+    alp_image *image, *error; // error: NULL unless asked for
     alpi_view view;
     const alpi_camera_loops *loops;
 } render_job;
@@ -115,12 +115,12 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
-        alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions,
-                               COUNT)) {
+        alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
                   "the backs of single-sided surfaces, which are black; move it (--camera)",
-                  (double)job->view.origin.x, (double)job->view.origin.y, (double)job->view.origin.z);
+                  (double)job->view.origin.x, (double)job->view.origin.y,
+                  (double)job->view.origin.z);
     }
 }
 

@@ -275,11 +275,15 @@ static alpi_hemicube_frame frame_with(vec3 world, const double local[3], float s
     a[0] = w.right, a[1] = w.up, a[2] = w.forward;
     // In the left-handed local axes the same triad has its first vector mirrored.
     b[0] = vec3_scale(l.right, -1.0f), b[1] = l.up, b[2] = l.forward;
+    float in_local[3][3];
     vec3 axes[3];
     for (int k = 0; k < 3; k++) {
-        axes[k] = vec3_scale(a[0], (&b[0].x)[k]);
-        axes[k] = vec3_mad(axes[k], (&b[1].x)[k], a[1]);
-        axes[k] = vec3_mad(axes[k], (&b[2].x)[k], a[2]);
+        vec3_store(in_local[k], b[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        axes[k] = vec3_scale(a[0], in_local[0][k]);
+        axes[k] = vec3_mad(axes[k], in_local[1][k], a[1]);
+        axes[k] = vec3_mad(axes[k], in_local[2][k], a[2]);
     }
     return (alpi_hemicube_frame){axes[0], axes[1], axes[2]};
 }

@@ -107,14 +107,14 @@ static void surfaces_are_asked_for_their_light(void **state)
 {
     (void)state;
     static const struct {
-        bool inside, double_sided, one_sided, blended;
         double share; // E / π
         uint32_t asked;
-    } cases[] = {{true, false, false, false, 0.25, 108},
-                 {false, false, false, false, 0.0, 0},
-                 {false, true, false, false, 0.25, 108},
-                 {false, false, true, false, 1.0, 0},
-                 {true, false, false, true, 0.3125, 108}};
+        bool inside, double_sided, one_sided, blended;
+    } cases[] = {{0.25, 108, true, false, false, false},
+                 {0.0, 0, false, false, false, false},
+                 {0.25, 108, false, true, false, false},
+                 {1.0, 0, false, false, true, false},
+                 {0.3125, 108, true, false, false, true}};
     const alp_lighting_options o = test_sky_of(ALP_SKY_CONSTANT);
     for (int i = 0; i < 5; i++) {
         alpi_material m = alpi_material_default();

@@ -56,8 +56,10 @@ static const float *pixel(alp_image *image, uint32_t column, uint32_t row)
 
 static void assert_color(alp_image *image, uint32_t column, uint32_t row, vec3 expected)
 {
+    float rgb[3];
+    vec3_store(rgb, expected);
     for (int k = 0; k < 3; k++) {
-        assert_true(pixel(image, column, row)[k] == (&expected.x)[k]);
+        assert_true(pixel(image, column, row)[k] == rgb[k]);
     }
     assert_true(pixel(image, column, row)[3] == 1.0f);
 }
