@@ -79,7 +79,7 @@ static void add_surfaces(const alpi_gather_scene *from, const met_points *met, c
 }
 
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      vec3 radiance[ALPI_PACKET])
+                      bool coherent, vec3 radiance[ALPI_PACKET])
 {
     alpi_trace_filter filter = from->filter;
     filter.panes = alpi_tracer_has_panes(from->tracer);
@@ -91,7 +91,11 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
     for (int passed = 0; active != 0 && passed < ALPI_PANE_LIMIT; passed++) {
         alpi_hits hits;
         met_points met;
-        alpi_trace_nearest(from->tracer, rays, active, filter, &hits);
+        if (coherent) {
+            alpi_trace_nearest_coherent(from->tracer, rays, active, filter, &hits);
+        } else {
+            alpi_trace_nearest(from->tracer, rays, active, filter, &hits);
+        }
         sort_hits(from, rays, &hits, active, &met, left, radiance);
         add_surfaces(from, &met, left, radiance);
         active = filter.panes ? alpi_panes_go_on(from->scene, &hits, active, rays, left) : 0;

@@ -25,9 +25,10 @@ typedef struct alpi_gather_scene {
 /// Radiance that comes back along rays, through panes on their way.
 /// @param rays     unit directions; destroyed
 /// @param active   bit i: lane i
+/// @param coherent the rays of the packet leave in about one direction
 /// @param radiance out; 0 of lanes that are not active
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      vec3 radiance[ALPI_PACKET]);
+                      bool coherent, vec3 radiance[ALPI_PACKET]);
 
 /// Gathers the irradiance E [W·m⁻²] of one receiver. Called by many threads. What is random in it
 /// is keyed by the receiver.
