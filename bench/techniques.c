@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SEED = 1 }; // of techniques; the truth has others
 
@@ -38,6 +39,66 @@ static bool run_reference(const bench_question *question, uint32_t paths,
 {
     const bench_paths how = {paths, ALPI_REFERENCE_BOUNCE_LIMIT, true, SEED};
     return bench_reference(question, how, values);
+}
+
+/// Texels in the order of packets, as a bake takes them, of the blocks of eight that hold an asked
+/// one. @return how many
+static uint32_t list_blocks(const bench_question *question, uint32_t *list)
+{
+    const bench_map *map = question->map;
+    const uint32_t texels = map->texels.count;
+    bool *asked = bench_allocate(texels, sizeof *asked);
+    uint32_t *order = bench_allocate(texels, sizeof *order);
+    uint32_t count = 0, listed = 0;
+    memset(asked, 0, texels * sizeof *asked);
+    for (uint32_t i = 0; i < question->count; i++) {
+        asked[question->list[i]] = true;
+    }
+    for (uint32_t i = 0; i < texels; i++) {
+        if (!map->validity.dropped[map->lattice.order[i]]) {
+            order[count++] = map->lattice.order[i];
+        }
+    }
+    for (uint32_t block = 0; block < count; block += ALPI_PACKET) {
+        const uint32_t end = count - block < ALPI_PACKET ? count : block + ALPI_PACKET;
+        bool any = false;
+        for (uint32_t i = block; i < end; i++) {
+            any = any || asked[order[i]];
+        }
+        for (uint32_t i = block; i < end && any; i++) {
+            list[listed++] = order[i];
+        }
+    }
+    free(asked);
+    free(order);
+    return listed;
+}
+
+/// What `bake --maps light` does: the paths of neighbours are shared.
+static bool run_bake(const bench_question *question, uint32_t paths, alpi_reference_value *values)
+{
+    const alpi_receivers receivers = alpi_texels_receivers(&question->map->texels);
+    const alpi_reference reference = {.context = question->scene->context,
+                                      .scene = question->scene->scene,
+                                      .tracer = question->scene->tracer,
+                                      .lighting = question->lighting,
+                                      .bounces = ALPI_REFERENCE_BOUNCE_LIMIT,
+                                      .samples = paths,
+                                      .next_event = true,
+                                      .share = true,
+                                      .seed = SEED};
+    uint32_t *list = bench_allocate(receivers.count, sizeof *list);
+    alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
+    const uint32_t count = list_blocks(question, list);
+    const bool good =
+        bench_good(question->scene,
+                   alpi_reference_irradiance(&reference, &receivers, list, count, NULL, all));
+    for (uint32_t i = 0; i < question->count && good; i++) {
+        values[i] = all[question->list[i]];
+    }
+    free(list);
+    free(all);
+    return good;
 }
 
 static bool run_by_chance(const bench_question *question, uint32_t paths,
@@ -148,6 +209,9 @@ const bench_technique *bench_technique_at(int index)
     static const bench_technique techniques[] = {
         {"reference, 64 paths", run_reference, 64, true},
         {"reference, 256 paths", run_reference, 256, true},
+        // Neighbours' errors are alike: the mean's standard error, which takes them for
+        // independent, says too little.
+        {"bake, 64 shared paths", run_bake, 64, false},
         // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
         // too little of their own spread.
         {"without next event, 256 paths", run_by_chance, 256, false},

@@ -71,9 +71,38 @@ static void cornell_box_occlusion(void **state)
     alp_context_destroy(context);
 }
 
-/// E/π after 8 bounces: the mean within .5 % (ours is right to .1 % with 16 paths from each of
-/// 47,290 texels; the rest is the peer's clamp-free noise), and no more scatter than our stated
-/// error and the peer's leave.
+/// Means over the texels of both pictures, of each channel.
+static void mean_channels(alp_context *context, const alp_lightmap *lightmap, const char *stored,
+                          double scale, double ours[3], double theirs[3])
+{
+    uint32_t width = 0, height = 0;
+    alp_image *reference = NULL;
+    ASSERT_OK(context, alp_image_load(context, test_shared(stored), &reference));
+    const float *a = alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, 0, &width, &height);
+    const float *b = alp_image_floats(reference);
+    double count = 0.0;
+    memset(ours, 0, 3 * sizeof *ours);
+    memset(theirs, 0, 3 * sizeof *theirs);
+    for (size_t i = 0; i < (size_t)width * height; i++) {
+        if (a[4 * i + 3] > 0.0f) {
+            count += 1.0;
+            for (int k = 0; k < 3; k++) {
+                ours[k] += scale * (double)a[4 * i + (size_t)k];
+                theirs[k] += (double)b[4 * i + (size_t)k];
+            }
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        ours[k] /= count;
+        theirs[k] /= count;
+    }
+    alp_image_destroy(reference);
+}
+
+/// E/π after 8 bounces: the mean of each channel within .5 %; and what is left of the difference
+/// when both noises are taken off it within 1 % of the mean. Ours is what the bake states of
+/// itself, the peer's is 1.2 % (measured where it was made). The square of ours is known to 2 %: a
+/// few thousand blocks of eight texels have errors of their own; three times that is allowed.
 static void cornell_box_light(void **state)
 {
     (void)state;
@@ -81,18 +110,25 @@ static void cornell_box_light(void **state)
     alp_scene *scene = load_cornell(context);
     alp_bake_options options = keep_256();
     options.maps = ALP_MAP_LIGHT;
-    options.light.samples = 16;
+    options.light.samples = 64;
     options.light.bounces = 8;
     alp_lightmap *lightmap = NULL;
     alp_bake_report report;
     ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
-    const alp_image_difference d =
-        compare(context, lightmap, ALP_MAP_LIGHT, "peers/blender/ref_cornell_diffuse_256.exr",
-                1.0 / 3.14159265358979);
-    const double ours = report.light_relative_error, peer = 0.012, texel = 0.01;
-    const double expected = d.mean_second * sqrt(ours * ours + peer * peer + texel * texel);
-    assert_true(d.bias > -0.005 * d.mean_second && d.bias < 0.005 * d.mean_second);
-    assert_true(d.rmse < 1.1 * expected && d.rmse > 0.8 * expected);
+    const char *stored = "peers/blender/ref_cornell_diffuse_256.exr";
+    const double scale = 1.0 / 3.14159265358979, peer = 0.012;
+    const alp_image_difference d = compare(context, lightmap, ALP_MAP_LIGHT, stored, scale);
+    const double own = report.light_relative_error, all = d.rmse / d.mean_second;
+    const double rest = all * all - own * own - peer * peer, known = 0.02 * own * own;
+    print_message("of the mean: difference %.2f %%, our noise %.2f %%, left %.2f %%\n", 100.0 * all,
+                  100.0 * own, 100.0 * sqrt(fmax(rest, 0.0)));
+    assert_true(rest < 0.01 * 0.01 + 3.0 * known && rest > -3.0 * known);
+    double ours[3], theirs[3];
+    mean_channels(context, lightmap, stored, scale, ours, theirs);
+    for (int k = 0; k < 3; k++) {
+        print_message("channel %d: %+.3f %%\n", k, 100.0 * (ours[k] / theirs[k] - 1.0));
+        assert_true(fabs(ours[k] / theirs[k] - 1.0) <= 0.005);
+    }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
