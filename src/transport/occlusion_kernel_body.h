@@ -29,7 +29,8 @@ static inline bool is_scattered(const alpi_occlusion_lanes *lanes)
 /// below (a polynomial of least largest error for ½ − sin(asin(1 − 2u) / 3) over √u).
 static inline float inverse_smoothstep(float u)
 {
-    const float s = sqrtf(u < 0.5f ? u : 1.0f - u);
+    const float rest = 1.0f - u;                // exact
+    const float s = sqrtf(u < rest ? u : rest); // a minimum: else gcc does both ends of the curve
     const float t =
         s * (0.57698999f +
              s * (0.11991628f +
