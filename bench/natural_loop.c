@@ -43,7 +43,7 @@ static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], u
     alpi_lanes_aim(loop->setup, lanes, frames, none, rays);
     limit(loop->setup, lanes, none, rays);
     alpi_trace_occluded(loop->setup->tracer, rays, 1, (1u << ALPI_PACKET) - 1u, loop->setup->filter,
-                        false);
+                        ALPI_RAYS_NEAR);
     count_open(rays, 1, &tally);
     uint32_t open = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {

@@ -12,12 +12,12 @@ void ray_record_use(ray_record *record)
 }
 
 static void write_down(const alpi_tracer *tracer, const alpi_rays *packets, uint32_t count,
-                       uint32_t active, alpi_trace_filter filter, bool scattered)
+                       uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
 {
     (void)tracer;
     (void)active;
     (void)filter;
-    (void)scattered;
+    (void)spread;
     ray_record *r = record_in_use;
     const uint32_t room = r->capacity - r->count;
     const uint32_t kept = count < room ? count : room;

@@ -243,7 +243,8 @@ static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKE
     if (active == 0) {
         return 0;
     }
-    alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0}, false);
+    alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0},
+                        ALPI_RAYS_NEAR);
     for (int i = 0; i < ALPI_PACKET; i++) {
         blocked |= ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f ? 1u : 0u) << i;
     }

@@ -389,12 +389,15 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer)
 }
 
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
-                         uint32_t active, alpi_trace_filter filter, bool scattered)
+                         uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
 {
     _Alignas(32) int some[ALPI_PACKET];
     const int *valid = spread_bits(active, some);
     trace_context context = start_context(tracer, filter);
-    if (scattered && valid == ALL_VALID) {
+    if (spread == ALPI_RAYS_PARALLEL) {
+        context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
+    if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
         rtcOccludedNM(tracer->embree_scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET,
                       count, sizeof *packets);
         return;

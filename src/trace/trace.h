@@ -78,12 +78,18 @@ uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer);
 /// Whether any of them is of a pane.
 bool alpi_tracer_has_panes(const alpi_tracer *tracer);
 
+/// How the rays of a packet leave: says nothing about what they meet, only how to find it fastest.
+typedef enum alpi_rays_spread {
+    ALPI_RAYS_NEAR,      // each packet by itself, ray by ray where they part
+    ALPI_RAYS_SCATTERED, // in different directions: one by one, as a stream; up to 1.4 times as
+                         // fast
+    ALPI_RAYS_PARALLEL   // nearly: as one beam; up to 1.2 times as fast (others: half as fast)
+} alpi_rays_spread;
+
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
 /// all ones. A lane that hits anything gets maximum = −∞, others are left alone.
-/// @param scattered the rays of a packet leave in different directions: they are then traced one by
-///                  one, as a stream, which is up to 1.4 times as fast (and the other way round)
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
-                         uint32_t active, alpi_trace_filter filter, bool scattered);
+                         uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread);
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);

@@ -112,17 +112,16 @@ static void add_free(gather *g, uint32_t first, uint32_t count)
 }
 
 /// Traces what is queued and adds what arrives, in the order of the queue.
-static void flush(gather *g, bool scattered)
+static void flush(gather *g, alpi_rays_spread spread)
 {
     const alpi_direct_options *o = &g->direct->options;
     const uint32_t full = g->queued / ALPI_PACKET, rest = g->queued % ALPI_PACKET;
     if (full > 0) {
         alpi_trace_occluded(o->tracer, g->packets, full, (1u << ALPI_PACKET) - 1u, o->filter,
-                            scattered);
+                            spread);
     }
     if (rest > 0) {
-        alpi_trace_occluded(o->tracer, &g->packets[full], 1, (1u << rest) - 1u, o->filter,
-                            scattered);
+        alpi_trace_occluded(o->tracer, &g->packets[full], 1, (1u << rest) - 1u, o->filter, spread);
     }
     for (uint32_t first = 0; first < g->queued; first += ALPI_PACKET) {
         add_free(g, first, g->queued - first < ALPI_PACKET ? g->queued - first : ALPI_PACKET);
@@ -135,7 +134,7 @@ static void flush(gather *g, bool scattered)
 typedef struct ray_way {
     vec3 origin, direction;
     float reach; // metres
-    bool scattered;
+    alpi_rays_spread spread;
 } ray_way;
 
 /// Light × factor arrives unless something is in between.
@@ -152,7 +151,7 @@ static void send(gather *g, const ray_way *way, vec3 light, float factor, arriva
         return;
     }
     if (g->queued == RAY_LIMIT) {
-        flush(g, way->scattered);
+        flush(g, way->spread);
     }
     const uint32_t lane = g->queued % ALPI_PACKET;
     alpi_rays *packet = &g->packets[g->queued / ALPI_PACKET];
@@ -303,7 +302,7 @@ static void add_sky(gather *g)
     for (uint32_t i = 0; i < g->count && d->sky_drawn; i++) {
         const alpi_receiver_point *p = &g->points[i];
         float density;
-        ray_way way = {.origin = ray_start(p), .reach = INFINITY, .scattered = true};
+        ray_way way = {.origin = ray_start(p), .reach = INFINITY, .spread = ALPI_RAYS_SCATTERED};
         way.direction = alpi_sky_sample(d->sky, draw(g, USE_SKY, i), &density);
         const float cosine = vec3_dot(way.direction, p->shading_normal);
         if (cosine > 0.0f) {

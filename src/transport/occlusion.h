@@ -42,6 +42,7 @@ typedef struct alpi_occlusion_setup {
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
     bool streams;            // rays in streams of many packets, which large scenes like
+    bool beams;              // packets of parallel axes as one beam, which only tiny scenes dislike
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers

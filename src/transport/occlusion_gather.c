@@ -37,7 +37,7 @@ typedef struct gather_job {
 void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes)
 {
     lanes->pending = 0;
-    lanes->scattered = false;
+    lanes->cosine = 1.0f;
     for (int k = 0; k < ALPI_TRACE_BATCH; k++) {
         alpi_rays *rays = &lanes->rays[k];
         memset(rays->minimum, 0, sizeof rays->minimum);

@@ -17,7 +17,7 @@ typedef struct alpi_occlusion_lanes {
     alpi_rays rays[ALPI_TRACE_BATCH];
     uint32_t active;  // bit i: lane i is in use; the others hold copies of one that is
     uint32_t pending; // packets made and not traced yet, of one point or of several
-    bool scattered;   // some of them look in different directions
+    float cosine;     // least of those between the axes of a packet, of all that are pending
 } alpi_occlusion_lanes;
 
 /// Readies the lanes for any points; which are in use is the caller's to set.

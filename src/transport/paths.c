@@ -118,10 +118,11 @@ static void trace_shadow_rays(const alpi_reference *r, alpi_path_wave *w, uint32
 {
     const uint32_t whole = count / ALPI_PACKET, rest = count % ALPI_PACKET;
     if (whole > 0) {
-        alpi_trace_occluded(r->tracer, w->rays, whole, 0xffu, r->filter, true);
+        alpi_trace_occluded(r->tracer, w->rays, whole, 0xffu, r->filter, ALPI_RAYS_SCATTERED);
     }
     if (rest > 0) {
-        alpi_trace_occluded(r->tracer, w->rays + whole, 1, (1u << rest) - 1u, r->filter, false);
+        alpi_trace_occluded(r->tracer, w->rays + whole, 1, (1u << rest) - 1u, r->filter,
+                            ALPI_RAYS_NEAR);
     }
     for (uint32_t first = 0; first < count; first += ALPI_PACKET) {
         bring_free(r, w, first, count - first < ALPI_PACKET ? count - first : ALPI_PACKET);
@@ -350,7 +351,7 @@ static void share_some(const alpi_reference *r, alpi_path_wave *w, uint32_t firs
             }
         }
     }
-    alpi_trace_occluded(r->tracer, w->rays, count, 0xffu, r->filter, false);
+    alpi_trace_occluded(r->tracer, w->rays, count, 0xffu, r->filter, ALPI_RAYS_NEAR);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t slot = w->slot[first + k], own = slot - w->block[slot];
         float sum = 0.0f;
