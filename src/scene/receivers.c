@@ -5,7 +5,9 @@
 
 static float largest_coordinate(vec3 v)
 {
-    return fmaxf(fmaxf(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
+    const float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z);
+    const float wider = x > y ? x : y; // not fmaxf, which is a call
+    return wider > z ? wider : z;
 }
 
 float alpi_receiver_offset(vec3 position, const vec3 *corners)

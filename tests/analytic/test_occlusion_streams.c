@@ -14,18 +14,23 @@ static const uint32_t SAMPLES[] = {4, 12, 64, 100, 256, 260, 1000};
 enum { SAMPLE_COUNTS = sizeof SAMPLES / sizeof *SAMPLES };
 
 /// Where receivers are: every third in the sealed ball about (20, 0, 0), every third under the lid,
-/// every third so far away that it sees nothing; each looks elsewhere.
+/// every third so far away that it sees nothing; each looks elsewhere, or all straight up.
+typedef struct places {
+    bool extended, upright;
+} places;
+
 static void place(const void *user, uint32_t receiver, uint32_t count, const float (*square)[2],
                   alpi_receiver_point *points)
 {
-    const bool *extended = user;
+    const places *how = user;
     const float turn = (float)receiver;
-    const vec3 n = {0.6f * cosf(turn), 0.8f, 0.6f * sinf(turn)};
+    const vec3 turned = {0.6f * cosf(turn), 0.8f, 0.6f * sinf(turn)}, up = {0.0f, 1.0f, 0.0f};
+    const vec3 n = how->upright ? up : turned;
     static const vec3 at[3] = {{20.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {-1e5f, 0.0f, 0.0f}};
     for (uint32_t i = 0; i < count; i++) {
         vec3 p = at[receiver % 3];
-        p.x += *extended ? 0.3f * square[i][0] : 0.0f;
-        p.z += *extended ? 0.3f * square[i][1] : 0.0f;
+        p.x += how->extended ? 0.3f * square[i][0] : 0.0f;
+        p.z += how->extended ? 0.3f * square[i][1] : 0.0f;
         points[i] = (alpi_receiver_point){p, n, n, 0.0f};
     }
 }
@@ -34,12 +39,12 @@ typedef struct rays {
     alp_context *context;
     alp_scene *scene;
     alpi_occlusion_setup setup;
-    bool extended;
+    places places;
 } rays;
 
 static void set_up(rays *r, uint32_t samples, bool extended)
 {
-    *r = (rays){.context = test_context(1), .extended = extended};
+    *r = (rays){.context = test_context(1), .places = {.extended = extended}};
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-0.5, 1, -0.4}, (double[]){1.7, 0, 0}, (double[]){0, 0, 1.3});
     test_mesh_sphere(mesh, (double[]){20, 0, 0}, 1.0, 16, 8, 1.0, 0);
@@ -67,7 +72,7 @@ static alpi_occlusion_sums send_rays(const rays *r, uint32_t count, uint32_t ste
     alpi_occlusion_setup setup = r->setup;
     setup.streams = streams;
     setup.bent = true;
-    const alpi_receivers receivers = {RECEIVERS, r->extended, place, &r->extended};
+    const alpi_receivers receivers = {RECEIVERS, r->places.extended, place, &r->places};
     ASSERT_OK(r->context, alpi_occlusion_sums_create(r->context, RECEIVERS, true, &sums));
     for (uint32_t at = 0; at < setup.samples; at += step) {
         const uint32_t left = setup.samples - at;
@@ -144,11 +149,36 @@ static void streams_packets_parts_and_steps_agree(void **state)
     }
 }
 
+/// Packets whose axes are parallel may go as beams: the same rays are free.
+static void beams_agree(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2 * SAMPLE_COUNTS; k++) {
+        rays r;
+        set_up(&r, SAMPLES[k / 2], k % 2 != 0);
+        r.places.upright = true;
+        r.setup.beams = false;
+        alpi_occlusion_sums packets = send_rays(&r, RECEIVERS, UINT32_MAX / 2, false);
+        r.setup.beams = true;
+        alpi_occlusion_sums beams = send_rays(&r, RECEIVERS, UINT32_MAX / 2, false);
+        assert_same(&packets, &beams, RECEIVERS);
+        uint32_t open = 0;
+        for (int q = 0; q < ALPI_QUARTERS; q++) {
+            open += packets.open[1][q];
+        }
+        assert_true(SAMPLES[k / 2] < 64 || (open > 0 && open < r.setup.samples));
+        alpi_occlusion_sums_destroy(r.context, &packets);
+        alpi_occlusion_sums_destroy(r.context, &beams);
+        tear_down(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_ray_counts_once),
         cmocka_unit_test(streams_packets_parts_and_steps_agree),
+        cmocka_unit_test(beams_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
