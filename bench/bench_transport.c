@@ -237,5 +237,5 @@ int bench_transport(const bench_options *options)
     if (good) {
         bench_table_print(&table, options);
     }
-    return good ? bench_direct(options) : 1;
+    return good && bench_direct(options) == 0 ? bench_path_tracer(options) : 1;
 }

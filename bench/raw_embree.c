@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "raw_embree.h"
 
+#include "bench.h"
+
 #include "base/tasks.h"
 
 #include <embree3/rtcore.h>
@@ -94,4 +96,29 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
     rtcInitIntersectContext(&context);
     rtcOccludedNM(raw->scene, &context, (struct RTCRayN *)packets, ALPI_PACKET, count,
                   sizeof *packets);
+}
+
+double raw_embree_time_nearest_coherent(const raw_embree *raw, const alpi_rays *packets,
+                                        uint32_t count)
+{
+    enum { BLOCK = 256 };
+    static const _Alignas(32) int valid[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
+    static struct RTCRayHit8 block[BLOCK];
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    double seconds = 0.0;
+    for (uint32_t first = 0; first < count; first += BLOCK) {
+        const uint32_t some = count - first < BLOCK ? count - first : BLOCK;
+        for (uint32_t i = 0; i < some; i++) {
+            memcpy(&block[i].ray, &packets[first + i], sizeof block[i].ray);
+            memset(&block[i].hit, 0xff, sizeof block[i].hit);
+        }
+        const double started = bench_thread_seconds();
+        for (uint32_t i = 0; i < some; i++) {
+            rtcIntersect8(valid, raw->scene, &context, &block[i]);
+        }
+        seconds += bench_thread_seconds() - started;
+    }
+    return seconds;
 }

@@ -19,7 +19,7 @@
 
 enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 65536 };
 // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
-enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64, PATH_RAYS = 8 };
+enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64 };
 enum { STREAM_PIXEL = 1 }; // random numbers of camera rays, apart from those of occlusion
 
 typedef struct render_job {
@@ -30,9 +30,8 @@ typedef struct render_job {
     alpi_occlusion_setup occlusion;
     alpi_lighting *lighting; // of the reference, else NULL
     alpi_reference reference;
-    alp_image *image, *error;        // error: NULL unless asked for
+    alp_image *image, *error; // error: NULL unless asked for
     alpi_view view;
-    const alpi_camera_loops *loops;
 } render_job;
 
 alp_render_options alp_render_options_default(void)
@@ -69,31 +68,14 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     return alpi_occlusion_check(scene, &o->occlusion);
 }
 
-/// The camera's frame: right-handed, looking along `forward`, picture up along `up`.
+/// The camera that was given, or that of the scene.
 static alp_result place_camera(render_job *job)
 {
-    const alp_camera *o = &job->options.camera;
-    alp_camera c =
-        o->vertical_fov != 0.0f ? *o : alp_scene_get_camera(job->scene, job->options.camera_index);
-    const vec3 none = {0.0f, 0.0f, 0.0f}, origin = vec3_load(c.position);
-    vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c.target), origin), none);
-    vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c.up)), none);
-    bool fov_is_valid = c.vertical_fov > 0.0f && c.vertical_fov < (float)ALPI_PI;
-    if (!vec3_is_finite(origin) || vec3_length(right) == 0.0f || !fov_is_valid) {
-        return alpi_fail(job->scene->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "camera: its position must be finite and differ from the target, the view "
-                         "not along up, the field of view inside (0, pi)");
-    }
-    float half = tanf(0.5f * c.vertical_fov);
-    const float aspect = (float)job->options.width / (float)job->options.height;
-    job->view = (alpi_view){.origin = origin,
-                            .forward = forward,
-                            .right = vec3_scale(right, half * aspect),
-                            .up = vec3_scale(vec3_cross(right, forward), half),
-                            .width = job->options.width,
-                            .height = job->options.height};
-    job->loops = alpi_camera_loops_for(job->scene->context);
-    return ALP_OK;
+    const alp_render_options *o = &job->options;
+    const alp_camera camera = o->camera.vertical_fov != 0.0f
+                                  ? o->camera
+                                  : alp_scene_get_camera(job->scene, o->camera_index);
+    return alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view);
 }
 
 /// Says where a picture will be black because the camera stands in a wall: methods that light the
@@ -109,18 +91,18 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
         x[i] = ((float)(i % ACROSS) + 0.5f) * (float)job->options.width / ACROSS;
         y[i] = ((float)(i / ACROSS) + 0.5f) * (float)job->options.height / ACROSS;
     }
-    job->loops->aim(&job->view, COUNT, x, y, (float *const[3]){dx, dy, dz});
+    job->view.loops->aim(&job->view, COUNT, x, y, (float *const[3]){dx, dy, dz});
     for (int i = 0; i < COUNT; i++) {
         directions[i] = (vec3){dx[i], dy[i], dz[i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
-        alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions,
-                               COUNT)) {
+        alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
                   "the backs of single-sided surfaces, which are black; move it (--camera)",
-                  (double)job->view.origin.x, (double)job->view.origin.y, (double)job->view.origin.z);
+                  (double)job->view.origin.x, (double)job->view.origin.y,
+                  (double)job->view.origin.z);
     }
 }
 
@@ -205,29 +187,6 @@ static void shade(const render_job *job, uint64_t first_key, const alpi_rays *ra
     }
 }
 
-static void reference_rays(const void *user, uint32_t count, const uint64_t *pixels, const float *u,
-                           const float *v, const alpi_camera_rays *rays)
-{
-    const render_job *job = user;
-    const alpi_view *view = &job->view;
-    enum { CHUNK = 64 };
-    for (uint32_t first = 0; first < count; first += CHUNK) {
-        const uint32_t some = count - first < CHUNK ? count - first : CHUNK;
-        float x[CHUNK], y[CHUNK];
-        for (uint32_t i = 0; i < some; i++) {
-            const uint32_t pixel = (uint32_t)pixels[first + i], row = pixel / view->width;
-            x[i] = (float)(pixel - row * view->width) + u[first + i];
-            y[i] = (float)row + v[first + i];
-            rays->start[0][first + i] = view->origin.x;
-            rays->start[1][first + i] = view->origin.y;
-            rays->start[2][first + i] = view->origin.z;
-        }
-        float *const directions[3] = {rays->direction[0] + first, rays->direction[1] + first,
-                                      rays->direction[2] + first};
-        job->loops->aim(view, some, x, y, directions);
-    }
-}
-
 /// Radiance over the whole pixel, the sky included; alpha: what shows something.
 static void keep_reference(const render_job *job, uint32_t index, const alpi_reference_value *value,
                            float covered)
@@ -247,18 +206,23 @@ static void keep_reference(const render_job *job, uint32_t index, const alpi_ref
     }
 }
 
-static alp_result render_reference(const render_job *job, uint32_t begin, uint32_t end)
+/// Chunks [begin, end) of the picture: what is traced together must not hang on how the loop is
+/// cut.
+static alp_result render_chunks(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
+    (void)worker;
+    const render_job *job = user;
+    const uint32_t pixels = job->options.width * job->options.height;
     alpi_reference_value values[PIXELS_PER_RANGE];
     float covered[PIXELS_PER_RANGE];
-    while (begin < end) {
-        const uint32_t count = end - begin < PIXELS_PER_RANGE ? end - begin : PIXELS_PER_RANGE;
-        ALP_TRY(alpi_reference_pixels(&job->reference, reference_rays, job, begin, count, values,
-                                      covered));
+    for (uint32_t chunk = begin; chunk < end; chunk++) {
+        const uint32_t first = chunk * PIXELS_PER_RANGE, left = pixels - first;
+        const uint32_t count = left < PIXELS_PER_RANGE ? left : PIXELS_PER_RANGE;
+        ALP_TRY(alpi_reference_pixels(&job->reference, alpi_view_rays, &job->view, first, count,
+                                      values, covered));
         for (uint32_t i = 0; i < count; i++) {
-            keep_reference(job, begin + i, &values[i], covered[i]);
+            keep_reference(job, first + i, &values[i], covered[i]);
         }
-        begin += count;
     }
     return ALP_OK;
 }
@@ -273,7 +237,7 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
     for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
         uint32_t rest = job->options.samples - first;
         uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
-        job->loops->packet(&job->view, index, key, first, &rays);
+        job->view.loops->packet(&job->view, index, key, first, &rays);
         alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter,
                                     &hits);
         uint32_t hit = 0;
@@ -299,9 +263,6 @@ static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_
 {
     (void)worker;
     const render_job *job = user;
-    if (job->options.method == ALP_RENDER_REFERENCE) {
-        return render_reference(job, begin, end);
-    }
     float *pixels = job->image->pixels;
     for (uint32_t i = begin; i < end; i++) {
         render_pixel(job, i, pixels + 4 * (size_t)i);
@@ -366,14 +327,19 @@ static alp_result run(render_job *job)
                                    .stage = "render",
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
+    const uint32_t pixels = o->width * o->height;
+    if (o->method == ALP_RENDER_REFERENCE) {
+        progress.units_per_item *= PIXELS_PER_RANGE;
+        return alpi_parallel_for(job->scene->context,
+                                 pixels / PIXELS_PER_RANGE + (pixels % PIXELS_PER_RANGE != 0), 1,
+                                 render_chunks, job, &progress);
+    }
     uint64_t rays = o->samples; // of a pixel, at most
-    rays *= o->method == ALP_RENDER_AO          ? 1 + job->occlusion.samples
-            : o->method == ALP_RENDER_REFERENCE ? PATH_RAYS
-                                                : 1;
+    rays *= o->method == ALP_RENDER_AO ? 1 + job->occlusion.samples : 1;
     uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
                                                               : (uint32_t)(RAYS_PER_RANGE / rays);
-    return alpi_parallel_for(job->scene->context, o->width * o->height, grain > 0 ? grain : 1,
-                             render_range, job, &progress);
+    return alpi_parallel_for(job->scene->context, pixels, grain > 0 ? grain : 1, render_range, job,
+                             &progress);
 }
 
 alp_result alp_render(const alp_scene *scene, const alp_render_options *options, alp_image **image)

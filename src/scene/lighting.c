@@ -475,8 +475,7 @@ static bool sample_escape(const place *p, double pick, vec2 u, alpi_light_sample
 {
     const alpi_lighting *lighting = p->lighting;
     if (sample->kind == ALPI_LIGHT_CLASS_SKY) {
-        float density;
-        sample->direction = alpi_sky_sample(lighting->sky, u, &density);
+        sample->direction = alpi_sky_sample(lighting->sky, u, NULL);
     } else {
         double rest = pick * p->sun_sum;
         const alpi_sun *sun = NULL; // the last one that gives light, if rounding leads past it

@@ -10,6 +10,7 @@ alpi_sun alpi_sun_from(const alpi_light *light, uint32_t index)
     sun.toward = double3_unit(double3_scale(double3_from(light->direction), -1.0));
     double half_sine = sin(0.5 * sun.half), sine = sin(sun.half);
     sun.rise = 2.0 * half_sine * half_sine;
+    sun.sine = sine;
     double per_lux = 1.0 / (ALPI_PI * sine * sine), lux = (double)light->intensity;
     double x = lux * (double)light->color.x, y = lux * (double)light->color.y,
            z = lux * (double)light->color.z;
@@ -21,8 +22,10 @@ alpi_sun alpi_sun_from(const alpi_light *light, uint32_t index)
 double alpi_sun_importance(const alpi_sun *sun, vec3 normal)
 {
     double cosine = double3_dot(sun->toward, double3_from(normal));
-    double angle = acos(fmin(fmax(cosine, -1.0), 1.0)) - sun->half;
-    return sun->illuminance * (angle <= 0.0 ? 1.0 : fmax(cos(angle), 0.0));
+    // cos(angle − half), where the angle is more
+    double sine = sqrt(fmax(1.0 - cosine * cosine, 0.0)), near = 1.0 - sun->rise;
+    double nearest = cosine >= near ? 1.0 : cosine * near + sine * sun->sine;
+    return sun->illuminance * fmax(nearest, 0.0);
 }
 
 vec3 alpi_sun_sample(const alpi_sun *sun, vec2 u)
@@ -40,6 +43,9 @@ vec3 alpi_sun_sample(const alpi_sun *sun, vec2 u)
 
 bool alpi_sun_holds(const alpi_sun *sun, vec3 direction)
 {
+    if (double3_dot(double3_from(direction), sun->toward) < 1.0 - sun->rise - 1e-4) {
+        return false; // by far, as almost always
+    }
     double3 chord = double3_sub(double3_unit(double3_from(direction)), sun->toward);
     return double3_dot(chord, chord) <= 2.0 * sun->rise; // |chord| = 2 sin(angle/2)
 }

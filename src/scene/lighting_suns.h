@@ -14,6 +14,7 @@ typedef struct alpi_sun {
     double3 toward;     // unit
     double half;        // radians
     double rise;        // 1 − cos(half) = 2 sin²(half/2)
+    double sine;        // of half
     double illuminance; // E⊥, mean of the channels
     vec3 radiance;      // E⊥ / (π sin²(half))
 } alpi_sun;

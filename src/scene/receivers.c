@@ -12,7 +12,8 @@ float alpi_receiver_offset(vec3 position, const vec3 *corners)
 {
     float largest = largest_coordinate(position);
     for (int k = 0; corners != NULL && k < 3; k++) {
-        largest = fmaxf(largest, largest_coordinate(vec3_sub(corners[k], position)));
+        const float apart = largest_coordinate(vec3_sub(corners[k], position));
+        largest = apart > largest ? apart : largest;
     }
     return 2.0f * 0x1p-23f * largest; // one was enough wherever it was tried
 }

@@ -172,7 +172,8 @@ bool alpi_surface_is_pane(const alp_scene *scene, uint32_t surface);
 
 /// What becomes of light that meets a surface, with alpha a (1 unless blended), base colour c and
 /// transmission t, less its metallic part. glTF says how a blended surface covers what is behind
-/// it, 1 − a, and not what it does to light: here its colour takes hold with its alpha.
+/// it, 1 − a, and not what it does to light: here its colour takes hold with its alpha. Where a
+/// mask cuts, all goes through.
 typedef struct alpi_pane {
     vec3 through; // goes straight on: (1 − a) lerp(1, c, a) + a t c
     float kept;   // of this share the material reflects its albedo: a (1 − t)

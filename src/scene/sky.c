@@ -16,8 +16,11 @@
 static const float LEAST_TURBIDITY = 1.7f, MOST_TURBIDITY = 10.0f;
 /// What the clear sky's ground gives back of the sky's light: soil and grass.
 static const double GROUND_ALBEDO = 0.2;
-/// Size of the table of the clear sky: its horizon lies between two rows.
-enum { CLEAR_WIDTH = 256, CLEAR_HEIGHT = 128 };
+/// Size of the table of the clear sky: its horizon lies between two rows. Small enough to stay in a
+/// processor's cache beside the scene; directions are only drawn from it.
+enum { CLEAR_WIDTH = 64, CLEAR_HEIGHT = 32 };
+/// In how many places across and down its light on level ground is summed up, for each of those.
+enum { GROUND_FINER = 4 };
 
 struct alpi_sky {
     alp_sky_kind kind;    // CONSTANT is a HEMISPHERE of one colour
@@ -195,30 +198,38 @@ static vec3 clear_radiance(const alpi_sky *sky, vec3 direction)
                : sky->ground;
 }
 
-/// Fills the table's upper half with the sky, sums what falls onto level ground, and makes the
-/// lower half of that.
-static void fill_clear(alpi_sky *sky)
+/// What the ground gives back of what falls onto it from the sky.
+static vec3 clear_ground(const alpi_sky *sky)
 {
-    alpi_sky_table *t = &sky->table;
+    enum { W = CLEAR_WIDTH * GROUND_FINER, H = CLEAR_HEIGHT * GROUND_FINER };
     double sum[3] = {0.0, 0.0, 0.0};
-    uint32_t half = CLEAR_HEIGHT / 2 * CLEAR_WIDTH;
-    for (uint32_t i = 0; i < half; i++) {
-        uint32_t y = i / CLEAR_WIDTH;
-        vec3 direction = alpi_sky_table_direction(t, i % CLEAR_WIDTH, y);
+    for (uint32_t i = 0; i < H / 2 * W; i++) {
+        uint32_t x = i % W, y = i / W;
+        vec3 direction = alpi_sky_table_direction(&sky->table, (x + 0.5) / GROUND_FINER - 0.5,
+                                                  (y + 0.5) / GROUND_FINER - 0.5);
         vec3 radiance = clear_radiance(sky, direction);
         // ∫ sinθ cosθ dθ over the row is half the difference of sin²θ at its edges.
-        double above = sin(y * ALPI_PI / CLEAR_HEIGHT),
-               below = sin((y + 1) * ALPI_PI / CLEAR_HEIGHT);
-        double weight = ALPI_PI / CLEAR_WIDTH * (below * below - above * above);
+        double above = sin(y * ALPI_PI / H), below = sin((y + 1) * ALPI_PI / H);
+        double weight = ALPI_PI / W * (below * below - above * above);
         sum[0] += (double)radiance.x * weight;
         sum[1] += (double)radiance.y * weight;
         sum[2] += (double)radiance.z * weight;
-        t->pixels[i] = radiance;
     }
     double scale = GROUND_ALBEDO / ALPI_PI;
-    sky->ground = (vec3){(float)(sum[0] * scale), (float)(sum[1] * scale), (float)(sum[2] * scale)};
-    for (uint32_t i = half; i < 2 * half; i++) {
-        t->pixels[i] = sky->ground;
+    return (vec3){(float)(sum[0] * scale), (float)(sum[1] * scale), (float)(sum[2] * scale)};
+}
+
+/// Fills the table's upper half with the sky and the lower with the ground.
+static void fill_clear(alpi_sky *sky)
+{
+    alpi_sky_table *t = &sky->table;
+    uint32_t half = CLEAR_HEIGHT / 2 * CLEAR_WIDTH;
+    sky->ground = clear_ground(sky);
+    for (uint32_t i = 0; i < 2 * half; i++) {
+        t->pixels[i] =
+            i < half
+                ? clear_radiance(sky, alpi_sky_table_direction(t, i % CLEAR_WIDTH, i / CLEAR_WIDTH))
+                : sky->ground;
     }
 }
 
@@ -342,7 +353,9 @@ vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density)
                                                      : alpi_sky_table_sample(&sky->table, u);
     // Asked anew of the direction that rounding left us with: what is looked up there fits to it.
     // On the rim of what is lit that may be 0, and the radiance with it.
-    *density = fmaxf(alpi_sky_density(sky, direction), FLT_MIN);
+    if (density != NULL) {
+        *density = fmaxf(alpi_sky_density(sky, direction), FLT_MIN);
+    }
     return direction;
 }
 

@@ -21,7 +21,7 @@ void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
 /// is sampled and what is looked up are the same function.
 vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction);
 
-/// Draws a direction. @param u [0,1)²  @param density out: per steradian, > 0
+/// Draws a direction. @param u [0,1)²  @param density out, may be NULL: per steradian, > 0
 vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density);
 /// Density that alpi_sky_sample draws a direction with; > 0 wherever the radiance is.
 float alpi_sky_density(const alpi_sky *sky, vec3 direction);

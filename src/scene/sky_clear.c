@@ -29,10 +29,12 @@ static const double ZENITH[2][3][4] = {
      {0.15346, -0.26756, 0.06670, 0.26688}},
 };
 
-static double distribution(const double p[5], double cosine, double gamma)
+/// @param cos_gamma, gamma angle to the sun
+static double distribution(const double p[5], double cosine, double cos_gamma, double gamma)
 {
-    double c = cos(gamma);
-    return (1.0 + p[0] * exp(p[1] / cosine)) * (1.0 + p[2] * exp(p[3] * gamma) + p[4] * c * c);
+    // Exponentials to float, which is what comes out in the end.
+    return (1.0 + p[0] * (double)expf((float)(p[1] / cosine))) *
+           (1.0 + p[2] * (double)expf((float)(p[3] * gamma)) + p[4] * cos_gamma * cos_gamma);
 }
 
 static double zenith_chromaticity(const double rows[3][4], double turbidity, double theta)
@@ -70,7 +72,7 @@ double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
         for (int k = 0; k < 5; k++) {
             sky->perez[i][k] = DISTRIBUTION[i][k][0] * t + DISTRIBUTION[i][k][1];
         }
-        sky->scale[i] = zenith[i] / distribution(sky->perez[i], 1.0, theta);
+        sky->scale[i] = zenith[i] / distribution(sky->perez[i], 1.0, cos(theta), theta);
     }
     return fading;
 }
@@ -80,10 +82,10 @@ vec3 alpi_clear_sky_radiance(const alpi_clear_sky *sky, vec3 direction)
     // At the horizon itself the term of 1/cosθ has vanished.
     double cosine = fmax((double)direction.y, 1e-6);
     double dot = (double)vec3_dot(direction, sky->sun);
-    double gamma = acos(fmax(fmin(dot, 1.0), -1.0));
+    double cos_gamma = fmax(fmin(dot, 1.0), -1.0), gamma = (double)acosf((float)cos_gamma);
     double value[3];
     for (int i = 0; i < 3; i++) {
-        value[i] = sky->scale[i] * distribution(sky->perez[i], cosine, gamma);
+        value[i] = sky->scale[i] * distribution(sky->perez[i], cosine, cos_gamma, gamma);
     }
     double luminance = value[0], x = value[1], y = value[2];
     double per_y = luminance / y, z = 1.0 - x - y;

@@ -182,6 +182,9 @@ alpi_pane alpi_surface_pane(const alp_scene *scene, uint32_t triangle, float b1,
     if (m == NULL) {
         return pane;
     }
+    if (m->alpha_mode == ALPI_ALPHA_MASK && alpi_surface_is_cut(scene, triangle, b1, b2)) {
+        return (alpi_pane){.through = {1.0f, 1.0f, 1.0f}};
+    }
     const bool blended = m->alpha_mode == ALPI_ALPHA_BLEND;
     const float a =
         blended ? clamp_between(alpi_surface_alpha(scene, triangle, b1, b2), 0.0f, 1.0f) : 1.0f;

@@ -91,7 +91,7 @@ static void add_free(gather *g, uint32_t first, uint32_t count)
     const alpi_direct_options *o = &g->direct->options;
     alpi_rays *rays = &g->packets[first / ALPI_PACKET];
     uint32_t free = 0;
-    vec3 left[ALPI_PACKET];
+    vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
     for (uint32_t i = 0; i < count; i++) {
         free |= rays->maximum[i] >= 0.0f ? 1u << i : 0u;
     }
@@ -374,7 +374,7 @@ static void trace_met(gather *g, met_packet *m)
     if (m->count == 0) {
         return;
     }
-    vec3 left[ALPI_PACKET];
+    vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
     uint32_t active = (1u << m->count) - 1u;
     for (int i = 0; i < ALPI_PACKET; i++) {
         left[i] = (vec3){1.0f, 1.0f, 1.0f};

@@ -17,7 +17,10 @@ alpi_receiver_point alpi_hit_point(const alp_scene *scene, const alpi_hits *hits
         shading =
             vec3_mad(shading, weight[k], vec3_load(scene->normals[scene->triangles[triangle][k]]));
     }
-    p.shading_normal = vec3_normalize_or(shading, p.geometric_normal);
+    // A mean of unit vectors: no float overflows.
+    const float length2 = vec3_dot(shading, shading);
+    p.shading_normal =
+        length2 > 1e-12f ? vec3_scale(shading, 1.0f / sqrtf(length2)) : p.geometric_normal;
     if (vec3_dot(p.shading_normal, p.geometric_normal) <= 0.0f) {
         p.shading_normal = p.geometric_normal;
     }

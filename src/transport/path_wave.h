@@ -17,6 +17,7 @@ typedef struct alpi_wave_vec {
 /// Paths [0, count) go on. What a path has brought is kept by slot, the place it began at.
 typedef struct alpi_path_wave {
     uint32_t count;
+    float first; // throughput of a fresh path
     // At its vertex.
     alpi_wave_vec origin;     // where rays start, the offset included; metres
     alpi_wave_vec normal;     // unit, the hemisphere's axis
@@ -42,7 +43,7 @@ typedef struct alpi_path_wave {
     alpi_wave_vec own;                   // brought by the first vertex
     alpi_wave_vec tail;                  // by later ones: shared out
     float share[ALPI_WAVE][ALPI_PACKET]; // of a tail, of each lane of its block
-    bool covered[ALPI_WAVE];             // the first ray, if from the eye, met something
+    float covered[ALPI_WAVE];            // share of its view, if from the eye, that something fills
     // Rays on their way.
     alpi_rays rays[ALPI_WAVE_PACKETS];
     alpi_hits hits[ALPI_WAVE_PACKETS];

@@ -95,7 +95,7 @@ static void bring_free(const alpi_reference *r, alpi_path_wave *w, uint32_t firs
 {
     alpi_rays *rays = &w->rays[first / ALPI_PACKET];
     uint32_t free = 0;
-    vec3 left[ALPI_PACKET];
+    vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
     for (uint32_t i = 0; i < count; i++) {
         free |= rays->maximum[i] >= 0.0f ? 1u << i : 0u;
     }
@@ -182,15 +182,18 @@ static void add_met(const alpi_reference *r, alpi_path_wave *w, uint32_t i, vec3
 static void escape(const alpi_reference *r, alpi_path_wave *w, uint32_t i)
 {
     const vec3 sky = alpi_lighting_escaped(r->lighting, at(&w->direction, i));
-    w->covered[w->slot[i]] |= w->depth[i] < 0 && is_lit(sky); // a sun's disk too
+    if (w->depth[i] < 0 && !is_lit(sky)) { // not even a sun's disk: nothing but panes
+        const vec3 t = at(&w->throughput, i);
+        w->covered[w->slot[i]] = 1.0f - (t.x + t.y + t.z) / (3.0f * w->first);
+    }
     add_met(r, w, i, sky, ALPI_NONE, INFINITY);
 }
 
 /// Ends a weak path by chance; those that go on make up for it.
-static bool play_roulette(const alpi_path_wave *w, uint32_t i, float first, vec3 *throughput)
+static bool play_roulette(const alpi_path_wave *w, uint32_t i, vec3 *throughput)
 {
     const float most = fmaxf(throughput->x, fmaxf(throughput->y, throughput->z));
-    const float survival = most / (ROULETTE_SHARE * first);
+    const float survival = most / (ROULETTE_SHARE * w->first);
     if (survival < 1.0f) {
         *throughput = vec3_scale(*throughput, 1.0f / survival);
         return w->v[i] < survival;
@@ -218,11 +221,10 @@ static void meet(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_
 {
     const vec3 back = vec3_scale(at(&w->direction, i), -1.0f);
     add_met(r, w, i, alpi_surface_emission(r->scene, triangle, b1, b2, back), triangle, distance);
-    w->covered[w->slot[i]] |= w->depth[i] < 0;
 }
 
 /// Path i meets a surface. @param to where it goes on @return false: it ends here
-static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float first, uint32_t to)
+static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_t to)
 {
     const alpi_hits *hits = &w->hits[i / ALPI_PACKET];
     const int lane = (int)(i % ALPI_PACKET);
@@ -243,7 +245,7 @@ static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float
     const vec3 albedo = vec3_scale(alpi_surface_albedo(r->scene, triangle, b1, b2), kept);
     vec3 throughput = at(&w->throughput, i);
     throughput = (vec3){throughput.x * albedo.x, throughput.y * albedo.y, throughput.z * albedo.z};
-    if (!is_lit(throughput) || !play_roulette(w, i, first, &throughput)) {
+    if (!is_lit(throughput) || !play_roulette(w, i, &throughput)) {
         return false;
     }
     bool behind = false;
@@ -303,15 +305,14 @@ static void fetch_hits(const alp_scene *scene, const alpi_path_wave *w)
 }
 
 /// Traces the rays of all paths; those that go on are at their next vertices then.
-static void step(const alpi_reference *r, const alpi_wave_loops *loops, float first,
-                 alpi_path_wave *w)
+static void step(const alpi_reference *r, const alpi_wave_loops *loops, alpi_path_wave *w)
 {
     trace_wave(r, w);
     fetch_hits(r->scene, w);
     loops->draw(w, ALPI_USE_CHOICE, 1);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < w->count; i++) {
-        kept += arrive(r, w, i, first, kept);
+        kept += arrive(r, w, i, kept);
     }
     w->count = kept;
 }
@@ -319,23 +320,23 @@ static void step(const alpi_reference *r, const alpi_wave_loops *loops, float fi
 // --- what neighbours share -----------------------------------------------------------------------
 
 /// Where a path arrived, receiver `slot` would have arrived too with this density, per area, if
-/// nothing is in between. @param ray out: from there to the receiver
+/// nothing is in between. @param rays out, in `lane`: the way it would have come, which is not the
+/// way back where backs of surfaces are open
 static float arrival_density(const alpi_path_wave *w, uint32_t path, uint32_t slot, alpi_rays *rays,
                              int lane)
 {
-    const vec3 from = at(&w->origin, path);
-    const vec3 to = vec3_sub(at(&w->base, slot), from);
-    const float distance = vec3_length(to);
-    const vec3 direction = vec3_scale(to, 1.0f / distance);
-    const float here = vec3_dot(direction, at(&w->side, path));
-    const float there = -vec3_dot(direction, at(&w->base_normal, slot));
+    const vec3 from = at(&w->base, slot), way = vec3_sub(at(&w->origin, path), from);
+    const float distance = vec3_length(way);
+    const vec3 direction = vec3_scale(way, 1.0f / distance);
+    const float here = vec3_dot(direction, at(&w->base_normal, slot));
+    const float there = -vec3_dot(direction, at(&w->side, path));
     const float density = here * there / (distance * distance);
     const bool faces = here > 0.0f && there > 0.0f && isfinite(density);
     alpi_rays_set(rays, lane, from, direction, faces ? distance * (1.0f - 1e-5f) : -1.0f);
     return faces ? density : 0.0f;
 }
 
-/// Sends a packet of rays from where each of `count` paths arrived to the receivers of its block.
+/// Sends a packet of rays from the receivers of its block to where each of `count` paths arrived.
 static void share_some(const alpi_reference *r, alpi_path_wave *w, uint32_t first, uint32_t count)
 {
     float density[ALPI_WAVE_PACKETS][ALPI_PACKET];
@@ -394,10 +395,10 @@ static void ready(alpi_path_wave *w)
 {
     memset(&w->own, 0, sizeof w->own);
     memset(&w->tail, 0, sizeof w->tail);
-    memset(w->covered, 0, sizeof w->covered);
     memset(w->share, 0, sizeof w->share);
     for (uint32_t i = 0; i < w->count; i++) {
         w->share[i][i - w->block[i]] = 1.0f;
+        w->covered[i] = 1.0f;
     }
     for (uint32_t i = 0; i < ALPI_WAVE_PACKETS; i++) {
         alpi_rays_clear(&w->rays[i]);
@@ -406,8 +407,7 @@ static void ready(alpi_path_wave *w)
     w->base_normal = w->normal;
 }
 
-static void bounce(const alpi_reference *r, const alpi_wave_loops *loops, float first,
-                   alpi_path_wave *w)
+static void bounce(const alpi_reference *r, const alpi_wave_loops *loops, alpi_path_wave *w)
 {
     if (r->next_event) {
         loops->draw(w, ALPI_USE_LIGHT, 0);
@@ -418,7 +418,7 @@ static void bounce(const alpi_reference *r, const alpi_wave_loops *loops, float 
     for (uint32_t i = 0; i < w->count && !r->next_event; i++) {
         w->density[i] = -1.0f;
     }
-    step(r, loops, first, w);
+    step(r, loops, w);
 }
 
 void alpi_paths_run(const alpi_reference *r, alpi_path_wave *w)
@@ -427,19 +427,19 @@ void alpi_paths_run(const alpi_reference *r, alpi_path_wave *w)
         return;
     }
     const alpi_wave_loops *loops = loops_of(r);
-    const float first = w->throughput.x[0];
+    w->first = w->throughput.x[0];
     ready(w);
     if (w->depth[0] < 0) {
-        step(r, loops, first, w);
+        step(r, loops, w);
     } else {
         loops->draw(w, ALPI_USE_CHOICE, 0);
         memcpy(w->pick, w->u, sizeof w->pick);
-        bounce(r, loops, first, w);
+        bounce(r, loops, w);
         if (r->share) {
             share_tails(r, w);
         }
     }
     while (w->count > 0) {
-        bounce(r, loops, first, w);
+        bounce(r, loops, w);
     }
 }

@@ -8,13 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { STREAM_PATH = 5, PATHS_PER_RANGE = 4096 /* a few milliseconds */ };
+enum { STREAM_PATH = 5, PATHS_PER_CHUNK = 4096 /* a few milliseconds */ };
 
 // --- means ---------------------------------------------------------------------------------------
 
 typedef struct replicate_sums {
     double light[ALPI_REFERENCE_REPLICATES][3];
-    uint32_t covered;
+    double covered;
 } replicate_sums;
 
 /// How many paths each replicate has.
@@ -37,7 +37,7 @@ static void add_path(const alpi_path_wave *wave, uint32_t slot, uint32_t sample,
     sum[0] += (double)light.x;
     sum[1] += (double)light.y;
     sum[2] += (double)light.z;
-    sums->covered += wave->covered[slot];
+    sums->covered += (double)wave->covered[slot];
 }
 
 /// Mean of the replicates' means, and its variance by their spread.
@@ -140,7 +140,7 @@ static alp_result run_paths(const path_run *run)
 {
     alpi_path_wave wave;
     uint32_t items[ALPI_WAVE], samples[ALPI_WAVE];
-    replicate_sums sums[ALPI_PACKET] = {{{{0}}, 0}};
+    replicate_sums sums[ALPI_PACKET] = {{{{0}}, 0.0}};
     run_cursor cursor;
     open_block(run, run->begin, &cursor);
     while (cursor.lanes > 0) {
@@ -170,6 +170,8 @@ typedef struct irradiance_job {
     const alpi_reference *reference;
     const alpi_receivers *receivers;
     const uint32_t *list;
+    uint32_t count;        // of the list
+    uint32_t lanes, chunk; // receivers that share, and that are one item of the loop
     alpi_reference_value *values;
 } irradiance_job;
 
@@ -200,20 +202,26 @@ static void take_receiver(const path_run *run, uint32_t item, const replicate_su
     finish(sums, samples_each(job->reference), &job->values[receiver_of(job, item)]);
 }
 
-static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+/// Chunks [begin, end). What is in a wave, and who shares with whom, must not hang on how the loop
+/// is cut: each chunk is a run of its own.
+static alp_result gather_chunks(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const irradiance_job *job = user;
-    return run_paths(&(path_run){.reference = job->reference,
-                                 .begin = begin,
-                                 .end = end,
-                                 .samples = alpi_reference_samples(job->reference),
-                                 .lanes = job->reference->share ? ALPI_PACKET : 1,
-                                 .first = 1.0f,
-                                 .key = receiver_key,
-                                 .place = place_receivers,
-                                 .take = take_receiver,
-                                 .user = user});
+    for (uint32_t i = begin; i < end; i++) {
+        const uint64_t first = (uint64_t)i * job->chunk, last = first + job->chunk;
+        ALP_TRY(run_paths(&(path_run){.reference = job->reference,
+                                      .begin = (uint32_t)first,
+                                      .end = last < job->count ? (uint32_t)last : job->count,
+                                      .samples = alpi_reference_samples(job->reference),
+                                      .lanes = job->lanes,
+                                      .first = 1.0f,
+                                      .key = receiver_key,
+                                      .place = place_receivers,
+                                      .take = take_receiver,
+                                      .user = user}));
+    }
+    return ALP_OK;
 }
 
 alp_result alpi_reference_irradiance(const alpi_reference *reference,
@@ -222,16 +230,18 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      alpi_reference_value *values)
 {
     const alpi_reference own = with_panes(reference);
-    irradiance_job job = {
-        .reference = &own, .receivers = receivers, .list = list, .values = values};
-    const uint32_t count = list != NULL ? list_count : receivers->count;
+    irradiance_job job = {.reference = &own,
+                          .receivers = receivers,
+                          .list = list,
+                          .count = list != NULL ? list_count : receivers->count,
+                          .lanes = own.share ? ALPI_PACKET : 1,
+                          .values = values};
+    const uint32_t samples = alpi_reference_samples(&own), each = samples * job.lanes;
+    job.chunk = (each < PATHS_PER_CHUNK ? PATHS_PER_CHUNK / each : 1) * job.lanes;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    const uint32_t samples = alpi_reference_samples(reference);
-    // Whole blocks, so that who shares with whom does not depend on the ranges.
-    const uint32_t lanes = own.share ? ALPI_PACKET : 1, each = samples * lanes;
-    const uint32_t grain = (each < PATHS_PER_RANGE ? PATHS_PER_RANGE / each : 1) * lanes;
-    told.units_per_item = (double)samples;
-    return alpi_parallel_for(reference->context, count, grain, gather_range, &job, &told);
+    told.units_per_item = (double)samples * job.chunk;
+    return alpi_parallel_for(own.context, job.count / job.chunk + (job.count % job.chunk != 0), 1,
+                             gather_chunks, &job, &told);
 }
 
 // --- pictures ------------------------------------------------------------------------------------
@@ -267,7 +277,8 @@ static void take_pixel(const path_run *run, uint32_t item, const replicate_sums 
 {
     const pixel_job *job = run->user;
     finish(sums, samples_each(run->reference), &job->values[item]);
-    job->covered[item] = (float)sums->covered / (float)run->samples;
+    const double covered = sums->covered / run->samples;
+    job->covered[item] = (float)fmin(fmax(covered, 0.0), 1.0);
 }
 
 alp_result alpi_reference_pixels(const alpi_reference *reference, alpi_camera_fn *camera,

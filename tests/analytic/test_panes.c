@@ -263,6 +263,52 @@ static void look_down(const void *user, uint32_t count, const uint64_t *pixels, 
     }
 }
 
+/// A mask cuts before anything is transmitted: below its cutoff there is a hole, above it the pane.
+static void a_mask_cuts_panes(void **state)
+{
+    (void)state;
+    for (int cut = 0; cut < 2; cut++) {
+        alp_scene *scene = make_stack(&PANES[1], 1);
+        scene->materials[1].alpha_mode = ALPI_ALPHA_MASK;
+        scene->materials[1].alpha_cutoff = 0.5f;
+        scene->materials[1].base_color[3] = cut != 0 ? 0.4f : 0.6f;
+        alp_lighting_options light = alp_lighting_options_default();
+        light.sun.elevation = (float)(PI / 2.0);
+        light.sun.illuminance = 10.0f;
+        light.sun.size = 0.0f;
+        test_lit lit = test_lit_open(scene, &light);
+        const alpi_reference r = test_lit_reference(&lit, 0, 16);
+        const double expected = cut != 0 ? 10.0 : 10.0 * through(&PANES[1], 0.9f);
+        const vec3 at = {0.3f, 0.0f, 0.4f};
+        ASSERT_NEAR(test_lit_point(&r, at, UP).mean[1], expected, 1e-5 * expected);
+        ASSERT_NEAR(direct_at(&lit, 16, at).mean[1], expected, 1e-5 * expected);
+        test_lit_close(&lit);
+    }
+}
+
+/// Before nothing, a black pane fills as much of a pixel as it takes from what is behind.
+static void a_pane_covers_what_it_takes(void **state)
+{
+    (void)state;
+    static const float alphas[] = {0.0f, 0.25f, 1.0f};
+    for (int i = 0; i < 3; i++) {
+        const pane_material black = {{0.0f, 0.0f, 0.0f}, alphas[i], 0.0f, 0.0f};
+        alpi_builder b;
+        alp_scene *scene = NULL;
+        alpi_builder_start(&b, context, "pane");
+        alpi_builder_surface(&b, "pane", add_pane_material(&b, &black, DARK));
+        add_level(&b, 1.0f);
+        ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+        test_lit lit = test_lit_open(scene, NULL);
+        const alpi_reference r = test_lit_reference(&lit, 0, 256);
+        alpi_reference_value v;
+        float covered = -1.0f;
+        ASSERT_OK(context, alpi_reference_pixels(&r, look_down, NULL, 0, 1, &v, &covered));
+        ASSERT_NEAR(covered, 1.0 - through(&black, 0.0), 1e-6);
+        test_lit_close(&lit);
+    }
+}
+
 /// A glowing pane over a lamp, seen from above: L = a Le of the pane + what it lets through of the
 /// lamp's.
 static void the_eye_sees_through_panes(void **state)
@@ -300,6 +346,8 @@ int main(void)
         cmocka_unit_test(a_sky_is_seen_through_panes),
         cmocka_unit_test(a_clear_pane_is_not_seen),
         cmocka_unit_test(both_ways_to_light_agree_behind_panes),
+        cmocka_unit_test(a_mask_cuts_panes),
+        cmocka_unit_test(a_pane_covers_what_it_takes),
         cmocka_unit_test(the_eye_sees_through_panes),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

@@ -5,6 +5,7 @@
 #include "test_support.h"
 
 #include "base/tasks.h"
+#include "scene/mesh_builder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -155,6 +156,79 @@ static void workers_change_nothing(void **state)
     }
 }
 
+/// A host that hands out ragged ranges, the last ones first.
+static void ragged_parallel_for(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
+                                void *body_user)
+{
+    (void)user;
+    (void)grain;
+    const uint32_t step = 3;
+    for (uint32_t end = count; end > 0;) {
+        const uint32_t begin = end > step ? end - step : 0;
+        body(body_user, begin, end, 0);
+        end = begin;
+    }
+}
+
+static void a_host_changes_nothing(void **state)
+{
+    (void)state;
+    alpi_reference_value values[2][POINTS];
+    for (int k = 0; k < 2; k++) {
+        alp_context_options options = alp_context_options_default();
+        options.worker_count = 1;
+        options.parallel_for = k == 1 ? ragged_parallel_for : NULL;
+        alp_context *other = NULL, *kept = context;
+        assert_int_equal(alp_context_create(&options, &other), ALP_OK);
+        context = other;
+        test_lit lit = open_builtin("builtin:cornell");
+        gather(&lit, true, 16, 1, values[k]);
+        test_lit_close(&lit);
+        alp_context_destroy(other);
+        context = kept;
+    }
+    assert_memory_equal(values[1], values[0], sizeof values[0]);
+}
+
+/// A lit room with a wall in the middle whose back is open: a way from a receiver to where its
+/// neighbour's path arrived may be open where the way back is not.
+static void open_backs_are_open_one_way(void **state)
+{
+    (void)state;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    const vec3 dark = {0, 0, 0}, grey = {0.7f, 0.7f, 0.7f};
+    alpi_builder_start(&b, context, "room");
+    alpi_builder_surface(&b, "walls", alpi_builder_material(&b, "walls", grey, dark));
+    alpi_builder_box(&b, (vec3){1, 1, 1}, dark, ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_LEFT);
+    alpi_builder_surface(&b, "lamp", alpi_builder_material(&b, "lamp", dark, (vec3){3, 3, 3}));
+    alpi_builder_box(&b, (vec3){1, 1, 1}, dark, ALPI_FACE_LEFT);
+    alpi_builder_surface(&b, "divider", alpi_builder_material(&b, "divider", grey, dark));
+    alpi_builder_box(&b, (vec3){0.5f, 0, 0}, (vec3){0.5f, 0.8f, 1}, ALPI_FACE_RIGHT);
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    test_lit lit = test_lit_open(scene, NULL);
+    vec3 positions[LANES], normals[LANES];
+    alpi_reference_value values[2][LANES];
+    for (uint32_t i = 0; i < LANES; i++) { // four on each side, 1 cm apart
+        positions[i] = (vec3){0.465f + 0.01f * (float)i, 0, 0.5f};
+        normals[i] = (vec3){0, 1, 0};
+    }
+    for (int share = 0; share < 2; share++) {
+        alpi_reference r = test_lit_reference(&lit, 6, 1u << 15);
+        r.filter.one_sided = true;
+        r.share = share != 0;
+        r.seed = (uint64_t)share;
+        test_lit_irradiance(&r, positions, normals, 1e-6f, LANES, values[share]);
+    }
+    for (uint32_t i = 0; i < LANES; i++) {
+        const double error =
+            sqrt((double)values[0][i].variance[1] + (double)values[1][i].variance[1]);
+        ASSERT_NEAR(values[1][i].mean[1], values[0][i].mean[1], 5.2 * error);
+        assert_true(error < 0.03 * (double)values[0][i].mean[1]);
+    }
+    test_lit_close(&lit);
+}
+
 typedef struct listener {
     uint32_t calls;
     uint64_t done, total;
@@ -195,8 +269,12 @@ static void a_long_receiver_hears_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_keeps_its_light),       cmocka_unit_test(sharing_is_unbiased),
-        cmocka_unit_test(sharing_leaves_less_noise),     cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(a_block_keeps_its_light),
+        cmocka_unit_test(sharing_is_unbiased),
+        cmocka_unit_test(sharing_leaves_less_noise),
+        cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(a_host_changes_nothing),
+        cmocka_unit_test(open_backs_are_open_one_way),
         cmocka_unit_test(a_long_receiver_hears_the_end),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

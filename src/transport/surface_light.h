@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// How a gatherer asks what leaves the surfaces that its rays meet. Whoever stores light on surfaces
+// answers; whoever gathers does not know how it is stored.
+#ifndef ALPI_TRANSPORT_SURFACE_LIGHT_H
+#define ALPI_TRANSPORT_SURFACE_LIGHT_H
+
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/// A point of a surface, as it is looked at.
+typedef struct alpi_surface_point {
+    uint32_t triangle;
+    float b1, b2;     // barycentric weights of corners 1 and 2
+    vec3 toward;      // unit: from the surface to who looks
+    bool from_behind; // who looks sees the back of the triangle
+} alpi_surface_point;
+
+/// Writes the radiance L [W·sr⁻¹·m⁻²] that each point reflects towards who looks: ρE/π of that side
+/// of a diffuse surface, and of a pane what it keeps (alpi_pane) of that. What a surface emits is
+/// not in it: gatherers ask the scene (alpi_surface_emission), or leave that to direct light.
+/// The back of a single-sided surface is black and never asked about. Called by many threads.
+/// @param points   [count], count at most ALPI_PACKET   @param radiance [count] out
+typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *points, uint32_t count,
+                               vec3 *radiance);
+
+typedef struct alpi_surface_light {
+    alpi_reflected_fn *reflected; // NULL: surfaces reflect nothing
+    const void *user;             // what it reads
+} alpi_surface_light;
+
+#endif
