@@ -51,8 +51,9 @@ typedef struct alp_render_options {
 ALP_API alp_render_options alp_render_options_default(void);
 
 /// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen;
-/// REFERENCE with a sky: 1 everywhere. Warns of a camera in a wall, to HEMISPHERE and REFERENCE
-/// (camera-inside), and REFERENCE of what alp_scene_examine tells.
+/// REFERENCE: of a pane with nothing behind it what it takes, and with a sky 1 everywhere. Warns of
+/// a camera in a wall, to HEMISPHERE and REFERENCE (camera-inside), and REFERENCE of what
+/// alp_scene_examine tells.
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match among them); OUT_OF_MEMORY;
 /// CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
