@@ -6,6 +6,9 @@
 
 #include <math.h>
 
+/// So many lamps, and so many emissive surfaces, are told one by one; JSON has them all.
+enum { LIGHTS_TOLD = 16 };
+
 /// Density at which a scene fills half of a page of 1024², about what charts leave for triangles.
 static double estimate_density(const alp_scene_info *info)
 {
@@ -94,30 +97,52 @@ static void print_place(const alp_light_info *l)
     }
 }
 
+static void print_lamp(const alp_light_info *l, uint32_t index)
+{
+    printf("light      ");
+    print_light_name(l, index);
+    printf(", %s: %g %s, colour %g %g %g", light_kinds[l->kind], (double)l->intensity,
+           light_unit(l), (double)l->color[0], (double)l->color[1], (double)l->color[2]);
+    print_place(l);
+    putchar('\n');
+}
+
+static void print_emissive(const alp_surface_info *s)
+{
+    printf("light      ");
+    print_clean(stdout, s->name);
+    printf(", emissive: %g %g %g W/(sr m2)\n", (double)s->emission[0], (double)s->emission[1],
+           (double)s->emission[2]);
+}
+
+/// What was not told one by one.
+static void print_rest(uint32_t count, const char *what)
+{
+    if (count > LIGHTS_TOLD) {
+        const uint32_t rest = count - LIGHTS_TOLD;
+        printf("light      and %u more %s%s; --json lists all\n", rest, what, rest == 1 ? "" : "s");
+    }
+}
+
 /// What gives light, with units.
 static void print_lights(const alp_scene *scene, const alp_scene_info *info)
 {
     uint32_t emissive = 0;
+    putchar('\n');
     for (uint32_t i = 0; i < info->surfaces; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
-        if (is_emissive(&s)) {
-            printf("%slight      ", emissive++ == 0 ? "\n" : "");
-            print_clean(stdout, s.name);
-            printf(", emissive: %g %g %g W/(sr m2)\n", (double)s.emission[0], (double)s.emission[1],
-                   (double)s.emission[2]);
+        if (is_emissive(&s) && emissive++ < LIGHTS_TOLD) {
+            print_emissive(&s);
         }
     }
-    for (uint32_t i = 0; i < info->lights; i++) {
+    print_rest(emissive, "emissive surface");
+    for (uint32_t i = 0; i < info->lights && i < LIGHTS_TOLD; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
-        printf("%slight      ", i + emissive == 0 ? "\n" : "");
-        print_light_name(&l, i);
-        printf(", %s: %g %s, colour %g %g %g", light_kinds[l.kind], (double)l.intensity,
-               light_unit(&l), (double)l.color[0], (double)l.color[1], (double)l.color[2]);
-        print_place(&l);
-        putchar('\n');
+        print_lamp(&l, i);
     }
+    print_rest(info->lights, "lamp");
     if (info->lights + emissive == 0) {
-        printf("\nlight      none; --maps light needs a --sky or a --sun\n");
+        printf("light      none; --maps light needs a --sky or a --sun\n");
     }
 }
 

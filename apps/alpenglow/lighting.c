@@ -109,6 +109,27 @@ int lighting_read(const command_line *a, alp_lighting_options *options)
     return code;
 }
 
+/// The library knows a sky's image and not where it is from; a user knows files.
+static int check_picture(const char *path, const alp_image *image)
+{
+    const alp_image_info info = alp_image_get_info(image);
+    char text[1024] = "";
+    if (info.component != ALP_COMPONENT_FLOAT) {
+        snprintf(text, sizeof text,
+                 "%.700s: has 8 bits a channel, whatever its name says, which hold no radiance; "
+                 "give --sky a picture in floats (Radiance .hdr, OpenEXR)",
+                 path);
+    } else if (info.channels < 3) {
+        snprintf(text, sizeof text, "%.700s: has %u channel%s; a sky needs R, G and B", path,
+                 info.channels, info.channels == 1 ? "" : "s");
+    } else if (info.width != 2 * info.height) {
+        snprintf(text, sizeof text,
+                 "%.700s: has %u x %u pixels; a sky is equirectangular, twice as wide as high",
+                 path, info.width, info.height);
+    }
+    return text[0] == '\0' ? EXIT_DONE : failure(text);
+}
+
 int lighting_load_sky(session *s, const command_line *a, alp_lighting_options *options,
                       alp_image **image)
 {
@@ -116,9 +137,10 @@ int lighting_load_sky(session *s, const command_line *a, alp_lighting_options *o
     if (options->sky.kind != ALP_SKY_IMAGE) {
         return EXIT_DONE;
     }
-    const int code = session_end(s, alp_image_load(s->context, a->values[OPTION_SKY].text, image));
+    const char *path = a->values[OPTION_SKY].text;
+    const int code = session_end(s, alp_image_load(s->context, path, image));
     options->sky.image = *image;
-    return code;
+    return code == EXIT_DONE ? check_picture(path, *image) : code;
 }
 
 uint32_t lighting_bounces(const command_line *a)

@@ -87,7 +87,8 @@ static const option options[] = {
      .initial = "ao",
      .help = "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
              "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
-             "per channel, not divided by pi, without albedo, by path tracing from every texel. "
+             "per channel, not divided by pi, without albedo, by path tracing from every texel; "
+             "blended and transmissive surfaces let it through in part, in their colour. "
              "What is not ao goes to --maps-dir alone, and -o needs ao."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
@@ -106,8 +107,9 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "--json",
      .value = "FILE",
-     .help = "Write a report: scene, atlas, seconds, rays, memory, objects with their rectangles, "
-             "warnings. - is standard output, instead of the summary."},
+     .help = "Write a report: scene, atlas, seconds, rays (of --maps light with bounces paths, of "
+             "several rays each), memory, objects with their rectangles, warnings. - is standard "
+             "output, instead of the summary."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,
@@ -297,10 +299,12 @@ static const option options[] = {
      .value = "reference|ao|constant|hemisphere",
      .choices = "ao|constant|hemisphere|reference",
      .later_choices = "radiosity|lightmap|probes|ambience|lpv|cube",
-     .help = "reference: all light by path tracing. ao: accessibility, from the scene's occlusion "
-             "maps, and by rays where it has none. constant: uniform light of radiance 1, which "
-             "shows the base colour. hemisphere: the two colours of --sky, nothing in their way. "
-             "Needed."},
+     .help = "reference: all light by path tracing, through blended and transmissive surfaces too, "
+             "which the others cut at an alpha of one half or take for opaque. ao: accessibility, "
+             "from the scene's occlusion maps, and by rays where it has none. constant: uniform "
+             "light of radiance 1, which shows the albedo: base colour x (1 - metallic), at most "
+             "0.95. hemisphere: the two colours of --sky (without it 1,1,1 above and 0,0,0 below), "
+             "nothing in their way. Needed."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -416,8 +420,9 @@ static const option options[] = {
      .maximum = 64,
      .unit = "EV",
      .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
-             "auto: the mean brightness becomes 18 % grey, without the darkest and brightest 5 %; "
-             "the EV used is printed. Default 0 for ao and constant, else auto."},
+             "auto: the geometric mean of the brightness of pixels that are not black, without "
+             "the darkest and brightest 5 % of them, becomes 18 % grey; the EV used is printed. "
+             "Default 0 for ao and constant, else auto."},
     {.id = OPTION_TONE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

@@ -53,7 +53,15 @@ typedef enum alp_map {
 #define ALP_BOUNCES_CONVERGE UINT32_MAX
 
 /// How ALP_MAP_LIGHT is gathered: by the reference path tracer; without bounces each light by
-/// samples of its own (of more than 64 lamps, and suns, one at a time).
+/// samples of its own (of more than 64 lamps, and suns, one at a time). Blended and transmissive
+/// materials filter light on its way, see docs/conventions.md, "Sides".
+///
+/// With bounces, eight neighbouring texels share what their paths find after the first bounce,
+/// without bias. Their errors are then alike: the standard error of a texel holds, that of a mean
+/// over many texels is larger than independent texels would have. In scenes with such materials
+/// nothing is shared.
+/// Based on: P. Bekaert, M. Sbert, J. Halton. Accelerating Path Tracing by Re-Using Paths. EGWR
+/// 2002.
 typedef struct alp_light_options {
     alp_lighting_options lighting; ///< beside the lights and emissive materials of the scene
     uint32_t bounces;              ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
@@ -148,8 +156,10 @@ typedef struct alp_bake_report {
     /// texel's, both over light_mean; NaN if dark.
     double light_relative_error, light_p99_error;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
-    uint64_t rays; ///< of occlusion; of light the paths, which are several rays each, or all rays
-                   ///< where light_direct
+    /// Rays of occlusion, plus what light took: with bounces its paths, each of which is several
+    /// rays, and where light_direct the rays sent from texels. A ray that goes on behind a pane is
+    /// not counted again.
+    uint64_t rays;
     uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT; of each light: light_direct
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`

@@ -15,11 +15,14 @@ ALP_BEGIN_DECLS
 typedef enum alp_render_method {
     ALP_RENDER_AO = 0, ///< accessibility, from the scene's occlusion maps; surfaces without one,
                        ///< and scenes without any, by rays at each pixel
-    ALP_RENDER_CONSTANT = 1,   ///< constant ambient light of radiance 1: the albedo
+    ALP_RENDER_CONSTANT = 1,   ///< constant ambient light of radiance 1: the albedo,
+                               ///< base colour × (1 − metallic), at most 0.95
     ALP_RENDER_HEMISPHERE = 2, ///< ambient light of a sky of radiance `lighting.sky.up` above the
                                ///< horizon and `down` below it, nothing in its way: radiance
                                ///< ρ (up (1 + n·y) + down (1 − n·y)) / 2
-    ALP_RENDER_REFERENCE = 3   ///< path tracing: all light of the scene and of `lighting`
+    ALP_RENDER_REFERENCE = 3   ///< path tracing: all light of the scene and of `lighting`, which
+                               ///< panes (blended or transmissive materials) filter; the others
+                               ///< cut BLEND at alpha ½ and take transmission for opaque
 } alp_render_method;
 
 typedef struct alp_render_options {
@@ -48,8 +51,9 @@ typedef struct alp_render_options {
 ALP_API alp_render_options alp_render_options_default(void);
 
 /// Renders linear radiance (AO: accessibility) as float RGBA, alpha 0 where no surface is seen;
-/// REFERENCE with a sky: 1 everywhere. Warns of a camera in a wall, to HEMISPHERE and REFERENCE
-/// (camera-inside), and REFERENCE of what alp_scene_examine tells.
+/// REFERENCE: of a pane with nothing behind it what it takes, and with a sky 1 everywhere. Warns of
+/// a camera in a wall, to HEMISPHERE and REFERENCE (camera-inside), and REFERENCE of what
+/// alp_scene_examine tells.
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match among them); OUT_OF_MEMORY;
 /// CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,

@@ -33,8 +33,8 @@ typedef struct alpi_direct_options {
 
 typedef enum alpi_direct_kind {
     ALPI_DIRECT_LIGHT,     // one light, `index` of alpi_lighting_light
-    ALPI_DIRECT_LIGHTS,    // lights without size, where they are too many; so for suns
-    ALPI_DIRECT_SUNS,      //
+    ALPI_DIRECT_LIGHTS,    // lights without size, where they are too many
+    ALPI_DIRECT_SUNS,      // suns, where they are too many
     ALPI_DIRECT_MATERIAL,  // emissive triangles of one material, `index` of scene.materials
     ALPI_DIRECT_MATERIALS, // of all of them, where they are too many
     ALPI_DIRECT_SKY
@@ -63,7 +63,8 @@ typedef struct alpi_direct_output {
     alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
                                   // order, are the mean of all; variances do not add up: parts
                                   // share the points of a receiver
-    uint64_t rays;                // that were sent; through panes they are several
+    uint64_t rays;                // that were sent from receivers; what goes on behind a pane
+                                  // is still the ray that met it and is not counted again
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased;

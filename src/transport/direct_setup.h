@@ -19,11 +19,11 @@ struct alpi_direct {
     alpi_light *lights;       // [alpi_lighting_light_count]; names are borrowed
     uint32_t *light_parts;    // of each of them, ALPI_NONE: it gives nothing
     uint32_t *lamps;          // [lamp_count] lights without size
-    uint32_t lamp_count;      //
+    uint32_t lamp_count;      // of `lamps`
     bool lamps_drawn;         // one at a time, from `drawn`
-    alpi_punctual drawn;      //
+    alpi_punctual drawn;      // of `lamps`, where lamps_drawn
     alpi_sun *suns;           // [sun_count]
-    uint32_t sun_count;       //
+    uint32_t sun_count;       // of `suns`
     bool suns_drawn;          // one at a time
     uint32_t *material_parts; // [scene.material_count], ALPI_NONE: it emits nothing
     alpi_direct_emitters emitters;

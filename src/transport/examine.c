@@ -279,8 +279,7 @@ static alp_result examine_lamps(examination *e, alp_progress_fn *progress, void 
     return result;
 }
 
-// --- cameras
-// --------------------------------------------------------------------------------------
+// --- cameras -------------------------------------------------------------------------------------
 
 bool alpi_examine_is_inside(const alpi_tracer *tracer, alpi_trace_filter filter,
                             const alp_scene *scene, vec3 place, const vec3 *directions,

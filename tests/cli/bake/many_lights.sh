@@ -13,7 +13,7 @@ lamps() { # apart by so many micrometres
 room "$grey" "$(lamps 10)" '{"type":"point","intensity":0.001}' >near.gltf
 room "$grey" "$(lamps 0)" '{"type":"point","intensity":0.001}' >same.gltf
 room "$grey" "$(lamp 0 0 1 0)" '{"type":"point","intensity":10}' >one.gltf
-alpenglow info near.gltf | grep -c candela
+alpenglow info near.gltf --json | grep -c candela
 for scene in near same one; do
     timeout 60 alpenglow bake $scene.gltf --maps light --maps-dir $scene --size 32 --samples 64 \
         --bounces 0 -q || echo "$scene: $?"
