@@ -6,9 +6,9 @@
 #include "base/random.h"
 
 #ifdef __clang__ // finds them by itself
-#define EACH_RAY(i, count) for (uint32_t i = 0; i < (count); i++)
+#define EACH_RAY(count) for (uint32_t i = 0; i < (count); i++)
 #else
-#define EACH_RAY(i, count)                                                                         \
+#define EACH_RAY(count)                                                                            \
     _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (uint32_t i = 0; i < (count); i++)
 #endif
 
@@ -38,7 +38,7 @@ static void packet(const alpi_view *view, uint32_t pixel, uint32_t key, uint32_t
 {
     const picture_plane plane = plane_of(view);
     const uint32_t row = pixel / view->width, column = pixel - row * view->width;
-    EACH_RAY(i, ALPI_PACKET)
+    EACH_RAY(ALPI_PACKET)
     {
         const vec2 u = alpi_sample_2d(key, first + i);
         const vec3 d = through(&plane, (float)column + u.x, (float)row + u.y);
@@ -57,7 +57,7 @@ static void aim(const alpi_view *view, uint32_t count, const float *x, const flo
 {
     const picture_plane plane = plane_of(view);
     float *dx = direction[0], *dy = direction[1], *dz = direction[2];
-    EACH_RAY(i, count)
+    EACH_RAY(count)
     {
         const vec3 d = through(&plane, x[i], y[i]);
         dx[i] = d.x;

@@ -86,14 +86,15 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
     const alp_render_method method = job->options.method;
     enum { COUNT = ACROSS * ACROSS };
     vec3 directions[COUNT];
-    float x[COUNT], y[COUNT], dx[COUNT], dy[COUNT], dz[COUNT];
+    float x[COUNT], y[COUNT], d[3][COUNT] = {{0.0f}};
     for (int i = 0; i < COUNT; i++) {
-        x[i] = ((float)(i % ACROSS) + 0.5f) * (float)job->options.width / ACROSS;
-        y[i] = ((float)(i / ACROSS) + 0.5f) * (float)job->options.height / ACROSS;
+        const int column = i % ACROSS, row = i / ACROSS;
+        x[i] = ((float)column + 0.5f) * (float)job->options.width / ACROSS;
+        y[i] = ((float)row + 0.5f) * (float)job->options.height / ACROSS;
     }
-    job->view.loops->aim(&job->view, COUNT, x, y, (float *const[3]){dx, dy, dz});
+    job->view.loops->aim(&job->view, COUNT, x, y, (float *const[3]){d[0], d[1], d[2]});
     for (int i = 0; i < COUNT; i++) {
-        directions[i] = (vec3){dx[i], dy[i], dz[i]};
+        directions[i] = (vec3){d[0][i], d[1][i], d[2][i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&

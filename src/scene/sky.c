@@ -226,10 +226,9 @@ static void fill_clear(alpi_sky *sky)
     uint32_t half = CLEAR_HEIGHT / 2 * CLEAR_WIDTH;
     sky->ground = clear_ground(sky);
     for (uint32_t i = 0; i < 2 * half; i++) {
+        const uint32_t x = i % CLEAR_WIDTH, y = i / CLEAR_WIDTH;
         t->pixels[i] =
-            i < half
-                ? clear_radiance(sky, alpi_sky_table_direction(t, i % CLEAR_WIDTH, i / CLEAR_WIDTH))
-                : sky->ground;
+            i < half ? clear_radiance(sky, alpi_sky_table_direction(t, x, y)) : sky->ground;
     }
 }
 

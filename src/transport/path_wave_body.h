@@ -8,14 +8,14 @@
 #include <math.h>
 
 #ifdef __clang__ // finds them by itself
-#define EACH_PATH(i, count) for (uint32_t i = 0; i < (count); i++)
+#define EACH_PATH(count) for (uint32_t i = 0; i < (count); i++)
 #else
-#define EACH_PATH(i, count) _Pragma("GCC ivdep") for (uint32_t i = 0; i < (count); i++)
+#define EACH_PATH(count) _Pragma("GCC ivdep") for (uint32_t i = 0; i < (count); i++)
 #endif
 
 static void draw(alpi_path_wave *w, alpi_path_use use, uint32_t ahead)
 {
-    EACH_PATH(i, w->count)
+    EACH_PATH(w->count)
     {
         const uint32_t number = (w->event[i] + ahead) * ALPI_USE_COUNT + (uint32_t)use;
         const vec2 u =
@@ -29,7 +29,7 @@ static void draw(alpi_path_wave *w, alpi_path_use use, uint32_t ahead)
 /// cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
 static void aim(alpi_path_wave *w)
 {
-    EACH_PATH(i, w->count)
+    EACH_PATH(w->count)
     {
         // Odd numbers of 25 bits: never 0, never the rim.
         const float a = 2.0f * w->u[i] - (1.0f - 0x1p-24f);

@@ -139,7 +139,7 @@ static void fill_wave(const path_run *run, run_cursor *at, alpi_path_wave *w, ui
 static alp_result run_paths(const path_run *run)
 {
     alpi_path_wave wave;
-    uint32_t items[ALPI_WAVE], samples[ALPI_WAVE];
+    uint32_t items[ALPI_WAVE] = {0}, samples[ALPI_WAVE] = {0};
     replicate_sums sums[ALPI_PACKET] = {{{{0}}, 0.0}};
     run_cursor cursor;
     open_block(run, run->begin, &cursor);

@@ -103,7 +103,7 @@ static alpi_reference_value direct_at(const test_lit *lit, uint32_t samples, vec
                                          .lighting = lit->lighting,
                                          .samples = samples,
                                          .seed = 5};
-    alpi_reference_value value;
+    alpi_reference_value value = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     alpi_direct_output output = {.values = &value};
     alpi_direct *direct = NULL;
     ASSERT_OK(context, alpi_direct_create(&options, &direct));
