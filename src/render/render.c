@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
+#include "render/automatic_camera.h"
 #include "render/camera_rays.h"
 #include "scene/select.h"
 #include "transport/examine.h"
@@ -73,8 +74,11 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
 static alp_result place_camera(render_job *job)
 {
     const alp_camera *o = &job->options.camera;
-    alp_camera c =
-        o->vertical_fov != 0.0f ? *o : alp_scene_get_camera(job->scene, job->options.camera_index);
+    alp_camera c = *o;
+    if (c.vertical_fov == 0.0f) {
+        ALP_TRY(alpi_camera_choose(job->scene, job->options.camera_index, job->options.progress,
+                                   job->options.progress_user, &c));
+    }
     const vec3 none = {0.0f, 0.0f, 0.0f}, origin = vec3_load(c.position);
     vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c.target), origin), none);
     vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c.up)), none);
