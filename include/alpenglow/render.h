@@ -32,7 +32,10 @@ typedef struct alp_render_options {
     uint32_t samples;       ///< camera rays per pixel, [1, 65536]; default 16. REFERENCE: paths,
                             ///< rounded up to a multiple of 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
-    uint32_t camera_index;  ///< default 0; past the last: the automatic camera
+    uint32_t camera_index;  ///< default 0; past the last, an automatic one: alp_scene_get_camera's,
+                            ///< unless one of 17 other places, outside and inside the bounding box,
+                            ///< shows much more of the surface from its front; it depends on the
+                            ///< scene alone
     alp_occlusion_options
         occlusion;         ///< for AO by rays, `samples` per pixel; its progress is ignored
     const char *occluders; ///< which surfaces occlude, as in alp_bake_options; NULL (default) = all

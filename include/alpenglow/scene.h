@@ -98,8 +98,10 @@ typedef struct alp_camera {
     float up[3];        ///< not parallel to the view axis
     float vertical_fov; ///< full angle in radians, (0, π)
 } alp_camera;
-/// Camera `index` of the scene; with index ≥ cameras the automatic one: from a corner of the
-/// bounding box towards its centre, or from inside where the box is closed around it.
+/// Camera `index` of the scene; with index ≥ cameras the usual view of a thing or a room: from
+/// above a corner of the bounding box towards its centre, or, where more area faces the centre than
+/// faces away, from inside it. What stands between is not looked at, so an open box may show little
+/// from there: alp_render tries more places, and may take another. Cost: a look at each triangle.
 ALP_API alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index);
 
 ALP_END_DECLS

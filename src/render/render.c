@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
+#include "render/automatic_camera.h"
 #include "render/camera_rays.h"
 #include "scene/select.h"
 #include "transport/examine.h"
@@ -72,9 +73,11 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
 static alp_result place_camera(render_job *job)
 {
     const alp_render_options *o = &job->options;
-    const alp_camera camera = o->camera.vertical_fov != 0.0f
-                                  ? o->camera
-                                  : alp_scene_get_camera(job->scene, o->camera_index);
+    alp_camera camera = o->camera;
+    if (camera.vertical_fov == 0.0f) {
+        ALP_TRY(alpi_camera_choose(job->scene, o->camera_index, o->progress, o->progress_user,
+                                   &camera));
+    }
     return alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/area_points.h"
+#include "scene/viewpoints.h"
 
 #include <math.h>
 #include <string.h>
@@ -338,67 +339,11 @@ alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
     return info;
 }
 
-/// Distance from the centre of a box, along `view`, at which a square picture of half-width
-/// `tangent` at distance 1 just holds all its corners, with a margin of 5 %.
-static float fitting_distance(vec3 size, vec3 view, float tangent)
-{
-    vec3 right = vec3_normalize_or(vec3_cross((vec3){0.0f, 1.0f, 0.0f}, view), view);
-    vec3 up = vec3_cross(view, right);
-    float distance = 1e-6f;
-    for (int i = 0; i < 8; i++) {
-        vec3 corner = {size.x * ((i & 1) ? 0.5f : -0.5f), size.y * ((i & 2) ? 0.5f : -0.5f),
-                       size.z * ((i & 4) ? 0.5f : -0.5f)};
-        float aside = fmaxf(fabsf(vec3_dot(corner, right)), fabsf(vec3_dot(corner, up)));
-        distance = fmaxf(distance, vec3_dot(corner, view) + 1.05f * aside / tangent);
-    }
-    return distance;
-}
-
-/// Looks at the whole bounding box from above one of its corners. A scene that is seen mostly from
-/// behind there (a room) is looked at from inside, from near one upper corner towards the opposite
-/// lower one. Nobody can stand inside a scene that is flat: cards on a table, a wall of signs.
-static alp_camera automatic_camera(const alp_scene *scene)
-{
-    vec3 low = scene->bounds_min, high = scene->bounds_max;
-    vec3 size = vec3_sub(high, low);
-    vec3 center = vec3_mad(low, 0.5f, size);
-    vec3 view = vec3_normalize_or((vec3){0.8f, 0.55f, 1.0f}, (vec3){0.0f, 0.0f, 1.0f});
-    double front = 0.0, back = 0.0; // area that faces away from the centre, or towards it
-    for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        if (scene->triangle_usable[t]) {
-            vec3 c[3];
-            alpi_triangle_corners(scene, t, c);
-            // Away from the centre = the outside of an object; towards it = the inside of a room.
-            vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 0.0f, 0.0f});
-            double outward = vec3_triangle_area(c[0], c[1], c[2]) *
-                             (double)vec3_dot(normal, vec3_sub(c[0], center));
-            front += outward > 0.0 ? outward : 0.0;
-            back -= outward < 0.0 ? outward : 0.0;
-        }
-    }
-    alp_camera camera = {.up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
-    const float flat = 0.05f; // thickness over the largest side
-    bool has_inside =
-        fminf(fminf(size.x, size.y), size.z) > flat * fmaxf(fmaxf(size.x, size.y), size.z);
-    if (back > front && has_inside) {
-        vec3 eye = {low.x + 0.88f * size.x, low.y + 0.62f * size.y, low.z + 0.88f * size.z};
-        vec3 target = {low.x + 0.35f * size.x, low.y + 0.35f * size.y, low.z + 0.25f * size.z};
-        camera.vertical_fov = 1.2f;
-        vec3_store(camera.position, eye);
-        vec3_store(camera.target, target);
-    } else {
-        float distance = fitting_distance(size, view, tanf(0.5f * camera.vertical_fov));
-        vec3_store(camera.position, vec3_mad(center, distance, view));
-        vec3_store(camera.target, center);
-    }
-    return camera;
-}
-
 alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index)
 {
     if (scene == NULL) {
         return (alp_camera){
             .target = {0.0f, 0.0f, -1.0f}, .up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
     }
-    return index < scene->camera_count ? scene->cameras[index] : automatic_camera(scene);
+    return index < scene->camera_count ? scene->cameras[index] : alpi_viewpoint_usual(scene);
 }
