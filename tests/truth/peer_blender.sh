@@ -46,9 +46,9 @@ cycles "$peer/sphere_plane.glb" "$folder/cycles.exr" --type ao --size 256 --samp
 "$command" compare "$folder/ao.exr" "$folder/cycles.exr" --max-rmse 0.006
 
 # light NAME SCENE SKY: Cycles gives E/pi. What it and we leave of noise, two seeds of each tell.
-# The mean within .5 % in each channel, and 1 % between texels less the noise: up to 2.6 % and 2.2 % in
-# 10,192 texels, whose square is thereby known to (.4 %)^2. The script there knows no sky but one of
-# a single colour, and reads pictures that name TEXCOORD_0 through the set it bakes to.
+# The mean within .5 % in each channel, and 1 % between texels less the noise: up to 2.6 % and 2.2 %
+# in 10,192 texels, whose square is thereby known to (.4 %)^2. The script there knows no sky but one
+# of a single colour, and reads pictures that name TEXCOORD_0 through the set it bakes to.
 failed=0
 light() {
     for seed in 1 2; do
