@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# peer_blender.sh COMMAND SHARED COMPARE_PEER: bakes with Blender's Cycles and with ours, on the same
-# texels, and compares those that both cover: the occlusion of a sphere on a plane, its light under a
-# lamp and a coloured sky, and the light of walls with a picture. 77 = skipped: no Blender, or no
-# shared folder.
+# peer_blender.sh COMMAND SHARED COMPARE_PEER: bakes with Blender's Cycles and with ours, on the
+# same texels, and compares those that both cover: the occlusion of a sphere on a plane, its light
+# under a lamp and a coloured sky, and the light of walls with a picture. 77 = skipped: no Blender,
+# or no shared folder.
 set -eu
 command=$1
 shared=${ALPENGLOW_SHARED:-$2}
@@ -30,7 +30,8 @@ trap 'rm -rf "$folder"' EXIT
 cycles() {
     scene=$1 out=$2
     shift 2
-    PATH=$system blender -b --factory-startup --python-exit-code 3 --python "$peer/bake_peer.py" -- \
+    PATH=$system blender -b --factory-startup --python-exit-code 3 \
+        --python "$peer/bake_peer.py" -- \
         --scene "$scene" --uv TEXCOORD_1 --out "$out" "$@" >"$folder/log" 2>&1 || {
         tail -20 "$folder/log"
         exit 1
@@ -44,10 +45,10 @@ cycles "$peer/sphere_plane.glb" "$folder/cycles.exr" --type ao --size 256 --samp
     --atlas keep --size 256 --maps-dir "$folder" --progress off
 "$command" compare "$folder/ao.exr" "$folder/cycles.exr" --max-rmse 0.006
 
-# light NAME SCENE SKY: Cycles gives E/pi. What it and we leave of noise, two seeds of each tell. The
-# mean within .5 % in each channel, and 1 % between texels less the noise: up to 2.6 % and 2.2 % in
-# 10,192 texels, whose square is thereby known to (.4 %)^2. The script there knows no sky but one of
-# a single colour, and reads pictures that name TEXCOORD_0 through the set it bakes to.
+# light NAME SCENE SKY: Cycles gives E/pi. What it and we leave of noise, two seeds of each tell.
+# The mean within .5 % in each channel, and 1 % between texels less the noise: up to 2.6 % and 2.2 %
+# in 10,192 texels, whose square is thereby known to (.4 %)^2. The script there knows no sky but one
+# of a single colour, and reads pictures that name TEXCOORD_0 through the set it bakes to.
 failed=0
 light() {
     for seed in 1 2; do

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""textured_room.py OUT.glb: a corner of a room whose walls carry a picture, for comparing with other
-renderers under a sky: all of it is lit alike, so that little noise is left.
+"""textured_room.py OUT.glb: a corner of a room whose walls carry a picture, for comparing with
+other renderers under a sky: all of it is lit alike, so that little noise is left.
 
 Its second UV set fills whole texels of a page of 128 x 128, so that nobody's rule for cut texels
 matters; nothing touches or stands inside anything else, for the same reason; materials are
 double-sided, as renderers that know no other take them. The picture is of wide stripes, for whether
 it is interpolated before or after its decoding then matters in 1 part of 64 only, and it differs
-from all its mirrored and turned forms. 13 quads: three walls, six sides of a block, two a shelf, two a
-lamp (one quad each way up), each in a cell of 32 texels. The picture has a third
-UV set: Blender takes the current one for the first.
+from all its mirrored and turned forms. It has a third UV set: Blender reads a picture of the first
+set through whichever set is current. 13 quads: three walls, six sides of a block, two a shelf, two
+a lamp (one quad each way up), each in a cell of 32 texels.
 """
 import json
 import struct
@@ -20,13 +20,16 @@ CELL, MARGIN, PAGE = 32, 2, 128
 
 
 def png(width, height, pixel):
-    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
+    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width))
+                    for y in range(height))
 
     def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        checksum = struct.pack(">I", zlib.crc32(kind + data))
+        return struct.pack(">I", len(data)) + kind + data + checksum
 
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) +
+            chunk(b"IEND", b""))
 
 
 def stripes(x, y):
@@ -54,7 +57,8 @@ def main():
     block = box((1.0, 0.4, 2.6), (2.2, 1.6, 3.6), False)
     lamp = [((1, 2.1, 0.5), (2, 0, 0), (0, 0, 2)), ((1, 2.11, 0.5), (0, 0, 2), (2, 0, 0))]
     shelf = [((2.6, 1.0, 0.6), (0, 0, 1.5), (1, 0, 0)), ((2.6, 0.95, 0.6), (1, 0, 0), (0, 0, 1.5))]
-    picture = {"baseColorTexture": {"index": 0, "texCoord": 2}, "baseColorFactor": [0.9, 0.8, 1, 1], "metallicFactor": 0}
+    picture = {"baseColorTexture": {"index": 0, "texCoord": 2},
+               "baseColorFactor": [0.9, 0.8, 1, 1], "metallicFactor": 0}
     materials = [
         {"name": "picture", "doubleSided": True, "pbrMetallicRoughness": picture},
         {"name": "block", "doubleSided": True,
@@ -86,7 +90,8 @@ def main():
                                   ("lamp", lamp, 2)):
         positions, normals, uvs, light_uvs, indices = [], [], [], [], []
         for corner, u, v in quads:
-            normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+            normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                      u[0] * v[1] - u[1] * v[0]]
             length = sum(x * x for x in normal) ** 0.5
             first = len(positions)
             for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
@@ -105,7 +110,8 @@ def main():
         meshes.append({"name": name, "primitives": [primitive]})
     image = view(png(256, 256, stripes))
     document = {
-        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_emissive_strength"], "scene": 0,
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_emissive_strength"],
+        "scene": 0,
         "scenes": [{"nodes": list(range(len(meshes)))}],
         "nodes": [{"mesh": i, "name": mesh["name"]} for i, mesh in enumerate(meshes)],
         "meshes": meshes, "materials": materials, "textures": [{"source": 0, "sampler": 0}],
