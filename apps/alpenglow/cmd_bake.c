@@ -76,10 +76,11 @@ static const char *find_given(const option_value *values, const named_option *na
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
     static const named_option of_light[] = {
-        {OPTION_SAMPLES, "--samples"},  {OPTION_BOUNCES, "--bounces"},
-        {OPTION_SKY, "--sky"},          {OPTION_SKY_TURN, "--sky-turn"},
-        {OPTION_SUN, "--sun"},          {OPTION_SKY_STRENGTH, "--sky-strength"},
-        {OPTION_SUN_SIZE, "--sun-size"}};
+        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
+        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
+        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
+        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
+        {OPTION_SPOT, "--spot"}};
     static const named_option of_occlusion[] = {{OPTION_AO_SAMPLES, "--ao-samples"},
                                                 {OPTION_AO_DISTANCE, "--ao-distance"},
                                                 {OPTION_AO_FALLOFF, "--ao-falloff"},
@@ -196,7 +197,7 @@ static int read_choice(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-static int read_options(const command_line *a, alp_bake_options *o)
+static int read_options(const command_line *a, alp_bake_options *o, lamp_list *lamps)
 {
     const option_value *values = a->values;
     *o = alp_bake_options_default();
@@ -224,7 +225,7 @@ static int read_options(const command_line *a, alp_bake_options *o)
     }
     code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
-    code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting) : code;
+    code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;
     o->light.bounces = lighting_bounces(a);
     o->light.samples = (uint32_t)values[OPTION_SAMPLES].whole;
     return code == EXIT_DONE ? read_sampling(a, o) : code;
@@ -401,7 +402,8 @@ static int check_report(const command_line *a, const char *output)
 int command_bake(const command_line *a)
 {
     alp_bake_options options;
-    int code = read_options(a, &options);
+    lamp_list lamps;
+    int code = read_options(a, &options, &lamps);
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
     }

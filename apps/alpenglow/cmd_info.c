@@ -142,7 +142,7 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     }
     print_rest(info->lights, "lamp");
     if (info->lights + emissive == 0) {
-        printf("light      none; --maps light needs a --sky or a --sun\n");
+        printf("light      none; --maps light needs a --sky, a --sun or a --lamp\n");
     }
 }
 

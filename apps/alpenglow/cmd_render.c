@@ -90,6 +90,8 @@ static int check_method(const command_line *a, const alp_render_options *o)
     } read_by[] = {{"--bounces", OPTION_BOUNCES, REFERENCE},
                    {"--sun", OPTION_SUN, REFERENCE},
                    {"--sun-size", OPTION_SUN_SIZE, REFERENCE},
+                   {"--lamp", OPTION_LAMP, REFERENCE},
+                   {"--spot", OPTION_SPOT, REFERENCE},
                    {"--sky-turn", OPTION_SKY_TURN, REFERENCE},
                    {"--sky", OPTION_SKY, REFERENCE | HEMISPHERE},
                    {"--sky-strength", OPTION_SKY_STRENGTH, REFERENCE | HEMISPHERE},
@@ -120,7 +122,7 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
-static int read_options(const command_line *a, alp_render_options *o)
+static int read_options(const command_line *a, alp_render_options *o, lamp_list *lamps)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
     *o = alp_render_options_default();
@@ -150,7 +152,7 @@ static int read_options(const command_line *a, alp_render_options *o)
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
     o->bounces = lighting_bounces(a);
-    code = code == EXIT_DONE ? lighting_read(a, &o->lighting) : code;
+    code = code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
     return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
@@ -214,7 +216,8 @@ static int render(session *s, const command_line *a, alp_render_options *o)
 int command_render(const command_line *a)
 {
     alp_render_options options;
-    int code = read_options(a, &options);
+    lamp_list lamps;
+    int code = read_options(a, &options, &lamps);
     if (code == EXIT_DONE) {
         code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);
     }

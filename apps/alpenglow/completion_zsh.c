@@ -100,7 +100,7 @@ static void print_option(const option *o)
     if (o->alias != NULL) {
         printf("'(%s %s)'{%s,%s%s}'", o->name, o->alias, o->name, o->alias, equals);
     } else {
-        printf("'%s%s", o->name, equals);
+        printf("'%s%s%s", o->repeats ? "*" : "", o->name, equals);
     }
     completion_describe(o, description, sizeof description);
     putchar('[');

@@ -7,29 +7,19 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool set_color(const double numbers[3], float color[3])
-{
-    bool positive = true;
-    for (int k = 0; k < 3; k++) {
-        positive = positive && numbers[k] >= 0.0;
-        color[k] = (float)numbers[k];
-    }
-    return positive;
-}
-
 /// "R,G,B" or "R,G,B/R,G,B". @return false: neither
 static bool read_colors(const char *text, alp_sky_options *sky)
 {
     double up[3], down[3];
     const char *end = number_parse_list(text, up, 3);
-    if (end == NULL || !set_color(up, sky->up)) {
+    if (end == NULL || !color_set(up, sky->up)) {
         return false;
     }
     sky->kind = ALP_SKY_CONSTANT;
     if (*end == '/') {
         sky->kind = ALP_SKY_HEMISPHERE;
         end = number_parse_list(end + 1, down, 3);
-        if (end == NULL || !set_color(down, sky->down)) {
+        if (end == NULL || !color_set(down, sky->down)) {
             return false;
         }
     }
@@ -94,13 +84,18 @@ static int read_sun(const command_line *a, alp_sun_options *sun)
     return EXIT_DONE;
 }
 
-int lighting_read(const command_line *a, alp_lighting_options *options)
+int lighting_read(const command_line *a, alp_lighting_options *options, lamp_list *lamps)
 {
     const double radians = M_PI / 180.0;
     *options = alp_lighting_options_default();
     int code = read_sky(a, &options->sky);
     if (code == EXIT_DONE) {
         code = read_sun(a, &options->sun);
+    }
+    if (code == EXIT_DONE) {
+        code = lamps_read(a, lamps);
+        options->lamps = lamps->lamps;
+        options->lamp_count = lamps->count;
     }
     if (a->values[OPTION_SUN_SIZE].given) { // of all suns, those of the file too
         options->sun.size = (float)(a->values[OPTION_SUN_SIZE].real * radians);

@@ -409,6 +409,26 @@ static const option options[] = {
      .unit = "degrees",
      .help = "Full angle of the disk of every sun, which makes shadows soft. Without it 0.53 for "
              "--sun and 0 for the directional lights of the scene."},
+    {.id = OPTION_LAMP,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_TEXT,
+     .repeats = true,
+     .name = "--lamp",
+     .value = "X,Y,Z,CANDELA[,R,G,B]",
+     .help = "A point light beside the lights of the scene: its place in metres, its intensity and "
+             "its colour (linear; 1,1,1 without it). May be given again: 64 of --lamp and --spot "
+             "together."},
+    {.id = OPTION_SPOT,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_TEXT,
+     .repeats = true,
+     .name = "--spot",
+     .value = "X,Y,Z,TX,TY,TZ,CANDELA,INNER,OUTER[,R,G,B]",
+     .help = "A spot light at X,Y,Z that shines at TX,TY,TZ: full intensity up to INNER degrees "
+             "from that axis, none from OUTER on, 0 to 90 and INNER below OUTER, as "
+             "KHR_lights_punctual has it. Otherwise like --lamp."},
     {.id = OPTION_EXPOSURE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

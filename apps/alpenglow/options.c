@@ -353,6 +353,22 @@ static int refuse_unknown(command_id command, const char *word, size_t length)
     return usage_error(command, "unknown option %s", name);
 }
 
+/// Keeps what an option is given that may come again.
+static int keep_repeated(command_id command, const option *o, const char *text,
+                         command_line *parsed)
+{
+    if (parsed->repeated_count == REPEAT_LIMIT) {
+        return usage_error(command,
+                           "%s %s: there are %d before it, lamps and spots, which is the "
+                           "most; more go into the scene",
+                           o->name, text, (int)REPEAT_LIMIT);
+    }
+    parsed->repeated[parsed->repeated_count].id = o->id;
+    parsed->repeated[parsed->repeated_count].text = text;
+    parsed->repeated_count += 1;
+    return EXIT_DONE;
+}
+
 /// Reads the option at words[*at], and its value where it has one; *at ends on its last word.
 static int parse_option(command_id command, int count, char **words, int *at, command_line *parsed)
 {
@@ -380,7 +396,8 @@ static int parse_option(command_id command, int count, char **words, int *at, co
         text = next;
         *at += 1;
     }
-    return parse_value(command, o, text, value);
+    const int code = parse_value(command, o, text, value);
+    return code == EXIT_DONE && o->repeats ? keep_repeated(command, o, text, parsed) : code;
 }
 
 static void set_defaults(command_id command, command_line *parsed)

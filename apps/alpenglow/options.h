@@ -61,6 +61,8 @@ typedef enum option_id {
     OPTION_SKY_STRENGTH,
     OPTION_SUN,
     OPTION_SUN_SIZE,
+    OPTION_LAMP,
+    OPTION_SPOT,
     OPTION_QUALITY,
     OPTION_ERROR,
     OPTION_TIME_LIMIT,
@@ -119,6 +121,7 @@ typedef struct option {
     unsigned commands; // which commands have it: IN_…
     option_group group;
     option_kind kind;
+    bool repeats;              // may be given several times (KIND_TEXT): command_line.repeated
     const char *name;          // "--size"
     const char *alias;         // a second spelling, or NULL
     const char *value;         // what its value is called, NULL for a flag
@@ -139,11 +142,18 @@ typedef struct option_value {
     double real;
 } option_value;
 
+enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
+
 /// A command line that was understood.
 typedef struct command_line {
     command_id command;
     const char *operands[2]; // SCENE, or A and B
     option_value values[OPTION_COUNT];
+    struct {
+        option_id id;
+        const char *text;
+    } repeated[REPEAT_LIMIT]; // [repeated_count], as they were given; `values` has the last of each
+    int repeated_count;
 } command_line;
 
 typedef struct command_entry {

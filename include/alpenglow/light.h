@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that a scene gets beside what is in its file: a sky and a sun; and a look at what it does.
+// Light that a scene gets beside what is in its file: a sky, a sun and lamps; and a look at what it
+// does.
 #ifndef ALPENGLOW_LIGHT_H
 #define ALPENGLOW_LIGHT_H
 
@@ -46,11 +47,32 @@ typedef struct alp_sun_options {
     float size; ///< radians, full angle, [0, π/2]; default 0.0093 (0.53°); below 2e-4 = a point
 } alp_sun_options;
 
+/// A lamp without extent, as a point or spot light of KHR_lights_punctual without a range: on a
+/// surface that faces it at distance d, E = intensity × color / d², of a spot times
+/// clamp((cosθ − cos outer) / max(.001, cos inner − cos outer))², θ from its axis.
+typedef struct alp_lamp {
+    alp_light_kind kind; ///< POINT (default) or SPOT; a DIRECTIONAL one is a sun
+    float position[3];   ///< metres, each coordinate in [−1e15, 1e15]; default 0
+    float direction[3];  ///< of a spot, where its light travels: any length but 0; default −Z.
+                         ///< A point does not read what is of a spot
+    float intensity;     ///< candela, [0, 1e20]; 0 (default) gives nothing
+    float color[3];      ///< factor per channel, linear, [0, 1e10]; default 1
+    float inner_cone;    ///< of a spot, radians from its axis: full light inside; default 0
+    float outer_cone; ///< of a spot, radians from its axis: none outside, 0 ≤ inner < outer ≤ π/2;
+                      ///< default π/4
+} alp_lamp;
+ALP_API alp_lamp alp_lamp_default(void);
+
+/// Values out of range, NaN and infinity are INVALID_ARGUMENT where the options are used, and the
+/// context's message names the value.
 typedef struct alp_lighting_options {
     size_t struct_size;
     alp_sky_options sky;
     alp_sun_options sun;
-    float file_sun_size; ///< radians, full angle of the directional lights of the file; default 0
+    float file_sun_size;   ///< radians, full angle of the directional lights of the file; default 0
+    const alp_lamp *lamps; ///< [lamp_count], borrowed during the call; NULL (default) where none.
+                           ///< Messages call them "lamp 0" and so on
+    uint32_t lamp_count;   ///< [0, 1000000]; default 0
 } alp_lighting_options;
 ALP_API alp_lighting_options alp_lighting_options_default(void);
 

@@ -15,12 +15,17 @@
 #include "scene/lighting_suns.h"
 #include "scene/triangle_light.h"
 
+#include <stdio.h>
 #include <string.h>
+
+enum { LAMP_NAME_SIZE = 16 }; // "lamp 4294967295"
 
 struct alpi_lighting {
     const alp_scene *scene;
-    alpi_light *lights; // file first, then the sun of the options; names of the file's are borrowed
+    alpi_light *lights; // file first, then lamps and sun of the options; names of the file's are
+                        // borrowed
     uint32_t light_count;
+    char (*lamp_names)[LAMP_NAME_SIZE]; // [lamps of the options]; NULL = none
     char *sun_name;
     alpi_punctual punctual;
     alpi_sun *suns;
@@ -81,10 +86,25 @@ static alp_result add_sun(alpi_lighting *lighting, const alp_sun_options *sun)
     return ALP_OK;
 }
 
+static alp_result add_lamps(alpi_lighting *lighting, const alp_lighting_options *options)
+{
+    if (options->lamp_count == 0) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(lighting->scene->context, lighting->lamp_names, options->lamp_count);
+    for (uint32_t i = 0; i < options->lamp_count; i++) {
+        snprintf(lighting->lamp_names[i], LAMP_NAME_SIZE, "lamp %u", i);
+        lighting->lights[lighting->light_count++] =
+            alpi_lamp_light(&options->lamps[i], lighting->lamp_names[i]);
+    }
+    return ALP_OK;
+}
+
 static alp_result gather_lights(alpi_lighting *lighting, const alp_lighting_options *options)
 {
     const alp_scene *scene = lighting->scene;
-    ALPI_TRY_NEW(scene->context, lighting->lights, (size_t)scene->light_count + 1);
+    ALPI_TRY_NEW(scene->context, lighting->lights,
+                 (size_t)scene->light_count + options->lamp_count + 1);
     for (uint32_t i = 0; i < scene->light_count; i++) {
         alpi_light *light = &lighting->lights[i];
         *light = scene->lights[i];
@@ -98,6 +118,7 @@ static alp_result gather_lights(alpi_lighting *lighting, const alp_lighting_opti
         }
     }
     lighting->light_count = scene->light_count;
+    ALP_TRY(add_lamps(lighting, options));
     return add_sun(lighting, &options->sun);
 }
 
@@ -196,6 +217,7 @@ void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting)
     alpi_punctual_clear(context, &lighting->punctual);
     alpi_release(context, lighting->suns);
     alpi_release(context, lighting->lights);
+    alpi_release(context, lighting->lamp_names);
     alpi_release(context, lighting->sun_name);
     alpi_release(context, lighting);
 }
@@ -207,7 +229,7 @@ void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting)
     if (alpi_lighting_is_dark(lighting)) {
         alpi_warn(scene->context, "no-light", scene->name,
                   "nothing gives light: no light, no emissive material and no sky; give one "
-                  "(--sky, --sun)");
+                  "(--sky, --sun, --lamp)");
     }
 }
 

@@ -70,8 +70,9 @@ float alpi_lighting_density_by_area(const alpi_lighting *lighting, vec3 point, v
 /// Radiance of sky and sun disks in a direction that leaves the scene.
 vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction);
 
-/// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first, then the sun of
-/// the options. A light of the file with a value that is none keeps its place, with intensity 0.
+/// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first, then the lamps
+/// of the options, then their sun. A light of the file with a value that is none keeps its place,
+/// with intensity 0.
 uint32_t alpi_lighting_light_count(const alpi_lighting *lighting);
 const alpi_light *alpi_lighting_light(const alpi_lighting *lighting, uint32_t index);
 /// What light `index` gives at a point: direction, distance, light and density as above, drawn in
