@@ -107,7 +107,7 @@ static alp_camera choose(const landmarks *marks)
 {
     static const double MUCH = 1.5, ALIKE = 1.1;
     alp_camera cameras[ALPI_VIEWPOINT_LIMIT];
-    double scores[ALPI_VIEWPOINT_LIMIT], most = 0.0;
+    double scores[ALPI_VIEWPOINT_LIMIT] = {0.0}, most = 0.0;
     const uint32_t count = alpi_viewpoints(marks->scene, cameras);
     for (uint32_t i = 0; i < count; i++) {
         scores[i] = score(marks, &cameras[i]);

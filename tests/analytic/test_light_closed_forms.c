@@ -342,7 +342,7 @@ static void what_a_camera_sees(void **state)
     lit = test_lit_open(table(0.4f, 0.0f), &o);
     r = test_lit_reference(&lit, 6, 16384);
     alpi_reference_value v = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-    float covered;
+    float covered = 0.0f;
     ASSERT_OK(context, alpi_reference_pixels(&r, look_down, &(float){8.25f}, 4, 1, &v, &covered));
     ASSERT_NEAR(covered, 0.25, 1e-3); // 16 × 1024 stratified points against an edge
     ASSERT_NEAR(v.mean[1], 0.25 * 0.4 / ALPI_PI * 1000.0 * sin(ELEVATION),
