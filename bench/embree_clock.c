@@ -7,17 +7,40 @@
 
 static _Thread_local bool running;
 static _Thread_local double inside;
+static _Thread_local uint64_t call_count;
 
 void embree_clock_start(void)
 {
     inside = 0.0;
+    call_count = 0;
     running = true;
 }
 
-double embree_clock_stop(void)
+double embree_clock_stop(uint64_t *calls)
 {
     running = false;
+    *calls = call_count;
     return inside;
+}
+
+double embree_clock_reading(void)
+{
+    enum { READINGS = 100000 };
+    const double started = alpi_seconds();
+    double last = started;
+    for (int i = 0; i < READINGS; i++) {
+        last = alpi_seconds();
+    }
+    return (last - started) / READINGS;
+}
+
+/// After a call that began then.
+static void take(double started)
+{
+    if (running) {
+        inside += alpi_seconds() - started;
+        call_count++;
+    }
 }
 
 // Names that the linker makes: references to NAME become __wrap_NAME, the original is __real_NAME.
@@ -39,7 +62,7 @@ void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectC
 {
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcIntersect8(valid, scene, context, rays);
-    inside += running ? alpi_seconds() - started : 0.0;
+    take(started);
 }
 
 void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
@@ -47,7 +70,7 @@ void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectCo
 {
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcOccluded8(valid, scene, context, rays);
-    inside += running ? alpi_seconds() - started : 0.0;
+    take(started);
 }
 
 void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
@@ -55,5 +78,5 @@ void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, s
 {
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcOccludedNM(scene, context, rays, n, m, stride);
-    inside += running ? alpi_seconds() - started : 0.0;
+    take(started);
 }
