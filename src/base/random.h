@@ -12,6 +12,7 @@
 #include "base/vec.h"
 
 #include <stdint.h>
+#include <string.h>
 
 /// A good 32-bit mix (lowbias32 of Chris Wellons' hash-prospector, found by search).
 static inline uint32_t alpi_hash32(uint32_t x)
@@ -82,6 +83,16 @@ static inline uint32_t alpi_sobol_1_reversed(uint32_t index)
 static inline float alpi_unit_float(uint32_t bits)
 {
     return (float)(bits >> 8) * 0x1p-24f;
+}
+
+/// `pick` with more digits: 24 of them cannot tell 2^24 things apart, nor find one of less than a
+/// 2^-24th. The new ones are a hash of u, which they leave as even as it was.
+static inline double alpi_finer_pick(float pick, vec2 u)
+{
+    uint32_t x, y;
+    memcpy(&x, &u.x, sizeof x);
+    memcpy(&y, &u.y, sizeof y);
+    return (double)pick + (double)alpi_hash32(alpi_hash32(x) ^ y) * 0x1p-56;
 }
 
 /// Point `sample` of the sequence of `key`: two coordinates in [0, 1). Any 2^k points that start at

@@ -516,19 +516,9 @@ static bool sample_escape(const place *p, double pick, vec2 u, alpi_light_sample
     return true;
 }
 
-/// `pick` with more digits: 24 of them cannot tell 2^24 lights apart, nor find one of less than a
-/// 2^-24th. The new ones are a hash of u, which they leave as even as it was.
-static double finer(float pick, vec2 u)
-{
-    uint32_t x, y;
-    memcpy(&x, &u.x, sizeof x);
-    memcpy(&y, &u.y, sizeof y);
-    return (double)pick + (double)alpi_hash32(alpi_hash32(x) ^ y) * 0x1p-32 * 0x1p-24;
-}
-
 static bool draw_light(const place *p, float pick, vec2 u, alpi_light_sample *sample)
 {
-    double rest = finer(pick, u);
+    double rest = alpi_finer_pick(pick, u);
     int kind = -1;
     for (int i = 0; i < ALPI_LIGHT_CLASS_COUNT; i++) {
         if (p->weight[i] > 0.0) {

@@ -450,23 +450,6 @@ static void add_surfaces(gather *g)
 
 // --- means ---------------------------------------------------------------------------------------
 
-/// Mean of the replicates' means, and its variance by their spread.
-static void find_mean(double sums[R][3], uint32_t each, alpi_reference_value *value)
-{
-    for (int k = 0; k < 3; k++) {
-        double mean = 0.0, squares = 0.0;
-        for (int r = 0; r < R; r++) {
-            mean += sums[r][k] / ((double)each * R);
-        }
-        for (int r = 0; r < R; r++) {
-            const double apart = sums[r][k] / each - mean;
-            squares += apart * apart;
-        }
-        value->mean[k] = (float)mean;
-        value->variance[k] = (float)(squares / (R * (R - 1)));
-    }
-}
-
 /// The mean of all is the floats of the parts added up; its variance, of the replicates of all.
 static void finish(gather *g, uint32_t receiver)
 {
@@ -476,7 +459,7 @@ static void finish(gather *g, uint32_t receiver)
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
         alpi_reference_value part;
-        find_mean(g->sums[p], each, &part);
+        alpi_reference_mean((const double(*)[3])g->sums[p], R, each, &part);
         for (int k = 0; k < 3; k++) {
             mean[k] += part.mean[k];
             for (int r = 0; r < R; r++) {
@@ -488,7 +471,7 @@ static void finish(gather *g, uint32_t receiver)
         }
     }
     alpi_reference_value *value = &g->job->output->values[receiver];
-    find_mean(all, each, value);
+    alpi_reference_mean((const double(*)[3])all, R, each, value);
     for (int k = 0; k < 3; k++) {
         value->mean[k] = mean[k];
     }

@@ -143,16 +143,6 @@ static double pick_of_few(const alpi_emitter_choice *c, vec2 *u, uint32_t *place
     return c->weight[last] / c->sum;
 }
 
-/// 24 digits cannot tell 2^24 triangles apart, nor find one of less than a 2^-24th: the new ones
-/// are a hash of u, which they leave as even as it was.
-static double with_more_digits(float pick, vec2 u)
-{
-    uint32_t x, y;
-    memcpy(&x, &u.x, sizeof x);
-    memcpy(&y, &u.y, sizeof y);
-    return (double)pick + (double)alpi_hash32(alpi_hash32(x) ^ y) * 0x1p-56;
-}
-
 bool alpi_emitter_sample(const alpi_emitter_view *view, float pick, vec2 u,
                          alpi_light_sample *sample)
 {
@@ -161,7 +151,7 @@ bool alpi_emitter_sample(const alpi_emitter_view *view, float pick, vec2 u,
     *sample = (alpi_light_sample){.kind = ALPI_LIGHT_CLASS_SURFACE};
     const double part = are_few(e) ? pick_of_few(view->choice, &u, &place)
                                    : alpi_light_tree_sample(e->all.tree, view->point, view->normal,
-                                                            with_more_digits(pick, u), &place);
+                                                            alpi_finer_pick(pick, u), &place);
     if (!(part > 0.0)) {
         return false;
     }

@@ -40,22 +40,26 @@ static void add_path(const alpi_path_wave *wave, uint32_t slot, uint32_t sample,
     sums->covered += (double)wave->covered[slot];
 }
 
-/// Mean of the replicates' means, and its variance by their spread.
-static void finish(const replicate_sums *sums, uint32_t each, alpi_reference_value *value)
+void alpi_reference_mean(const double (*sums)[3], uint32_t replicates, uint32_t each,
+                         alpi_reference_value *value)
 {
-    enum { R = ALPI_REFERENCE_REPLICATES };
     for (int k = 0; k < 3; k++) {
         double mean = 0.0, squares = 0.0;
-        for (int r = 0; r < R; r++) {
-            mean += sums->light[r][k] / ((double)each * R);
+        for (uint32_t r = 0; r < replicates; r++) {
+            mean += sums[r][k] / ((double)each * replicates);
         }
-        for (int r = 0; r < R; r++) {
-            const double apart = sums->light[r][k] / each - mean;
+        for (uint32_t r = 0; r < replicates; r++) {
+            const double apart = sums[r][k] / each - mean;
             squares += apart * apart;
         }
         value->mean[k] = (float)mean;
-        value->variance[k] = (float)(squares / (R * (R - 1)));
+        value->variance[k] = (float)(squares / (replicates * (replicates - 1)));
     }
+}
+
+static void finish(const replicate_sums *sums, uint32_t each, alpi_reference_value *value)
+{
+    alpi_reference_mean((const double(*)[3])sums->light, ALPI_REFERENCE_REPLICATES, each, value);
 }
 
 /// Panes are this room's to see to. A tail may come through one of them from one receiver and past

@@ -45,6 +45,11 @@ typedef struct alpi_reference_value {
     float mean[3], variance[3];
 } alpi_reference_value;
 
+/// Mean of replicates' means, and its variance by their spread.
+/// @param sums [replicates][3], each over `each` samples
+void alpi_reference_mean(const double (*sums)[3], uint32_t replicates, uint32_t each,
+                         alpi_reference_value *value);
+
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points.
 /// @param values [receivers->count] out; only those of the list are written
 /// @return ALP_OK; CANCELLED; OUT_OF_MEMORY
