@@ -16,7 +16,6 @@
 #include "scene/triangle_light.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { LAMP_NAME_SIZE = 16 }; // "lamp 4294967295"
 
