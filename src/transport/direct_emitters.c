@@ -5,7 +5,6 @@
 #include "scene/polygon_light.h"
 #include "scene/triangle_light.h"
 
-
 static bool are_few(const alpi_direct_emitters *emitters)
 {
     return emitters->all.count <= ALPI_DIRECT_FEW;
