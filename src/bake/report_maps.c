@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The maps of a bake on its page, each beside the heat map of its errors.
+#include "bake/report_parts.h"
+
+#include <math.h>
+
+static const struct {
+    alp_map map; // that must have been asked for
+    const char *title, *alt;
+    alpi_report_picture error; // or COUNT: none
+} shown_maps[ALPI_PICTURE_COUNT] = {
+    [ALPI_PICTURE_AO] = {ALP_MAP_AO, "Ambient occlusion", "Map of ambient occlusion",
+                         ALPI_PICTURE_AO_ERROR},
+    [ALPI_PICTURE_BENT] = {ALP_MAP_BENT, "Bent normals", "Map of bent normals", ALPI_PICTURE_COUNT},
+    [ALPI_PICTURE_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "Coloured obscurance",
+                                 "Map of coloured obscurance", ALPI_PICTURE_COUNT},
+    [ALPI_PICTURE_LIGHT] = {ALP_MAP_LIGHT, "Irradiance", "Map of irradiance",
+                            ALPI_PICTURE_LIGHT_ERROR}};
+
+static void put_picture(alpi_page *page, const alpi_report_pictures *pictures,
+                        alpi_report_picture kind, uint32_t number, const char *alt)
+{
+    alp_image *picture = NULL;
+    if (page->result == ALP_OK) {
+        page->result = alpi_report_paint(pictures, kind, number, &picture);
+    }
+    if (page->result == ALP_OK) {
+        alpi_page_put(page, "<figure>");
+        alpi_page_picture(page, picture, alt);
+        alpi_page_put(page, "\n");
+    }
+    alp_image_destroy(picture);
+}
+
+/// What the colours of a map stand for.
+static void put_meaning(alpi_page *page, const alpi_report_pictures *pictures,
+                        alpi_report_picture kind)
+{
+    switch (kind) {
+    case ALPI_PICTURE_BENT:
+        alpi_page_put(page, "The mean open direction in world space, n\u00A0/\u00A02 + 1/2.");
+        break;
+    case ALPI_PICTURE_OBSCURANCE:
+        alpi_page_put(page, "What occludes counts with its colour; linear values as bytes.");
+        break;
+    case ALPI_PICTURE_LIGHT:
+        alpi_page_format(page,
+                         "E in W/m², exposed by 2<sup>%s</sup> and shown by the film curve "
+                         "1 − e<sup>−L</sup>, sRGB.",
+                         alpi_fixed(pictures->exposure, 2).text);
+        break;
+    default:
+        alpi_page_put(page, "Accessibility: white is open, black is closed; linear values as "
+                            "bytes.");
+    }
+}
+
+static void put_heat_map(alpi_page *page, const alpi_report_pictures *pictures,
+                         alpi_report_picture kind, uint32_t number)
+{
+    if (!(pictures->tops[kind] > 0.0)) {
+        return; // said once, above
+    }
+    put_picture(page, pictures, kind, number, "Heat map of the standard error");
+    alpi_plot_heat_scale(page, pictures->tops[kind], ALPI_PICTURE_COUNT * number + kind);
+    alpi_page_format(page,
+                     "<figcaption><b>Error of %s</b>Standard error of each texel over the mean "
+                     "of the map, %s.</figcaption></figure>\n",
+                     kind == ALPI_PICTURE_AO_ERROR ? "ambient occlusion" : "irradiance",
+                     alpi_significant(pictures->means[kind], 4).text);
+}
+
+static void put_page(alpi_page *page, unsigned maps, const alpi_report_pictures *pictures,
+                     uint32_t number)
+{
+    const alp_lightmap *l = pictures->lightmap;
+    if (l->page_count > 1) {
+        alpi_page_format(page, "<h3>Page %u of %u</h3>\n", number, l->page_count);
+    }
+    alpi_page_put(page, "<div class=\"plates\">\n");
+    for (alpi_report_picture kind = 0; kind < ALPI_PICTURE_COUNT; kind++) {
+        if ((maps & (unsigned)shown_maps[kind].map) == 0) {
+            continue;
+        }
+        put_picture(page, pictures, kind, number, shown_maps[kind].alt);
+        alpi_page_format(page, "<figcaption><b>%s</b>", shown_maps[kind].title);
+        put_meaning(page, pictures, kind);
+        alpi_page_put(page, "</figcaption></figure>\n");
+        if (shown_maps[kind].error != ALPI_PICTURE_COUNT) {
+            put_heat_map(page, pictures, shown_maps[kind].error, number);
+        }
+    }
+    alpi_page_put(page, "</div>\n");
+}
+
+void alpi_report_put_maps(alpi_page *page, const alp_bake_report *report,
+                          const alpi_report_pictures *pictures)
+{
+    const alp_lightmap *l = pictures->lightmap;
+    const uint32_t longest = l->width > l->height ? l->width : l->height;
+    alpi_page_put(page, "<section id=\"maps\"><h2>Maps</h2>\n");
+    for (uint32_t i = 0; i < pictures->page_count && page->result == ALP_OK; i++) {
+        put_page(page, report->maps, pictures, i);
+    }
+    if (pictures->page_count < l->page_count) {
+        alpi_page_format(page, "<p class=\"note\">The first %u of %u pages are shown.</p>\n",
+                         pictures->page_count, l->page_count);
+    }
+    if (longest > ALPI_REPORT_SIDE) {
+        const uint32_t step = (longest + ALPI_REPORT_SIDE - 1) / ALPI_REPORT_SIDE;
+        alpi_page_format(page,
+                         "<p class=\"note\">Pages have %u × %u texels; a pixel here is the mean "
+                         "of the covered ones of %u × %u.</p>\n",
+                         l->width, l->height, step, step);
+    }
+    const bool is_black = (report->maps & ALP_MAP_LIGHT) != 0 && !(report->light_mean > 0.0);
+    if (is_black) {
+        alpi_page_put(page, "<p class=\"note\">The irradiance is black: nothing lights the scene, "
+                            "and its error has no relative value.</p>\n");
+    }
+    alpi_page_put(page, "</section>\n");
+}
