@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void put_bytes(alpi_page *page, const char *bytes, size_t size)
@@ -177,7 +178,9 @@ alpi_figure alpi_significant(double number, int digits)
     if (!isfinite(number) || number == 0.0) {
         return alpi_fixed(number, 0);
     }
-    int exponent = (int)floor(log10(fabs(number)));
+    char text[64];
+    snprintf(text, sizeof text, "%.*e", digits - 1, number); // rounds .99999 to 1.0 first
+    const int exponent = (int)strtol(strchr(text, 'e') + 1, NULL, 10);
     if (exponent >= -4 && exponent < 7) {
         return alpi_fixed(number, digits > exponent + 1 ? digits - exponent - 1 : 0);
     }

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FINDING_LIMIT = 200, TEXT_LIMIT = 2000, COMMAND_LIMIT = 8000 };
+enum { FINDING_LIMIT = 200, TEXT_LIMIT = 2000, WORD_LIMIT = 2000 };
 
 alp_report_options alp_report_options_default(void)
 {
@@ -25,6 +25,28 @@ typedef struct report_job {
     alpi_report_pictures pictures;
     bool at_vertices; // no pages, no pictures
 } report_job;
+
+/// Lines break between its words alone: an option cut at a hyphen is hard to read.
+static void put_command(alpi_page *page, const char *command)
+{
+    char *words = alpi_copy_string(page->context, command);
+    if (words == NULL) {
+        page->result = ALP_ERROR_OUT_OF_MEMORY;
+        return;
+    }
+    alpi_page_put(page, "<code class=\"command\">");
+    for (char *word = words, *rest = words; word != NULL; word = rest) {
+        rest = strchr(word, ' ');
+        if (rest != NULL) {
+            *rest++ = '\0';
+        }
+        alpi_page_put(page, "<span>");
+        alpi_page_text(page, word, WORD_LIMIT);
+        alpi_page_put(page, rest != NULL ? "</span> " : "</span>");
+    }
+    alpi_page_put(page, "</code>\n");
+    alpi_release(page->context, words);
+}
 
 static void put_head(alpi_page *page, const report_job *job)
 {
@@ -45,9 +67,7 @@ static void put_head(alpi_page *page, const report_job *job)
     alpi_page_text(page, alpi_path_name(job->scene->name), ALPI_REPORT_NAME);
     alpi_page_put(page, "</bdi></h1>\n");
     if (job->options.command != NULL) {
-        alpi_page_put(page, "<code class=\"command\">");
-        alpi_page_text(page, job->options.command, COMMAND_LIMIT);
-        alpi_page_put(page, "</code>\n");
+        put_command(page, job->options.command);
     }
     alpi_page_put(page, "</header>\n<main>\n");
 }

@@ -45,9 +45,10 @@ static void put_meaning(alpi_page *page, const alpi_report_pictures *pictures,
         break;
     case ALPI_PICTURE_LIGHT:
         alpi_page_format(page,
-                         "E in W/m², exposed by 2<sup>%s</sup> and shown by the film curve "
-                         "1 − e<sup>−L</sup>, sRGB.",
-                         alpi_fixed(pictures->exposure, 2).text);
+                         "E in W/m², shown by the film curve 1 − e<sup>−L</sup> in sRGB; exposure: "
+                         "L = 2<sup>%s%s</sup>\u00A0E.",
+                         pictures->exposure < 0.0 ? "−" : "",
+                         alpi_fixed(fabs(pictures->exposure), 2).text);
         break;
     default:
         alpi_page_put(page, "Accessibility: white is open, black is closed; linear values as "

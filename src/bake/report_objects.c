@@ -203,7 +203,9 @@ void alpi_report_put_objects(alpi_page *page, const alpi_report_pictures *pictur
         page->result = find_placements(l, &p);
     }
     const size_t shown = p.count < ALPI_REPORT_OBJECTS ? p.count : ALPI_REPORT_OBJECTS;
-    alpi_page_put(page, "<div class=\"plates layouts\">\n");
+    const bool is_one = l->page_count == 1; // then the table has room beside it
+    alpi_page_format(page, "<div%s>\n<div class=\"plates layouts%s\">\n",
+                     is_one ? " class=\"beside\"" : "", is_one ? " one" : "");
     for (uint32_t i = 0; i < pictures->page_count; i++) {
         put_layout(page, pictures, &p, shown, i);
     }
@@ -214,7 +216,7 @@ void alpi_report_put_objects(alpi_page *page, const alpi_report_pictures *pictur
     for (size_t i = 0; i < shown && page->result == ALP_OK; i++) {
         put_row(page, l, &p.items[i], i + 1);
     }
-    alpi_page_put(page, "</tbody></table></div>\n");
+    alpi_page_put(page, "</tbody></table></div>\n</div>\n");
     if (shown < p.count) {
         alpi_page_format(page,
                          "<p class=\"note\">The %zu largest of %s; the rest lie on the pages too, "

@@ -26,10 +26,11 @@ void alpi_report_put_style(alpi_page *page)
         "section{margin:2.5rem 0 0;padding:1.5rem 0 0;border-top:1px solid var(--line)}\n"
         "code{font:.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,\"DejaVu Sans Mono\",monospace}\n"
         ".command{display:block;margin:0;padding:.6rem .9rem;background:var(--plate);"
-        "border-radius:6px;overflow-wrap:anywhere;white-space:pre-wrap}\n");
+        "border-radius:6px;overflow-wrap:anywhere}\n"
+        ".command span{display:inline-block;max-width:100%}\n");
     alpi_page_put(
         page,
-        ".tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));"
+        ".tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(8.25rem,1fr));"
         "gap:1.25rem 1.5rem;margin:2rem 0 0}\n"
         ".tiles div{border-top:3px solid var(--night);padding-top:.5rem}\n"
         ".tiles dt{color:var(--soft);font-size:.875rem}\n"
@@ -48,6 +49,9 @@ void alpi_report_put_style(alpi_page *page)
         ".plates{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(19rem,100%),1fr));"
         "gap:1.5rem}\n"
         ".layouts{grid-template-columns:repeat(auto-fill,minmax(min(30rem,100%),1fr))}\n"
+        ".layouts.one{grid-template-columns:minmax(0,40rem)}\n"
+        "@media(min-width:64rem){.beside{display:grid;gap:2rem;"
+        "grid-template-columns:minmax(0,6fr) minmax(0,7fr)}.beside .scroll{margin-top:0}}\n"
         "figure{margin:0;break-inside:avoid}\n"
         "figure img,.layout{display:block;width:100%;height:auto;background:var(--plate);"
         "border-radius:4px}\n"

@@ -1,0 +1,556 @@
+// SPDX-License-Identifier: MIT
+// The page about a bake: well-formed, self-contained, true to the maps, and proof against names.
+#include "base/image.h"
+#include "base/memory.h"
+#include "formats/formats.h"
+#include "test_scenes.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { SIZE = 64, DEPTH = 64 };
+
+typedef struct baked {
+    alp_context *context;
+    alp_scene *scene;
+    alp_lightmap *lightmap;
+    alp_bake_report report;
+} baked;
+
+static alp_bake_options small_options(unsigned maps)
+{
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.size = SIZE;
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.occlusion.samples = 16;
+    options.light.samples = 16;
+    options.maps = maps;
+    return options;
+}
+
+static baked bake(alp_context *context, alp_scene *scene, const alp_bake_options *options)
+{
+    baked b = {.context = context, .scene = scene};
+    ASSERT_OK(context, alp_bake(scene, options, &b.lightmap, &b.report));
+    return b;
+}
+
+static baked bake_builtin(const char *name, const alp_bake_options *options)
+{
+    alp_context *context = test_context(2);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    return bake(context, scene, options);
+}
+
+static void end(baked *b)
+{
+    alp_lightmap_destroy(b->lightmap);
+    alp_scene_destroy(b->scene);
+    alp_context_destroy(b->context);
+}
+
+/// The page as text, freed by the caller.
+static char *write_page(const baked *b, const alp_report_options *options)
+{
+    const char *path = test_path(test_folder(), "page.html");
+    ASSERT_OK(b->context, alp_bake_write_report(b->scene, b->lightmap, &b->report, options, path));
+    size_t size = 0;
+    char *bytes = (char *)test_read_file(path, &size), *text = malloc(size + 1);
+    memcpy(text, bytes, size);
+    text[size] = '\0';
+    assert_int_equal(strlen(text), size);
+    free(bytes);
+    return text;
+}
+
+static int count_of(const char *text, const char *wanted)
+{
+    int count = 0;
+    for (const char *at = strstr(text, wanted); at != NULL; at = strstr(at + 1, wanted)) {
+        count++;
+    }
+    return count;
+}
+
+#define ASSERT_HAS(text, wanted) assert_non_null(strstr((text), (wanted)))
+
+// --- form ----------------------------------------------------------------------------------------
+
+/// Steps over one tag: name, attributes with quoted values, maybe a slash. @return what follows
+static const char *read_tag(const char *at, const char **names, size_t *lengths, int *depth)
+{
+    const bool closes = *at == '/';
+    at += closes;
+    const char *name = at;
+    const size_t length = strcspn(at, " \n/>");
+    assert_true(length > 0);
+    at += length;
+    while (*at == ' ' || *at == '\n') {
+        at += strspn(at, " \n");
+        at += strcspn(at, "=>/\"'<");
+        assert_true(at[0] == '=' && at[1] == '"'); // every attribute has a quoted value
+        at += 2;
+        const size_t value = strcspn(at, "\"<");
+        assert_int_equal(at[value], '"');
+        at += value + 1;
+    }
+    if (closes) {
+        assert_true(*depth > 0);
+        *depth -= 1;
+        assert_true(lengths[*depth] == length && memcmp(names[*depth], name, length) == 0);
+    } else if (*at != '/') {
+        assert_true(*depth < DEPTH);
+        names[*depth] = name;
+        lengths[*depth] = length;
+        *depth += 1;
+    } else {
+        at++;
+    }
+    assert_int_equal(*at, '>');
+    return at + 1;
+}
+
+/// Every tag is closed in order, & begins a reference, and the bytes are UTF-8 without controls.
+static void check_form(const char *text)
+{
+    static const char doctype[] = "<!DOCTYPE html>\n";
+    const char *names[DEPTH], *at = text + sizeof doctype - 1;
+    size_t lengths[DEPTH];
+    int depth = 0, roots = 0;
+    assert_memory_equal(text, doctype, sizeof doctype - 1);
+    while (*at != '\0') {
+        if (*at == '<') {
+            at = read_tag(at + 1, names, lengths, &depth);
+            roots += depth == 0;
+        } else {
+            assert_true(depth > 0 || *at == '\n');
+            at++;
+        }
+    }
+    assert_true(depth == 0 && roots == 1);
+    static const char *const references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
+    for (at = strchr(text, '&'); at != NULL; at = strchr(at + 1, '&')) {
+        bool known = false;
+        for (size_t i = 0; i < sizeof references / sizeof *references; i++) {
+            known |= strncmp(at, references[i], strlen(references[i])) == 0;
+        }
+        assert_true(known);
+    }
+    for (const unsigned char *u = (const unsigned char *)text; *u != '\0'; u++) {
+        assert_true(*u >= 0x20 || *u == '\n');
+        const int follow = *u < 0x80 ? 0 : *u >= 0xF0 ? 3 : *u >= 0xE0 ? 2 : *u >= 0xC2 ? 1 : 9;
+        assert_true(follow < 9);
+        for (int i = 0; i < follow; i++) {
+            assert_int_equal(*++u & 0xC0, 0x80);
+        }
+    }
+}
+
+/// Nothing is loaded and nothing runs: every picture is in the page, references stay inside.
+static void check_self_contained(const char *text)
+{
+    const int data = count_of(text, "=\"data:image/png;base64,");
+    assert_int_equal(count_of(text, " src="), count_of(text, "<img "));
+    assert_int_equal(count_of(text, " src=") + count_of(text, " href="), data);
+    assert_int_equal(count_of(text, "url("), count_of(text, "url(#heat"));
+    assert_int_equal(count_of(text, "<script") + count_of(text, "<link") +
+                         count_of(text, "@import") + count_of(text, "<iframe") +
+                         count_of(text, "<a "),
+                     0);
+    assert_int_equal(count_of(text, "http:") + count_of(text, "https:"), 1); // the name of XHTML
+    ASSERT_HAS(text, "default-src 'none'");
+}
+
+static void page_is_whole_and_has_its_figures(void **state)
+{
+    (void)state;
+    const alp_bake_options options =
+        small_options(ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_LIGHT | ALP_MAP_OBSCURANCE);
+    baked b = bake_builtin("builtin:cornell", &options);
+    b.report.seconds_load = 12.5;
+    b.report.rays = 1234567;
+    alp_report_options page = alp_report_options_default();
+    page.command = "alpenglow bake builtin:cornell";
+    char *text = write_page(&b, &page), wanted[128];
+    check_form(text);
+    check_self_contained(text);
+    // Four maps, two of them with a heat map; the layout is no <img>.
+    assert_int_equal(count_of(text, "<img "), 6);
+    assert_int_equal(count_of(text, "<svg class=\"layout\""), 1);
+    snprintf(wanted, sizeof wanted, "<dt>Triangles</dt><dd>%u</dd>", b.report.scene.triangles);
+    ASSERT_HAS(text, wanted);
+    snprintf(wanted, sizeof wanted, "1 page of %u × %u", SIZE, SIZE);
+    ASSERT_HAS(text, wanted);
+    ASSERT_HAS(text, "<dt>Rays and paths</dt><dd>1\u202F234\u202F567</dd>");
+    ASSERT_HAS(text, "Load</th><td>12.50\u00A0s</td>");
+    ASSERT_HAS(text, "<span>alpenglow</span> <span>bake</span> <span>builtin:cornell</span>");
+    ASSERT_HAS(text, "exposure: L = 2<sup>");
+    snprintf(wanted, sizeof wanted, "%016llx", (unsigned long long)b.report.input_hash);
+    ASSERT_HAS(text, wanted);
+    ASSERT_HAS(text, "<dt>Findings</dt><dd>0</dd>");
+    assert_null(strstr(text, "id=\"findings\""));
+    assert_null(strstr(text, "id=\"passes\""));
+    ASSERT_HAS(text, "<bdi>short block</bdi>");
+    free(text);
+    end(&b);
+}
+
+static void vertices_have_a_page_without_maps(void **state)
+{
+    (void)state;
+    alp_bake_options options = small_options(ALP_MAP_AO);
+    options.atlas.mode = ALP_ATLAS_VERTEX;
+    baked b = bake_builtin("builtin:cornell", &options);
+    char *text = write_page(&b, NULL);
+    check_form(text);
+    assert_null(strstr(text, "data:image"));
+    assert_null(strstr(text, "id=\"maps\""));
+    ASSERT_HAS(text, "<dt>Vertices</dt>");
+    free(text);
+    end(&b);
+}
+
+// --- text from outside ---------------------------------------------------------------------------
+
+static const float square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+static const uint32_t two_triangles[6] = {0, 1, 2, 0, 2, 3};
+
+static alp_mesh named_square(const char *name)
+{
+    return (alp_mesh){.name = name,
+                      .positions = &square[0][0],
+                      .indices = two_triangles,
+                      .vertex_count = 4,
+                      .triangle_count = 2};
+}
+
+static void only_the_first_pages_are_shown(void **state)
+{
+    (void)state;
+    alp_bake_options options = small_options(ALP_MAP_AO);
+    options.atlas.size = 16;
+    options.atlas.texels_per_metre = 12.0; // no two squares on a page
+    options.occlusion.samples = 4;
+    enum { COUNT = 18 };
+    alp_mesh meshes[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        meshes[i] = named_square("square");
+    }
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, COUNT, &scene));
+    baked b = bake(context, scene, &options);
+    assert_true(b.report.atlas.pages > 16);
+    char *text = write_page(&b, NULL), wanted[64];
+    check_form(text);
+    assert_int_equal(count_of(text, "<h3>Page "), 16);
+    assert_int_equal(count_of(text, "<svg class=\"layout\""), 16);
+    snprintf(wanted, sizeof wanted, "The first 16 of %u pages are shown.", b.report.atlas.pages);
+    ASSERT_HAS(text, wanted);
+    free(text);
+    end(&b);
+}
+
+static void text_from_outside_stays_text(void **state)
+{
+    (void)state;
+    static char long_name[5001];
+    memset(long_name, 'x', 5000);
+    const alp_mesh meshes[] = {
+        named_square("</title><script>alert(1)</script>"),
+        named_square("a \"quoted\" & 'single' <b>"),
+        named_square("broken \xFF\xC3( \xE2\x82 \xED\xA0\x80 \xC0\xAF \xF4\x90\x80\x80 end"),
+        named_square("control \x01\x1B[31m\x7F \xC2\x9B tab\there \xEF\xBF\xBE"),
+        named_square(long_name),
+        named_square("Straße \xE2\x80\xAE 雪 \xF0\x9F\x8F\x94")};
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 6, &scene));
+    const alp_bake_options options = small_options(ALP_MAP_AO);
+    baked b = bake(context, scene, &options);
+    const alp_report_finding findings[] = {
+        {"<code>", "</li>&", "it's <wrong>; do \"this\" & that; then go"}, {NULL, NULL, NULL}};
+    alp_report_options page = alp_report_options_default();
+    page.findings = findings;
+    page.finding_count = 2;
+    page.command = "alpenglow bake '<x>' \xFE";
+    char *text = write_page(&b, &page);
+    check_form(text);
+    check_self_contained(text);
+    ASSERT_HAS(text, "&lt;/title&gt;&lt;script&gt;alert(1)&lt;/script&gt;</bdi>");
+    ASSERT_HAS(text, "a &quot;quoted&quot; &amp; &#39;single&#39; &lt;b&gt;</bdi>");
+    // Each byte that belongs to no character is one U+FFFD: Unicode says how many, loosely.
+    ASSERT_HAS(text, "broken \uFFFD\uFFFD( \uFFFD\uFFFD \uFFFD\uFFFD\uFFFD \uFFFD\uFFFD "
+                     "\uFFFD\uFFFD\uFFFD\uFFFD end</bdi>");
+    ASSERT_HAS(text, "control \uFFFD\uFFFD[31m\uFFFD \uFFFD tab here \uFFFD</bdi>");
+    ASSERT_HAS(text, "xxx…</bdi>");
+    assert_true(strlen(text) > 10000 && count_of(text, "x") < 3000);
+    ASSERT_HAS(text, "Straße \xE2\x80\xAE 雪 \xF0\x9F\x8F\x94</bdi>");
+    ASSERT_HAS(text, "<code>&lt;code&gt;</code><b><bdi>&lt;/li&gt;&amp;</bdi></b>"
+                     "<p><bdi>it&#39;s &lt;wrong&gt;; do &quot;this&quot; &amp; that</bdi></p>"
+                     "<p class=\"advice\"><bdi>then go</bdi></p></li>");
+    ASSERT_HAS(text, "<span>&#39;&lt;x&gt;&#39;</span> <span>\uFFFD</span></code>");
+    ASSERT_HAS(text, "<dt>Findings</dt><dd>2</dd>");
+    free(text);
+    end(&b);
+}
+
+// --- pictures ------------------------------------------------------------------------------------
+
+static int digit_of(char c)
+{
+    return c >= 'A' && c <= 'Z'   ? c - 'A'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 26
+           : c >= '0' && c <= '9' ? c - '0' + 52
+           : c == '+'             ? 62
+           : c == '/'             ? 63
+                                  : -1;
+}
+
+/// The picture whose <img> has this alternative text.
+static alp_image *find_picture(alp_context *context, const char *text, const char *alt)
+{
+    char wanted[128];
+    snprintf(wanted, sizeof wanted, "alt=\"%s\" src=\"data:image/png;base64,", alt);
+    const char *at = strstr(text, wanted);
+    assert_non_null(at);
+    at += strlen(wanted);
+    const size_t length = strcspn(at, "\"");
+    assert_int_equal(length % 4, 0);
+    uint8_t *bytes = malloc(length);
+    size_t size = 0;
+    for (size_t i = 0; i < length; i += 4) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 4; k++) {
+            bits = bits << 6 | (uint32_t)(at[i + k] == '=' ? 0 : digit_of(at[i + k]));
+        }
+        const size_t padding = (size_t)(at[i + 2] == '=') + (size_t)(at[i + 3] == '=');
+        for (size_t k = 0; k < 3 - padding; k++) {
+            bytes[size++] = (uint8_t)(bits >> (16 - 8 * k));
+        }
+    }
+    alp_image *image = NULL;
+    ASSERT_OK(context, alpi_png_decode(context, alt, bytes, size, &image));
+    free(bytes);
+    assert_int_equal(image->info.channels, 4);
+    return image;
+}
+
+static void pictures_show_the_maps(void **state)
+{
+    (void)state;
+    const alp_bake_options options = small_options(ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_LIGHT);
+    baked b = bake_builtin("builtin:cornell", &options);
+    char *text = write_page(&b, NULL);
+    const char *exposure_text = strstr(text, "L = 2<sup>");
+    exposure_text += strlen("L = 2<sup>");
+    const char *minus = "−";
+    const bool is_negative = strncmp(exposure_text, minus, strlen(minus)) == 0;
+    double exposure = strtod(exposure_text + (is_negative ? strlen(minus) : 0), NULL);
+    exposure = is_negative ? -exposure : exposure;
+    static const struct {
+        alp_map map;
+        const char *alt;
+    } maps[] = {{ALP_MAP_AO, "Map of ambient occlusion"},
+                {ALP_MAP_BENT, "Map of bent normals"},
+                {ALP_MAP_LIGHT, "Map of irradiance"}};
+    for (int m = 0; m < 3; m++) {
+        alp_image *image = find_picture(b.context, text, maps[m].alt);
+        const float *page = alp_lightmap_map_page(b.lightmap, maps[m].map, 0, NULL, NULL);
+        const uint8_t *bytes = alp_image_bytes(image);
+        assert_true(image->info.width == SIZE && image->info.height == SIZE);
+        for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) {
+            assert_int_equal(bytes[4 * i + 3], page[4 * i + 3] > 0.0f ? 255 : 0);
+            for (size_t k = 0; k < 3 && page[4 * i + 3] > 0.0f; k++) {
+                const double value = (double)page[4 * i + k];
+                const double film = 1.0 - exp(-exp2(exposure) * value);
+                const double shown = maps[m].map == ALP_MAP_AO ? value
+                                     : maps[m].map == ALP_MAP_BENT
+                                         ? 0.5 * value + 0.5
+                                         : (double)alpi_linear_to_srgb((float)film);
+                // half a byte, and rounding of floats
+                ASSERT_NEAR(bytes[4 * i + k] / 255.0, shown, 0.501 / 255.0);
+            }
+        }
+        alp_image_destroy(image);
+    }
+    free(text);
+    end(&b);
+}
+
+/// A square whose lightmap coordinates cover a corner of a large page.
+static baked bake_corner(uint32_t size, float side)
+{
+    const float uvs[4][2] = {{0, 0}, {side, 0}, {side, side}, {0, side}};
+    alp_mesh mesh = named_square("corner"), above = named_square("above");
+    static const float near_square[4][3] = {
+        {0.2f, 0.2f, 0.1f}, {0.2f, 0.7f, 0.1f}, {0.6f, 0.7f, 0.1f}, {0.6f, 0.2f, 0.1f}};
+    mesh.uvs = &uvs[0][0];
+    above.positions = &near_square[0][0];
+    above.uvs = &uvs[0][0];
+    const alp_mesh meshes[] = {mesh, above};
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    alp_bake_options options = small_options(ALP_MAP_AO);
+    options.atlas.mode = ALP_ATLAS_KEEP;
+    options.atlas.size = size;
+    options.only = "corner";
+    options.sampling.accuracy = ALP_ADAPTIVE_OFF;
+    options.occlusion.distance = 1.0f;
+    return bake(context, scene, &options);
+}
+
+static void large_pages_are_means_of_covered_texels(void **state)
+{
+    (void)state;
+    enum { LARGE = 2500, STEP = 3, SMALL = (LARGE + STEP - 1) / STEP };
+    baked b = bake_corner(LARGE, 40.5f / LARGE);
+    char *text = write_page(&b, NULL);
+    ASSERT_HAS(text, "the covered ones of 3 × 3");
+    alp_image *image = find_picture(b.context, text, "Map of ambient occlusion");
+    assert_true(image->info.width == SMALL && image->info.height == SMALL);
+    const float *page = alp_lightmap_map_page(b.lightmap, ALP_MAP_AO, 0, NULL, NULL);
+    const uint8_t *bytes = alp_image_bytes(image);
+    uint32_t partly = 0;
+    for (size_t y = 0; y < 20; y++) {
+        for (size_t x = 0; x < 20; x++) {
+            double sum = 0.0, count = 0.0;
+            for (size_t i = 0; i < (size_t)STEP * STEP; i++) {
+                const size_t at = (STEP * y + i / STEP) * LARGE + STEP * x + i % STEP;
+                const double covered = page[4 * at + 3] > 0.0f ? 1.0 : 0.0;
+                sum += covered * (double)page[4 * at];
+                count += covered;
+            }
+            const uint8_t *pixel = bytes + 4 * (y * SMALL + x);
+            assert_int_equal(pixel[3], count > 0.0 ? 255 : 0);
+            if (count > 0.0) {
+                ASSERT_NEAR(pixel[0] / 255.0, sum / count, 0.501 / 255.0);
+            }
+            partly += count > 0.0 && count < 9.0;
+        }
+    }
+    assert_true(partly > 20); // the rim, where a mean over all nine would be too dark
+    alp_image_destroy(image);
+    free(text);
+    end(&b);
+}
+
+// --- plots ---------------------------------------------------------------------------------------
+
+static void passes_are_plotted_by_decades(void **state)
+{
+    (void)state;
+    const alp_bake_options options = small_options(ALP_MAP_AO);
+    baked b = bake_builtin("builtin:cornell", &options);
+    b.report.light_passes = (alp_light_passes){3, {1.0f, 0.1f, 0.01f}};
+    char *text = write_page(&b, NULL);
+    check_form(text);
+    const char *points = strstr(text, "class=\"curve\" points=\"");
+    assert_non_null(points);
+    double x[3], y[3];
+    char *at = strchr(points + strlen("class=\"curve\" points="), '"');
+    for (int i = 0; i < 3; i++) {
+        x[i] = strtod(at + 1, &at);
+        y[i] = strtod(at + 1, &at);
+    }
+    assert_int_equal(*at, '"');
+    ASSERT_NEAR(x[1] - x[0], x[2] - x[1], 0.11); // a tenth is what is written
+    ASSERT_NEAR(y[1] - y[0], y[2] - y[1], 0.11);
+    assert_true(x[1] > x[0] && y[1] > y[0] + 20.0); // less is lower
+    ASSERT_HAS(text, "the last of 3 changed it by 1.0\u00A0%");
+    free(text);
+    // What no pass should give: none, infinite, no number, more than there is room for.
+    b.report.light_passes = (alp_light_passes){UINT32_MAX, {INFINITY, NAN, -1.0f, 0.0f, 1e-30f}};
+    text = write_page(&b, NULL);
+    check_form(text);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+    free(text);
+    end(&b);
+}
+
+// --- faults --------------------------------------------------------------------------------------
+
+static int files_in(const char *folder)
+{
+    DIR *list = opendir(folder);
+    int count = -2; // . and ..
+    while (readdir(list) != NULL) {
+        count++;
+    }
+    closedir(list);
+    return count;
+}
+
+static void existing_files_and_bad_places_are_refused(void **state)
+{
+    (void)state;
+    const alp_bake_options options = small_options(ALP_MAP_AO);
+    baked b = bake_builtin("builtin:cornell", &options);
+    const char *folder = test_folder(), *path = test_path(folder, "page.html");
+    alp_report_options page = alp_report_options_default();
+    ASSERT_OK(b.context, alp_bake_write_report(b.scene, b.lightmap, &b.report, &page, path));
+    assert_int_equal(alp_bake_write_report(b.scene, b.lightmap, &b.report, &page, path),
+                     ALP_ERROR_IO);
+    ASSERT_HAS(alp_context_message(b.context), "exists already");
+    page.overwrite = true;
+    ASSERT_OK(b.context, alp_bake_write_report(b.scene, b.lightmap, &b.report, &page, path));
+    assert_int_equal(files_in(folder), 1);
+    path = test_path(folder, "missing/page.html");
+    assert_int_equal(alp_bake_write_report(b.scene, b.lightmap, &b.report, &page, path),
+                     ALP_ERROR_IO);
+    page.finding_count = 1; // of none
+    assert_int_equal(alp_bake_write_report(b.scene, b.lightmap, &b.report, &page, path),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_bake_write_report(NULL, b.lightmap, &b.report, NULL, path),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    end(&b);
+}
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    int left = 0;
+    alp_context *context = test_context_failing(&left);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    const alp_bake_options options = small_options(ALP_MAP_AO | ALP_MAP_LIGHT);
+    baked b = bake(context, scene, &options);
+    const char *folder = test_folder(), *path = test_path(folder, "page.html");
+    alp_report_options page = alp_report_options_default();
+    page.command = "alpenglow bake";
+    const int enough = left;
+    int needed = 0;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    while (result != ALP_OK && needed < 500) {
+        left = needed++;
+        result = alp_bake_write_report(scene, b.lightmap, &b.report, &page, path);
+        assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(files_in(folder), result == ALP_OK);
+    }
+    assert_true(result == ALP_OK && needed > 10);
+    left = enough;
+    end(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(page_is_whole_and_has_its_figures),
+        cmocka_unit_test(vertices_have_a_page_without_maps),
+        cmocka_unit_test(only_the_first_pages_are_shown),
+        cmocka_unit_test(text_from_outside_stays_text),
+        cmocka_unit_test(pictures_show_the_maps),
+        cmocka_unit_test(large_pages_are_means_of_covered_texels),
+        cmocka_unit_test(passes_are_plotted_by_decades),
+        cmocka_unit_test(existing_files_and_bad_places_are_refused),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
