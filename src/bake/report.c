@@ -88,7 +88,7 @@ static void put_error_tile(alpi_page *page, const report_job *job)
     const double error = is_light ? r->light_relative_error : r->ao_relative_error;
     if (!job->at_vertices) {
         put_tile(page, "Stated error", isfinite(error) ? alpi_percent(error).text : "unknown",
-                 is_light ? "of the mean irradiance" : "of the mean accessibility");
+                 is_light ? "irradiance" : "occlusion");
     }
 }
 

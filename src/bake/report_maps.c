@@ -64,19 +64,35 @@ static void put_heat_map(alpi_page *page, const alpi_report_pictures *pictures,
     }
     put_picture(page, pictures, kind, number, "Heat map of the standard error");
     alpi_plot_heat_scale(page, pictures->tops[kind], ALPI_PICTURE_COUNT * number + kind);
-    alpi_page_format(page,
-                     "<figcaption><b>Error of %s</b>Standard error of each texel over the mean "
-                     "of the map, %s.</figcaption></figure>\n",
-                     kind == ALPI_PICTURE_AO_ERROR ? "ambient occlusion" : "irradiance",
-                     alpi_significant(pictures->means[kind], 4).text);
+    alpi_page_format(page, "<figcaption><b>Error of %s</b>",
+                     kind == ALPI_PICTURE_AO_ERROR ? "ambient occlusion" : "irradiance");
+    if (number == 0) {
+        alpi_page_format(page, "Standard error of each texel over the mean of the map, %s.",
+                         alpi_significant(pictures->means[kind], 4).text);
+    }
+    alpi_page_put(page, "</figcaption></figure>\n");
+}
+
+/// Of each page.
+static unsigned count_pictures(unsigned maps, const alpi_report_pictures *pictures)
+{
+    unsigned count = 0;
+    for (alpi_report_picture kind = 0; kind < ALPI_PICTURE_COUNT; kind++) {
+        const alpi_report_picture error = shown_maps[kind].error;
+        if ((maps & (unsigned)shown_maps[kind].map) != 0) {
+            count += error != ALPI_PICTURE_COUNT && pictures->tops[error] > 0.0 ? 2 : 1;
+        }
+    }
+    return count;
 }
 
 static void put_page(alpi_page *page, unsigned maps, const alpi_report_pictures *pictures,
                      uint32_t number)
 {
     const alp_lightmap *l = pictures->lightmap;
+    const bool is_first = number == 0; // says what the colours mean; the others have less room
     if (l->page_count > 1) {
-        alpi_page_format(page, "<h3>Page %u of %u</h3>\n", number, l->page_count);
+        alpi_page_format(page, "<div><h3>Page %u</h3>\n", number);
     }
     alpi_page_put(page, "<div class=\"plates\">\n");
     for (alpi_report_picture kind = 0; kind < ALPI_PICTURE_COUNT; kind++) {
@@ -85,13 +101,15 @@ static void put_page(alpi_page *page, unsigned maps, const alpi_report_pictures 
         }
         put_picture(page, pictures, kind, number, shown_maps[kind].alt);
         alpi_page_format(page, "<figcaption><b>%s</b>", shown_maps[kind].title);
-        put_meaning(page, pictures, kind);
+        if (is_first) {
+            put_meaning(page, pictures, kind);
+        }
         alpi_page_put(page, "</figcaption></figure>\n");
         if (shown_maps[kind].error != ALPI_PICTURE_COUNT) {
             put_heat_map(page, pictures, shown_maps[kind].error, number);
         }
     }
-    alpi_page_put(page, "</div>\n");
+    alpi_page_put(page, l->page_count > 1 ? "</div></div>\n" : "</div>\n");
 }
 
 void alpi_report_put_maps(alpi_page *page, const alp_bake_report *report,
@@ -100,9 +118,17 @@ void alpi_report_put_maps(alpi_page *page, const alp_bake_report *report,
     const alp_lightmap *l = pictures->lightmap;
     const uint32_t longest = l->width > l->height ? l->width : l->height;
     alpi_page_put(page, "<section id=\"maps\"><h2>Maps</h2>\n");
+    if (l->page_count > 1) {
+        alpi_page_format(
+            page,
+            "<p class=\"note\">%u pages, numbered from 0 as in the names of files.</p>\n"
+            "<div class=\"pages\" style=\"--pictures:%u\">\n",
+            l->page_count, count_pictures(report->maps, pictures));
+    }
     for (uint32_t i = 0; i < pictures->page_count && page->result == ALP_OK; i++) {
         put_page(page, report->maps, pictures, i);
     }
+    alpi_page_put(page, l->page_count > 1 ? "</div>\n" : "");
     if (pictures->page_count < l->page_count) {
         alpi_page_format(page, "<p class=\"note\">The first %u of %u pages are shown.</p>\n",
                          pictures->page_count, l->page_count);

@@ -164,13 +164,16 @@ static void put_layout(alpi_page *page, const alpi_report_pictures *pictures, co
                 put_rectangle(page, pictures, &p->items[i], i + 1);
             }
         }
-        alpi_page_format(page, "</svg><figcaption><b>Layout%s",
-                         pictures->lightmap->page_count > 1 ? " of page " : "");
-        if (pictures->lightmap->page_count > 1) {
-            alpi_page_format(page, "%u", number);
+        alpi_page_put(page, "</svg><figcaption><b>Layout");
+        if (l->page_count > 1) {
+            alpi_page_format(page, " of page %u", number);
         }
-        alpi_page_put(page, "</b> A colour for each object, lighter and darker for its charts; "
-                            "rectangles are numbered as below.</figcaption></figure>\n");
+        alpi_page_put(page, "</b>");
+        if (number == 0) {
+            alpi_page_put(page, "A colour for each object, lighter and darker for its charts; "
+                                "rectangles are numbered as in the table.");
+        }
+        alpi_page_put(page, "</figcaption></figure>\n");
     }
     alp_image_destroy(picture);
 }

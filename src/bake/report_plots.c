@@ -38,7 +38,7 @@ void alpi_plot_stages(alpi_page *page, const alpi_report_stage *stages, size_t c
 
 // --- convergence ---------------------------------------------------------------------------------
 
-enum { PLOT_WIDTH = 520, PLOT_HEIGHT = 250, PLOT_LEFT = 60, PLOT_TOP = 14 };
+enum { PLOT_WIDTH = 520, PLOT_HEIGHT = 250, PLOT_LEFT = 74, PLOT_TOP = 14 };
 enum { PLOT_RIGHT = PLOT_WIDTH - 14, PLOT_BOTTOM = PLOT_HEIGHT - 44 };
 
 /// Decades that hold all changes.
