@@ -25,26 +25,28 @@ int report_page_check(const command_line *a)
     return output_check(path, a->values[OPTION_FORCE].given);
 }
 
-/// How a shell would take one word. `text` has room for four times its length and three more.
+/// How a shell would take one word. `text` has room for four times its length and two more.
 static size_t quote(const char *word, char *text)
 {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
                                 "_@%+=:,./-";
     const size_t length = strlen(word);
-    if (length > 0 && strspn(word, plain) == length) {
-        memcpy(text, word, length);
-        return length;
-    }
+    const bool needs = length == 0 || strspn(word, plain) < length;
     size_t used = 0;
-    text[used++] = '\'';
+    if (needs) {
+        text[used++] = '\'';
+    }
     for (size_t i = 0; i < length; i++) {
         if (word[i] == '\'') { // out of the quotes, the sign itself, and in again
-            memcpy(text + used, "'\\'", 3);
-            used += 3;
+            text[used++] = '\'';
+            text[used++] = '\\';
+            text[used++] = '\'';
         }
         text[used++] = word[i];
     }
-    text[used++] = '\'';
+    if (needs) {
+        text[used++] = '\'';
+    }
     return used;
 }
 

@@ -35,14 +35,15 @@ static void put_command(alpi_page *page, const char *command)
         return;
     }
     alpi_page_put(page, "<code class=\"command\">");
-    for (char *word = words, *rest = words; word != NULL; word = rest) {
-        rest = strchr(word, ' ');
+    for (char *word = words; word != NULL;) {
+        char *rest = strchr(word, ' ');
         if (rest != NULL) {
             *rest++ = '\0';
         }
         alpi_page_put(page, "<span>");
         alpi_page_text(page, word, WORD_LIMIT);
         alpi_page_put(page, rest != NULL ? "</span> " : "</span>");
+        word = rest;
     }
     alpi_page_put(page, "</code>\n");
     alpi_release(page->context, words);
@@ -172,10 +173,11 @@ static void put_findings(alpi_page *page, const report_job *job)
 static void put_passes(alpi_page *page, const alp_bake_report *r)
 {
     const alp_light_passes *passes = &r->light_passes;
-    if (passes->count == 0) {
+    const uint32_t limit = ALP_REPORT_PASSES;
+    const uint32_t count = passes->count < limit ? passes->count : limit;
+    if (count == 0) {
         return;
     }
-    const uint32_t count = passes->count < ALP_REPORT_PASSES ? passes->count : ALP_REPORT_PASSES;
     alpi_page_format(page,
                      "<section id=\"passes\"><h2>Convergence</h2>\n<p class=\"note\">Mean change "
                      "of the irradiance by each pass, over its mean; the last of %u changed it by "

@@ -5,16 +5,16 @@
 #include <math.h>
 
 static const struct {
-    alp_map map; // that must have been asked for
     const char *title, *alt;
+    alp_map map;               // that must have been asked for
     alpi_report_picture error; // or COUNT: none
 } shown_maps[ALPI_PICTURE_COUNT] = {
-    [ALPI_PICTURE_AO] = {ALP_MAP_AO, "Ambient occlusion", "Map of ambient occlusion",
+    [ALPI_PICTURE_AO] = {"Ambient occlusion", "Map of ambient occlusion", ALP_MAP_AO,
                          ALPI_PICTURE_AO_ERROR},
-    [ALPI_PICTURE_BENT] = {ALP_MAP_BENT, "Bent normals", "Map of bent normals", ALPI_PICTURE_COUNT},
-    [ALPI_PICTURE_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "Coloured obscurance",
-                                 "Map of coloured obscurance", ALPI_PICTURE_COUNT},
-    [ALPI_PICTURE_LIGHT] = {ALP_MAP_LIGHT, "Irradiance", "Map of irradiance",
+    [ALPI_PICTURE_BENT] = {"Bent normals", "Map of bent normals", ALP_MAP_BENT, ALPI_PICTURE_COUNT},
+    [ALPI_PICTURE_OBSCURANCE] = {"Coloured obscurance", "Map of coloured obscurance",
+                                 ALP_MAP_OBSCURANCE, ALPI_PICTURE_COUNT},
+    [ALPI_PICTURE_LIGHT] = {"Irradiance", "Map of irradiance", ALP_MAP_LIGHT,
                             ALPI_PICTURE_LIGHT_ERROR}};
 
 static void put_picture(alpi_page *page, const alpi_report_pictures *pictures,

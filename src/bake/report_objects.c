@@ -59,7 +59,7 @@ static alp_result find(const alp_scene *scene, const alp_atlas *atlas, size_t *s
             continue; // not chosen
         }
         const size_t slot = slots[page];
-        if (slot == 0 || p->items[slot - 1].surface != surface) {
+        if (slot == 0 || p->items == NULL || p->items[slot - 1].surface != surface) {
             ALP_TRY(alpi_grow(p->context, (void **)&p->items, &p->capacity, p->count + 1,
                               sizeof *p->items));
             p->items[p->count++] =

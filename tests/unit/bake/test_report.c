@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The page about a bake: well-formed, self-contained, true to the maps, and proof against names.
+#include "bake/report_parts.h"
 #include "base/image.h"
-#include "base/memory.h"
 #include "formats/formats.h"
+#include "maps/lightmap.h"
 #include "test_scenes.h"
 
 #include <dirent.h>
@@ -100,7 +101,7 @@ static const char *read_tag(const char *at, const char **names, size_t *lengths,
         at += value + 1;
     }
     if (closes) {
-        assert_true(*depth > 0);
+        assert_true(*depth > 0 && *depth <= DEPTH);
         *depth -= 1;
         assert_true(lengths[*depth] == length && memcmp(names[*depth], name, length) == 0);
     } else if (*at != '/') {
@@ -120,7 +121,7 @@ static void check_form(const char *text)
 {
     static const char doctype[] = "<!DOCTYPE html>\n";
     const char *names[DEPTH], *at = text + sizeof doctype - 1;
-    size_t lengths[DEPTH];
+    size_t lengths[DEPTH] = {0};
     int depth = 0, roots = 0;
     assert_memory_equal(text, doctype, sizeof doctype - 1);
     while (*at != '\0') {
@@ -184,7 +185,7 @@ static void page_is_whole_and_has_its_figures(void **state)
     assert_int_equal(count_of(text, "<svg class=\"layout\""), 1);
     snprintf(wanted, sizeof wanted, "<dt>Triangles</dt><dd>%u</dd>", b.report.scene.triangles);
     ASSERT_HAS(text, wanted);
-    snprintf(wanted, sizeof wanted, "1 page of %u × %u", SIZE, SIZE);
+    snprintf(wanted, sizeof wanted, "1 page of %d × %d", SIZE, SIZE);
     ASSERT_HAS(text, wanted);
     ASSERT_HAS(text, "<dt>Rays and paths</dt><dd>1\u202F234\u202F567</dd>");
     ASSERT_HAS(text, "Load</th><td>12.50\u00A0s</td>");
@@ -383,6 +384,53 @@ static void pictures_show_the_maps(void **state)
     end(&b);
 }
 
+/// Bytes of a colour's luminance, near enough to order colours by.
+static int brightness(const uint8_t rgb[3])
+{
+    return 2 * rgb[0] + 7 * rgb[1] + rgb[2];
+}
+
+static void heat_maps_show_errors_over_the_mean(void **state)
+{
+    (void)state;
+    uint8_t last[3], color[3];
+    alpi_heat_color(0.0f, last);
+    for (int i = 1; i <= 100; i++) { // in grey the order stays
+        alpi_heat_color((float)i / 100.0f, color);
+        assert_true(brightness(color) > brightness(last));
+        memcpy(last, color, sizeof last);
+    }
+    const alp_bake_options options = small_options(ALP_MAP_AO);
+    baked b = bake_builtin("builtin:cornell", &options);
+    char *text = write_page(&b, NULL);
+    const char *top_text = strstr(text, "<span>≥\u00A0");
+    assert_non_null(top_text);
+    const double top = strtod(top_text + strlen("<span>≥\u00A0"), NULL) / 100.0;
+    // Rounded up to 1, 2 or 5 times a power of ten: at most by 2.5.
+    assert_true(top >= 0.999 * b.report.ao_p99_error && top <= 2.51 * b.report.ao_p99_error);
+    const alp_lightmap *l = b.lightmap;
+    const float *page = alp_lightmap_page(l, 0, NULL, NULL);
+    double mean = 0.0, count = 0.0;
+    for (size_t i = 0; i < (size_t)SIZE * SIZE; i++) {
+        mean += page[4 * i + 3] > 0.0f ? (double)page[4 * i] : 0.0;
+        count += page[4 * i + 3] > 0.0f;
+    }
+    mean /= count;
+    alp_image *image = find_picture(b.context, text, "Heat map of the standard error");
+    const uint8_t *bytes = alp_image_bytes(image);
+    for (uint32_t i = 0; i < l->texels.count; i++) {
+        const uint8_t *pixel =
+            bytes + 4 * ((size_t)l->texels.pixels[i][1] * SIZE + l->texels.pixels[i][0]);
+        alpi_heat_color((float)((double)l->errors[i] / mean / top), color);
+        for (int k = 0; k < 3 && pixel[3] > 0; k++) {
+            ASSERT_NEAR(pixel[k], color[k], 1.0); // rounding of the mean
+        }
+    }
+    alp_image_destroy(image);
+    free(text);
+    end(&b);
+}
+
 /// A square whose lightmap coordinates cover a corner of a large page.
 static baked bake_corner(uint32_t size, float side)
 {
@@ -413,6 +461,12 @@ static void large_pages_are_means_of_covered_texels(void **state)
     baked b = bake_corner(LARGE, 40.5f / LARGE);
     char *text = write_page(&b, NULL);
     ASSERT_HAS(text, "the covered ones of 3 × 3");
+    // What was baked lies there, and nothing else.
+    ASSERT_HAS(text, "<rect x=\"0.00\" y=\"0.00\" width=\"40.50\" height=\"40.50\"><title>1: "
+                     "corner</title></rect>");
+    assert_null(strstr(text, "<bdi>above"));
+    assert_int_equal(b.report.atlas.texels, 41 * 41);
+    ASSERT_HAS(text, "<td>1\u202F681</td>");
     alp_image *image = find_picture(b.context, text, "Map of ambient occlusion");
     assert_true(image->info.width == SMALL && image->info.height == SMALL);
     const float *page = alp_lightmap_map_page(b.lightmap, ALP_MAP_AO, 0, NULL, NULL);
@@ -547,6 +601,7 @@ int main(void)
         cmocka_unit_test(only_the_first_pages_are_shown),
         cmocka_unit_test(text_from_outside_stays_text),
         cmocka_unit_test(pictures_show_the_maps),
+        cmocka_unit_test(heat_maps_show_errors_over_the_mean),
         cmocka_unit_test(large_pages_are_means_of_covered_texels),
         cmocka_unit_test(passes_are_plotted_by_decades),
         cmocka_unit_test(existing_files_and_bad_places_are_refused),
