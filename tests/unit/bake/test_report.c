@@ -2,8 +2,8 @@
 // The page about a bake: well-formed, self-contained, true to the maps, and proof against names.
 #include "bake/report_parts.h"
 #include "base/image.h"
-#include "formats/formats.h"
 #include "maps/lightmap.h"
+#include "page_check.h"
 #include "test_scenes.h"
 
 #include <dirent.h>
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SIZE = 64, DEPTH = 64 };
+enum { SIZE = 64 };
 
 typedef struct baked {
     alp_context *context;
@@ -69,104 +69,6 @@ static char *write_page(const baked *b, const alp_report_options *options)
     return text;
 }
 
-static int count_of(const char *text, const char *wanted)
-{
-    int count = 0;
-    for (const char *at = strstr(text, wanted); at != NULL; at = strstr(at + 1, wanted)) {
-        count++;
-    }
-    return count;
-}
-
-#define ASSERT_HAS(text, wanted) assert_non_null(strstr((text), (wanted)))
-
-// --- form ----------------------------------------------------------------------------------------
-
-/// Steps over one tag: name, attributes with quoted values, maybe a slash. @return what follows
-static const char *read_tag(const char *at, const char **names, size_t *lengths, int *depth)
-{
-    const bool closes = *at == '/';
-    at += closes;
-    const char *name = at;
-    const size_t length = strcspn(at, " \n/>");
-    assert_true(length > 0);
-    at += length;
-    while (*at == ' ' || *at == '\n') {
-        at += strspn(at, " \n");
-        at += strcspn(at, "=>/\"'<");
-        assert_true(at[0] == '=' && at[1] == '"'); // every attribute has a quoted value
-        at += 2;
-        const size_t value = strcspn(at, "\"<");
-        assert_int_equal(at[value], '"');
-        at += value + 1;
-    }
-    if (closes) {
-        assert_true(*depth > 0 && *depth <= DEPTH);
-        *depth -= 1;
-        assert_true(lengths[*depth] == length && memcmp(names[*depth], name, length) == 0);
-    } else if (*at != '/') {
-        assert_true(*depth < DEPTH);
-        names[*depth] = name;
-        lengths[*depth] = length;
-        *depth += 1;
-    } else {
-        at++;
-    }
-    assert_int_equal(*at, '>');
-    return at + 1;
-}
-
-/// Every tag is closed in order, & begins a reference, and the bytes are UTF-8 without controls.
-static void check_form(const char *text)
-{
-    static const char doctype[] = "<!DOCTYPE html>\n";
-    const char *names[DEPTH], *at = text + sizeof doctype - 1;
-    size_t lengths[DEPTH] = {0};
-    int depth = 0, roots = 0;
-    assert_memory_equal(text, doctype, sizeof doctype - 1);
-    while (*at != '\0') {
-        if (*at == '<') {
-            at = read_tag(at + 1, names, lengths, &depth);
-            roots += depth == 0;
-        } else {
-            assert_true(depth > 0 || *at == '\n');
-            at++;
-        }
-    }
-    assert_true(depth == 0 && roots == 1);
-    static const char *const references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
-    for (at = strchr(text, '&'); at != NULL; at = strchr(at + 1, '&')) {
-        bool known = false;
-        for (size_t i = 0; i < sizeof references / sizeof *references; i++) {
-            known |= strncmp(at, references[i], strlen(references[i])) == 0;
-        }
-        assert_true(known);
-    }
-    for (const unsigned char *u = (const unsigned char *)text; *u != '\0'; u++) {
-        assert_true(*u >= 0x20 || *u == '\n');
-        const int follow = *u < 0x80 ? 0 : *u >= 0xF0 ? 3 : *u >= 0xE0 ? 2 : *u >= 0xC2 ? 1 : 9;
-        assert_true(follow < 9);
-        for (int i = 0; i < follow; i++) {
-            assert_int_equal(*++u & 0xC0, 0x80);
-        }
-    }
-}
-
-/// Nothing is loaded and nothing runs: every picture is in the page, references stay inside.
-static void check_self_contained(const char *text)
-{
-    const int data = count_of(text, "=\"data:image/png;base64,");
-    assert_int_equal(count_of(text, " src="), count_of(text, "<img "));
-    assert_int_equal(count_of(text, " src=") + count_of(text, " href="), data);
-    assert_int_equal(count_of(text, "url("), count_of(text, "url(#heat"));
-    assert_int_equal(count_of(text, "<script") + count_of(text, "<link") +
-                         count_of(text, "@import") + count_of(text, "<iframe") +
-                         count_of(text, "<a "),
-                     0);
-    assert_int_equal(count_of(text, "http:") + count_of(text, "https:"), 1); // the name of XHTML
-    ASSERT_HAS(text, "default-src 'none'");
-}
-
 static void page_is_whole_and_has_its_figures(void **state)
 {
     (void)state;
@@ -178,11 +80,11 @@ static void page_is_whole_and_has_its_figures(void **state)
     alp_report_options page = alp_report_options_default();
     page.command = "alpenglow bake builtin:cornell";
     char *text = write_page(&b, &page), wanted[128];
-    check_form(text);
-    check_self_contained(text);
+    page_check_form(text);
+    page_check_self_contained(text);
     // Four maps, two of them with a heat map; the layout is no <img>.
-    assert_int_equal(count_of(text, "<img "), 6);
-    assert_int_equal(count_of(text, "<svg class=\"layout\""), 1);
+    assert_int_equal(page_count_of(text, "<img "), 6);
+    assert_int_equal(page_count_of(text, "<svg class=\"layout\""), 1);
     snprintf(wanted, sizeof wanted, "<dt>Triangles</dt><dd>%u</dd>", b.report.scene.triangles);
     ASSERT_HAS(text, wanted);
     snprintf(wanted, sizeof wanted, "1 page of %d × %d", SIZE, SIZE);
@@ -208,7 +110,7 @@ static void vertices_have_a_page_without_maps(void **state)
     options.atlas.mode = ALP_ATLAS_VERTEX;
     baked b = bake_builtin("builtin:cornell", &options);
     char *text = write_page(&b, NULL);
-    check_form(text);
+    page_check_form(text);
     assert_null(strstr(text, "data:image"));
     assert_null(strstr(text, "id=\"maps\""));
     ASSERT_HAS(text, "<dt>Vertices</dt>");
@@ -248,9 +150,9 @@ static void only_the_first_pages_are_shown(void **state)
     baked b = bake(context, scene, &options);
     assert_true(b.report.atlas.pages > 16);
     char *text = write_page(&b, NULL), wanted[64];
-    check_form(text);
-    assert_int_equal(count_of(text, "<h3>Page "), 16);
-    assert_int_equal(count_of(text, "<svg class=\"layout\""), 16);
+    page_check_form(text);
+    assert_int_equal(page_count_of(text, "<h3>Page "), 16);
+    assert_int_equal(page_count_of(text, "<svg class=\"layout\""), 16);
     snprintf(wanted, sizeof wanted, "The first 16 of %u pages are shown.", b.report.atlas.pages);
     ASSERT_HAS(text, wanted);
     free(text);
@@ -281,8 +183,8 @@ static void text_from_outside_stays_text(void **state)
     page.finding_count = 2;
     page.command = "alpenglow bake '<x>' \xFE";
     char *text = write_page(&b, &page);
-    check_form(text);
-    check_self_contained(text);
+    page_check_form(text);
+    page_check_self_contained(text);
     ASSERT_HAS(text, "&lt;/title&gt;&lt;script&gt;alert(1)&lt;/script&gt;</bdi>");
     ASSERT_HAS(text, "a &quot;quoted&quot; &amp; &#39;single&#39; &lt;b&gt;</bdi>");
     // Each byte that belongs to no character is one U+FFFD: Unicode says how many, loosely.
@@ -290,7 +192,7 @@ static void text_from_outside_stays_text(void **state)
                      "\uFFFD\uFFFD\uFFFD\uFFFD end</bdi>");
     ASSERT_HAS(text, "control \uFFFD\uFFFD[31m\uFFFD \uFFFD tab here \uFFFD</bdi>");
     ASSERT_HAS(text, "xxx…</bdi>");
-    assert_true(strlen(text) > 10000 && count_of(text, "x") < 3000);
+    assert_true(strlen(text) > 10000 && page_count_of(text, "x") < 3000);
     ASSERT_HAS(text, "Straße \xE2\x80\xAE 雪 \xF0\x9F\x8F\x94</bdi>");
     ASSERT_HAS(text, "<code>&lt;code&gt;</code><b><bdi>&lt;/li&gt;&amp;</bdi></b>"
                      "<p><bdi>it&#39;s &lt;wrong&gt;; do &quot;this&quot; &amp; that</bdi></p>"
@@ -302,45 +204,6 @@ static void text_from_outside_stays_text(void **state)
 }
 
 // --- pictures ------------------------------------------------------------------------------------
-
-static int digit_of(char c)
-{
-    return c >= 'A' && c <= 'Z'   ? c - 'A'
-           : c >= 'a' && c <= 'z' ? c - 'a' + 26
-           : c >= '0' && c <= '9' ? c - '0' + 52
-           : c == '+'             ? 62
-           : c == '/'             ? 63
-                                  : -1;
-}
-
-/// The picture whose <img> has this alternative text.
-static alp_image *find_picture(alp_context *context, const char *text, const char *alt)
-{
-    char wanted[128];
-    snprintf(wanted, sizeof wanted, "alt=\"%s\" src=\"data:image/png;base64,", alt);
-    const char *at = strstr(text, wanted);
-    assert_non_null(at);
-    at += strlen(wanted);
-    const size_t length = strcspn(at, "\"");
-    assert_int_equal(length % 4, 0);
-    uint8_t *bytes = malloc(length);
-    size_t size = 0;
-    for (size_t i = 0; i < length; i += 4) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 4; k++) {
-            bits = bits << 6 | (uint32_t)(at[i + k] == '=' ? 0 : digit_of(at[i + k]));
-        }
-        const size_t padding = (size_t)(at[i + 2] == '=') + (size_t)(at[i + 3] == '=');
-        for (size_t k = 0; k < 3 - padding; k++) {
-            bytes[size++] = (uint8_t)(bits >> (16 - 8 * k));
-        }
-    }
-    alp_image *image = NULL;
-    ASSERT_OK(context, alpi_png_decode(context, alt, bytes, size, &image));
-    free(bytes);
-    assert_int_equal(image->info.channels, 4);
-    return image;
-}
 
 static void pictures_show_the_maps(void **state)
 {
@@ -361,7 +224,7 @@ static void pictures_show_the_maps(void **state)
                 {ALP_MAP_BENT, "Map of bent normals"},
                 {ALP_MAP_LIGHT, "Map of irradiance"}};
     for (int m = 0; m < 3; m++) {
-        alp_image *image = find_picture(b.context, text, maps[m].alt);
+        alp_image *image = page_find_picture(b.context, text, maps[m].alt);
         const float *page = alp_lightmap_map_page(b.lightmap, maps[m].map, 0, NULL, NULL);
         const uint8_t *bytes = alp_image_bytes(image);
         assert_true(image->info.width == SIZE && image->info.height == SIZE);
@@ -416,7 +279,7 @@ static void heat_maps_show_errors_over_the_mean(void **state)
         count += page[4 * i + 3] > 0.0f;
     }
     mean /= count;
-    alp_image *image = find_picture(b.context, text, "Heat map of the standard error");
+    alp_image *image = page_find_picture(b.context, text, "Heat map of the standard error");
     const uint8_t *bytes = alp_image_bytes(image);
     for (uint32_t i = 0; i < l->texels.count; i++) {
         const uint8_t *pixel =
@@ -467,7 +330,7 @@ static void large_pages_are_means_of_covered_texels(void **state)
     assert_null(strstr(text, "<bdi>above"));
     assert_int_equal(b.report.atlas.texels, 41 * 41);
     ASSERT_HAS(text, "<td>1\u202F681</td>");
-    alp_image *image = find_picture(b.context, text, "Map of ambient occlusion");
+    alp_image *image = page_find_picture(b.context, text, "Map of ambient occlusion");
     assert_true(image->info.width == SMALL && image->info.height == SMALL);
     const float *page = alp_lightmap_map_page(b.lightmap, ALP_MAP_AO, 0, NULL, NULL);
     const uint8_t *bytes = alp_image_bytes(image);
@@ -504,7 +367,7 @@ static void passes_are_plotted_by_decades(void **state)
     baked b = bake_builtin("builtin:cornell", &options);
     b.report.light_passes = (alp_light_passes){3, {1.0f, 0.1f, 0.01f}};
     char *text = write_page(&b, NULL);
-    check_form(text);
+    page_check_form(text);
     const char *points = strstr(text, "class=\"curve\" points=\"");
     assert_non_null(points);
     double x[3], y[3];
@@ -522,7 +385,7 @@ static void passes_are_plotted_by_decades(void **state)
     // What no pass should give: none, infinite, no number, more than there is room for.
     b.report.light_passes = (alp_light_passes){UINT32_MAX, {INFINITY, NAN, -1.0f, 0.0f, 1e-30f}};
     text = write_page(&b, NULL);
-    check_form(text);
+    page_check_form(text);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
     free(text);
