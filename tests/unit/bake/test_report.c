@@ -247,6 +247,41 @@ static void pictures_show_the_maps(void **state)
     end(&b);
 }
 
+/// A PNG's size is any number of bytes, and base64 takes three at a time.
+static void pictures_of_all_sizes_come_back(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    size_t rests[3] = {0};
+    for (uint32_t width = 1; width < 24; width++) {
+        alp_image *image = NULL;
+        const alp_image_info info = {width, 1, 4, ALP_COMPONENT_U8};
+        ASSERT_OK(context, alp_image_create(context, info, &image));
+        for (size_t i = 0; i < (size_t)4 * width; i++) {
+            alp_image_bytes(image)[i] = (uint8_t)(37 * i * i + 11 * width);
+        }
+        const char *path = test_path(test_folder(), "page.html");
+        alpi_file_writer writer;
+        ASSERT_OK(context, alpi_file_open(context, path, false, &writer));
+        alpi_page page = {.context = context, .writer = &writer};
+        alpi_page_picture(&page, image, "It");
+        ASSERT_OK(context, alpi_page_flush(&page));
+        ASSERT_OK(context, alpi_file_commit(&writer));
+        size_t size = 0;
+        char *text = (char *)test_read_file(path, &size);
+        text[size - 1] = '\0'; // a bracket
+        rests[(size_t)page_count_of(text, "=\"/") + (size_t)page_count_of(text, "==\"/")]++;
+        alp_image *back = page_find_picture(context, text, "It");
+        assert_int_equal(back->info.width, width);
+        assert_memory_equal(alp_image_bytes(back), alp_image_bytes(image), (size_t)4 * width);
+        free(text);
+        alp_image_destroy(back);
+        alp_image_destroy(image);
+    }
+    assert_true(rests[0] > 0 && rests[1] > 0 && rests[2] > 0);
+    alp_context_destroy(context);
+}
+
 /// Bytes of a colour's luminance, near enough to order colours by.
 static int brightness(const uint8_t rgb[3])
 {
@@ -304,7 +339,7 @@ static baked bake_corner(uint32_t size, float side)
     mesh.uvs = &uvs[0][0];
     above.positions = &near_square[0][0];
     above.uvs = &uvs[0][0];
-    const alp_mesh meshes[] = {mesh, above};
+    const alp_mesh meshes[] = {above, mesh};
     alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
@@ -464,6 +499,7 @@ int main(void)
         cmocka_unit_test(only_the_first_pages_are_shown),
         cmocka_unit_test(text_from_outside_stays_text),
         cmocka_unit_test(pictures_show_the_maps),
+        cmocka_unit_test(pictures_of_all_sizes_come_back),
         cmocka_unit_test(heat_maps_show_errors_over_the_mean),
         cmocka_unit_test(large_pages_are_means_of_covered_texels),
         cmocka_unit_test(passes_are_plotted_by_decades),
