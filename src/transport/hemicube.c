@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { STREAM_TURN = 7 };
+enum { STREAM_TURN = 7, STREAM_PLACE = 9 };
 enum { BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2, FACES = 5 };
 _Static_assert(BLOCK_WIDTH *BLOCK_HEIGHT == ALPI_PACKET, "a block fills a packet");
 /// Packets between questions whether to go on: some milliseconds.
@@ -306,10 +306,11 @@ alp_result alpi_hemicube_gather(const alpi_hemicube_options *options,
 static void aim_receiver(const void *user, const alpi_receivers *receivers, uint32_t receiver,
                          uint32_t first, uint32_t count, alpi_gather_packet *packets)
 {
-    static const float middle[1][2] = {{0.5f, 0.5f}};
     const alpi_hemicube_options *o = user;
+    const vec2 at = alpi_sample_2d(alpi_random_key(o->seed, receiver, STREAM_PLACE), 0);
+    const float square[1][2] = {{o->scattered ? at.x : 0.5f, o->scattered ? at.y : 0.5f}};
     alpi_receiver_point point;
-    receivers->place(receivers->user, receiver, 1, middle, &point);
+    receivers->place(receivers->user, receiver, 1, square, &point);
     const alpi_hemicube_frame frame =
         alpi_hemicube_frame_about(point.shading_normal, turn_of(o, receiver));
     for (uint32_t k = 0; k < count; k++) {

@@ -71,6 +71,8 @@ typedef struct alpi_hemicube_options {
     const alpi_hemicube *cube;
     bool turned; // about the normal, by an angle of each receiver's own: what pixels are too coarse
                  // for then becomes noise in place of bands along the faces' edges
+    bool scattered; // at a random point of each receiver, not at its middle: right in the mean over
+                    // many large receivers
     uint64_t seed;
 } alpi_hemicube_options;
 
@@ -88,7 +90,7 @@ alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
                                    const alpi_receiver_point *point,
                                    const alpi_hemicube_frame *frame, float irradiance[3]);
 
-/// Gathers at the middle of each receiver. The options are borrowed.
+/// Gathers at one point of each receiver. The options are borrowed.
 alpi_gatherer alpi_hemicube_gatherer(const alpi_hemicube_options *options);
 
 /// Radiance along the rays of one packet, before weights; for pictures.
