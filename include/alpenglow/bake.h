@@ -164,17 +164,6 @@ typedef struct alp_bake_options {
 } alp_bake_options;
 ALP_API alp_bake_options alp_bake_options_default(void);
 
-/// How many passes a report remembers.
-enum { ALP_REPORT_PASSES = 256 };
-
-/// What each pass of light that goes on in passes changed.
-typedef struct alp_light_passes {
-    uint32_t count; ///< of changes, at most ALP_REPORT_PASSES: the first ones; 0 without passes
-    /// Mean absolute change of the texels' irradiance by that pass over its mean after it, over
-    /// texels and channels; ≥ 0.
-    float changes[ALP_REPORT_PASSES];
-} alp_light_passes;
-
 /// Where the light of a radiosity goes: fluxes in W, means of the three channels, over the surfaces
 /// that were baked and the backs they see. To the noise of the rays, emitted = absorbed + escaped +
 /// behind + unshot.
@@ -217,7 +206,6 @@ typedef struct alp_bake_report {
     /// rays, and where light_direct the rays sent from texels. A ray that goes on behind a pane is
     /// not counted again.
     uint64_t rays;
-    alp_light_passes light_passes;
     uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT; of each light: light_direct
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`

@@ -23,7 +23,7 @@ typedef struct alp_report_options {
 ALP_API alp_report_options alp_report_options_default(void);
 
 /// Writes one self-contained HTML page (which is well-formed XML too) about a bake: figures,
-/// findings, the maps, heat maps of their standard errors, change per pass where there were passes,
+/// findings, the maps, heat maps of their standard errors, change per bounce of a radiosity,
 /// time per stage, and the objects on the atlas. It loads nothing and runs no script, and all text
 /// from files is escaped; what is not UTF-8 in it shows as U+FFFD.
 ///

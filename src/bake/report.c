@@ -107,7 +107,8 @@ static void put_tiles(alpi_page *page, const report_job *job)
     put_error_tile(page, job);
     put_tile(page, "Time", alpi_duration(r->seconds_load + r->seconds_total).text,
              r->cut_off ? "cut off" : "");
-    const bool has_paths = (r->maps & ALP_MAP_LIGHT) != 0 && !r->light_direct;
+    const bool has_paths =
+        (r->maps & ALP_MAP_LIGHT) != 0 && !r->light_direct && r->light_passes == 0;
     put_tile(page, has_paths ? "Rays and paths" : "Rays",
              r->rays < 10000000u ? alpi_grouped(r->rays).text
                                  : alpi_significant((double)r->rays / 1e6, 3).text,
@@ -172,18 +173,17 @@ static void put_findings(alpi_page *page, const report_job *job)
 
 static void put_passes(alpi_page *page, const alp_bake_report *r)
 {
-    const alp_light_passes *passes = &r->light_passes;
-    const uint32_t limit = ALP_REPORT_PASSES;
-    const uint32_t count = passes->count < limit ? passes->count : limit;
+    const uint32_t most = sizeof r->light_changes / sizeof *r->light_changes;
+    const uint32_t count = r->light_passes < most ? r->light_passes : most;
     if (count == 0) {
         return;
     }
     alpi_page_format(page,
                      "<section id=\"passes\"><h2>Convergence</h2>\n<p class=\"note\">Mean change "
-                     "of the irradiance by each pass, over its mean; the last of %u changed it by "
+                     "of the light by each bounce, over its mean; bounce %u changed it by "
                      "%s.</p>\n",
-                     count, alpi_percent((double)passes->changes[count - 1]).text);
-    alpi_plot_passes(page, passes->changes, count);
+                     count, alpi_percent((double)r->light_changes[count - 1]).text);
+    alpi_plot_passes(page, r->light_changes, count);
     alpi_page_put(page, "</section>\n");
 }
 

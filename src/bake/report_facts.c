@@ -79,11 +79,27 @@ static void put_occlusion(alpi_page *page, const alp_bake_report *r)
 
 static void put_light(alpi_page *page, const alp_bake_report *r)
 {
-    put_count(page, r->light_direct ? "Light: samples of each light" : "Light: paths a texel",
+    put_count(page,
+              r->light_direct       ? "Light: samples of each light"
+              : r->light_passes > 0 ? "Light: rays a texel"
+                                    : "Light: paths a texel",
               r->light_samples);
     alpi_page_format(page, "<dt>Mean irradiance</dt><dd>%s W/m²</dd>\n",
                      alpi_significant(r->light_mean, 4).text);
     put_error(page, "Stated error of irradiance", r->light_relative_error, r->light_p99_error);
+}
+
+/// Where the light goes, in watts.
+static void put_energy(alpi_page *page, const alp_light_energy *e)
+{
+    if (!e->known) {
+        return;
+    }
+    alpi_page_format(page, "<dt>Light emitted</dt><dd>%s W: absorbed %s, ",
+                     alpi_significant(e->emitted, 4).text, alpi_significant(e->absorbed, 4).text);
+    alpi_page_format(page, "escaped %s, into black backs %s, not followed further %s</dd>\n",
+                     alpi_significant(e->escaped, 3).text, alpi_significant(e->behind, 3).text,
+                     alpi_significant(e->unshot, 2).text);
 }
 
 /// What happened to texels that are not like the others, as far as there are any.
@@ -112,9 +128,13 @@ void alpi_report_put_facts(alpi_page *page, const alp_scene *scene, const alp_ba
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
         put_light(page, r);
+        put_energy(page, &r->light_energy);
     }
     put_odd_texels(page, r);
-    put_count(page, r->light_samples > 0 && !r->light_direct ? "Rays and paths" : "Rays", r->rays);
+    put_count(page,
+              r->light_samples > 0 && !r->light_direct && r->light_passes == 0 ? "Rays and paths"
+                                                                               : "Rays",
+              r->rays);
     put_fact(page, "Peak of our memory", alpi_bytes(r->peak_memory_bytes).text);
     put_count(page, "Threads", r->threads);
     put_count(page, "Seed", r->seed);

@@ -60,7 +60,7 @@ static void put_heat_map(alpi_page *page, const alpi_report_pictures *pictures,
                          alpi_report_picture kind, uint32_t number)
 {
     if (!(pictures->tops[kind] > 0.0)) {
-        return; // said once, above
+        return; // no error is known, or the map is black
     }
     put_picture(page, pictures, kind, number, "Heat map of the standard error");
     alpi_plot_heat_scale(page, pictures->tops[kind], ALPI_PICTURE_COUNT * number + kind);

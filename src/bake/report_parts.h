@@ -57,7 +57,7 @@ typedef struct alpi_report_stage {
 } alpi_report_stage;
 /// A bar of the stages' shares of `total`, and a table of them below.
 void alpi_plot_stages(alpi_page *page, const alpi_report_stage *stages, size_t count, double total);
-/// Change by pass, logarithmic. @param count at least 1
+/// Change by pass (one a bounce), logarithmic. @param count at least 1
 void alpi_plot_passes(alpi_page *page, const float *changes, uint32_t count);
 /// The colours of a heat map from 0 to `top`, a share of the mean. @param id unique on the page
 void alpi_plot_heat_scale(alpi_page *page, double top, uint32_t id);

@@ -99,8 +99,8 @@ static void put_axes(alpi_page *page, decades d, uint32_t count)
         alpi_page_format(page, "<text x=\"%s\" y=\"%d\" text-anchor=\"middle\">%u</text>\n",
                          alpi_fixed(plot_x(pass, count), 1).text, PLOT_BOTTOM + 19, pass + 1);
     }
-    alpi_page_format(page, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">pass</text>\n", PLOT_RIGHT,
-                     PLOT_HEIGHT - 6);
+    alpi_page_format(page, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">bounce</text>\n",
+                     PLOT_RIGHT, PLOT_HEIGHT - 6);
 }
 
 void alpi_plot_passes(alpi_page *page, const float *changes, uint32_t count)
@@ -109,7 +109,7 @@ void alpi_plot_passes(alpi_page *page, const float *changes, uint32_t count)
     const decades d = find_decades(changes, count);
     alpi_page_format(page,
                      "<svg class=\"plot\" viewBox=\"0 0 %d %d\" role=\"img\" "
-                     "aria-label=\"Mean change of the light by pass\">\n",
+                     "aria-label=\"Mean change of the light by bounce\">\n",
                      PLOT_WIDTH, PLOT_HEIGHT);
     put_axes(page, d, count);
     alpi_page_put(page, "<polyline class=\"curve\" points=\"");
@@ -120,7 +120,7 @@ void alpi_plot_passes(alpi_page *page, const float *changes, uint32_t count)
     alpi_page_put(page, "\"/>\n");
     for (uint32_t i = 0; i < count && count <= DOTS; i++) {
         alpi_page_format(page,
-                         "<circle cx=\"%s\" cy=\"%s\" r=\"3.5\"><title>pass %u: %s</title>"
+                         "<circle cx=\"%s\" cy=\"%s\" r=\"3.5\"><title>bounce %u: %s</title>"
                          "</circle>\n",
                          alpi_fixed(plot_x(i, count), 1).text,
                          alpi_fixed(plot_y((double)changes[i], d), 1).text, i + 1,
