@@ -89,7 +89,8 @@ static const option options[] = {
              "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
              "per channel, not divided by pi, without albedo, by path tracing from every texel; "
              "blended and transmissive surfaces let it through in part, in their colour. "
-             "What is not ao goes to --maps-dir alone, and -o needs ao."},
+             "What is not ao goes to --maps-dir alone, and -o needs ao, or light and "
+             "--lightmap-as."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -348,6 +349,49 @@ static const option options[] = {
      .initial = "256",
      .help = "Of --maps light, rounded up to a multiple of 16; with --bounces 0 samples of each "
              "light, rounded up to a multiple of 8. --ao-samples are those of ao."},
+    {.id = OPTION_LIGHTMAP_AS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--lightmap-as",
+     .value = "emissive|moz|extras",
+     .choices = "emissive|moz|extras",
+     .later_choices = "three|babylon",
+     .help =
+         "How light goes into -o, on a coordinate set of its own; needs --maps light. Switch the "
+         "file's lights off where it is shown: they are in it. emissive: what leaves each surface, "
+         "as emission in 8-bit sRGB with KHR_materials_emissive_strength, base colour 0; opens in "
+         "every glTF viewer, nothing to hook up; surfaces look alike from all sides. moz: "
+         "MOZ_lightmap, 8-bit linear x intensity, so that light below 1/255 of a material's "
+         "brightest is lost; opens in Hubs, and in three.js by "
+         "loader.register(p => new GLTFLightMapLoaderExtension(p)) of its addons; others ignore "
+         "it. extras: half floats in a file beside -o that material.extras.lightmap names; opens "
+         "nowhere by itself, in three.js by material.lightMap = await new "
+         "KTX2Loader().loadAsync(uri), lightMap.channel = texCoord, lightMapIntensity = "
+         "intensity."},
+    {.id = OPTION_UNITS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--units",
+     .value = "irradiance|irradiance/pi|radiance",
+     .choices = "irradiance|irradiance/pi|radiance",
+     .help =
+         "What --lightmap-as stores; irradiance.exr in --maps-dir is always irradiance. "
+         "irradiance: E, for three.js (default). irradiance/pi: E / pi, for PlayCanvas, Godot, "
+         "Unity and Blender. radiance: albedo x E / pi + emission, what leaves the surface, for "
+         "Babylon.js; emissive is always that, moz never."},
+    {.id = OPTION_LIGHTMAP_FORMAT,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--lightmap-format",
+     .value = "ktx2|exr|hdr",
+     .choices = "ktx2|exr|hdr",
+     .initial = "ktx2",
+     .help = "Of --lightmap-as extras. ktx2: RGBA half floats, Zstandard, A is coverage; the right "
+             "way up in three.js. exr: RGB half floats, ZIP; set flipY in three.js, gammaSpace = "
+             "false and vScale = -1 in Babylon.js. hdr: Radiance RGBE, 8 bits and an exponent."},
     {.id = OPTION_BOUNCES,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,
@@ -676,10 +720,7 @@ static const option options[] = {
     // --- of the contract, not built yet ---------------------------------------------------------
     LATER(IN_BAKE, "--direct", "on|off|only", no_light),
     LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),
-    LATER(IN_BAKE, "--units", "irradiance|irradiance/pi|radiance", no_light),
     LATER(IN_BAKE, "--layers", NULL, no_light),
-    LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",
-          "occlusion is attached as the material's occlusion map"),
     LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),

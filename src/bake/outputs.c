@@ -81,8 +81,14 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
         }
-        ALP_TRY(alpi_gltf_check_packed_output(job->scene, pages, job->packing.count, o->output,
-                                              o->overwrite));
+        const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
+        const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
+                                         .packed = job->packing.count,
+                                         .light = lit ? pages : 0,
+                                         .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
+                                         .light_is_beside =
+                                             o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS};
+        ALP_TRY(alpi_gltf_check_outputs(job->scene, &images, o->output, o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -271,7 +277,8 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
 static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_page *out)
 {
     for (int kind = 0; kind < MAP_COUNT; kind++) {
-        const bool attached = kind == MAP_AO_PNG && job->options.output != NULL;
+        const bool attached = kind == MAP_AO_PNG && job->options.output != NULL &&
+                              (job->options.maps & ALP_MAP_AO) != 0;
         if (attached || is_written(&job->options, kind)) {
             ALP_TRY(encode_map(job, page, (map_kind)kind, out));
         }
@@ -309,6 +316,13 @@ static alp_result append_maps(const alpi_bake_job *job, const encoded_page *page
     return ALP_OK;
 }
 
+static alpi_light_form light_form(alp_lightmap_as as)
+{
+    return as == ALP_LIGHTMAP_AS_MOZ      ? ALPI_LIGHT_FORM_MOZ
+           : as == ALP_LIGHTMAP_AS_EXTRAS ? ALPI_LIGHT_FORM_EXTRAS
+                                          : ALPI_LIGHT_FORM_EMISSIVE;
+}
+
 static alp_result write_asset(const alpi_bake_job *job, const encoded_page *pages)
 {
     uint32_t count = job->lightmap->page_count;
@@ -327,6 +341,12 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             pngs[p] = pages[p].bytes[MAP_AO_PNG];
             sizes[p] = pages[p].sizes[MAP_AO_PNG];
         }
+        const alpi_light_patch light = {.form = light_form(job->options.lightmap_as),
+                                        .pages = (const uint8_t *const *)job->light_asset.files,
+                                        .page_sizes = job->light_asset.file_sizes,
+                                        .ending = alpi_bake_light_ending(&job->options),
+                                        .scales = job->light_asset.scales,
+                                        .units = alpi_bake_light_units(&job->options)};
         const alp_atlas *atlas = job->lightmap->atlas;
         bool keep = atlas->info.mode == ALP_ATLAS_KEEP;
         alpi_mesh_patch patch = {
@@ -335,8 +355,9 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .kept_uv_set = 1,
             .triangle_pages = atlas->triangle_pages,
             .originals = job->originals,
-            .page_pngs = pngs,
+            .page_pngs = (job->options.maps & ALP_MAP_AO) != 0 ? pngs : NULL,
             .page_png_sizes = sizes,
+            .light = job->light_asset.files != NULL ? &light : NULL,
             .existing_ao = job->options.existing_ao == ALP_EXISTING_AO_KEEP
                                ? ALPI_EXISTING_AO_KEEP
                                : ALPI_EXISTING_AO_REPLACE,

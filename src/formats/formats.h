@@ -35,9 +35,15 @@ alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch
 /// writable, not there already unless overwrite.
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite);
-/// The same for a patch with packed images.
-alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
-                                         uint32_t packed_count, const char *path, bool overwrite);
+/// Images that a patch brings.
+typedef struct alpi_gltf_images {
+    uint32_t occlusion, packed, light;
+    const char *light_ending; // ".png"; NULL without light
+    bool light_is_beside;     // a .glb too has them as files beside it
+} alpi_gltf_images;
+/// The same for a patch with other images than occlusion.
+alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                   const char *path, bool overwrite);
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
