@@ -2,6 +2,7 @@
 // Light as it goes into an asset: in the units asked for, over a scale, encoded.
 #include "bake/job.h"
 
+#include "base/half.h"
 #include "base/memory.h"
 #include "formats/formats.h"
 #include "maps/outgoing.h"
@@ -136,13 +137,12 @@ static void find_scales(const alpi_bake_job *job, float *const *values, float *s
 /// The least power of two, 1 or more, over which all values are finite half floats.
 static float find_half_scale(const alpi_bake_job *job, float *const *values)
 {
-    const float HALF_LIMIT = 65504.0f;
     float most = 0.0f, scale = 1.0f;
     for (uint32_t i = 0; i < job->lightmap->texels.count; i++) {
         const float *pixel = pixel_of(job, values, i);
         most = fmaxf(most, fmaxf(pixel[0], fmaxf(pixel[1], pixel[2])));
     }
-    while (most / scale > HALF_LIMIT && scale < 0x1p100f) {
+    while (most / scale > ALPI_HALF_MAX && scale < 0x1p100f) {
         scale *= 2.0f;
     }
     return scale;
@@ -191,7 +191,22 @@ static alp_result encode_page(alpi_bake_job *job, float *page, uint32_t number)
 {
     const alp_lightmap *l = job->lightmap;
     ALP_TRY(alpi_dilate(job->context, page, l->width, l->height));
-    return encode_bytes(job, page, number);
+    if (job->options.lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+        return encode_bytes(job, page, number);
+    }
+    const alp_image view = {.context = job->context,
+                            .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
+                            .pixels = page};
+    uint8_t **bytes = &job->light_asset.files[number];
+    size_t *size = &job->light_asset.file_sizes[number];
+    switch (job->options.lightmap_format) {
+    case ALP_LIGHTMAP_EXR:
+        return alpi_exr_encode_half(&view, job->light_asset.scale, bytes, size);
+    case ALP_LIGHTMAP_HDR:
+        return alpi_hdr_encode(&view, bytes, size);
+    default:
+        return alpi_ktx2_encode(&view, job->light_asset.scale, bytes, size);
+    }
 }
 
 static alp_result make_pages(alpi_bake_job *job, float **values)

@@ -192,6 +192,30 @@ static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
                         json_string(into[packed ? ALP_AO_INTO_ORM : ALP_AO_INTO_SEPARATE]));
 }
 
+/// Light that the asset carries.
+static json_t *describe_light(const alpi_bake_job *job)
+{
+    static const char *const names[] = {[ALP_LIGHTMAP_AS_EMISSIVE] = "emissive",
+                                        [ALP_LIGHTMAP_AS_MOZ] = "moz",
+                                        [ALP_LIGHTMAP_AS_EXTRAS] = "extras"};
+    const alp_bake_options *o = &job->options;
+    const alp_bake_report *r = &job->report;
+    const char *units = alpi_bake_light_units(o);
+    return json_pack(
+        "{s:s, s:s, s:s, s:f, s:i, s:o, s:b, s:I, s:o, s:s, s:i, s:i, s:i}", "as",
+        names[o->lightmap_as], "units", units, "unit",
+        strcmp(units, "irradiance") == 0 ? "W/m2" : "W/(sr m2)", "largest_scale",
+        (double)job->light_asset.scale, r->light_direct ? "samples_per_light" : "paths_per_texel",
+        (int)r->light_samples, "bounces",
+        o->light.bounces == ALP_BOUNCES_CONVERGE ? json_string("converge")
+                                                 : json_integer((json_int_t)o->light.bounces),
+        "one_sided", (int)o->occlusion.one_sided, "seed", (json_int_t)o->occlusion.seed,
+        "stated_relative_error",
+        isfinite(r->light_relative_error) ? json_real(r->light_relative_error) : json_null(),
+        "atlas", atlas_name(r->atlas.mode), "size", (int)r->atlas.width, "pages",
+        (int)r->atlas.pages, "padding", (int)o->atlas.padding);
+}
+
 /// Version, options, quantity, input hash.
 char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
@@ -213,6 +237,12 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
         (int)job->options.atlas.padding);
     add_sampling(job, json_object_get(object, "occlusion"));
     add_choice(job, object); // jansson takes NULL and does nothing
+    if ((job->options.maps & ALP_MAP_AO) == 0) {
+        json_object_del(object, "occlusion");
+    }
+    if (job->options.lightmap_as != ALP_LIGHTMAP_AS_NONE) {
+        json_object_set_new(object, "light", describe_light(job));
+    }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
     }
