@@ -358,17 +358,16 @@ static const option options[] = {
      .choices = "emissive|moz|extras",
      .later_choices = "three|babylon",
      .help =
-         "How light goes into -o, on a coordinate set of its own; needs --maps light. Switch the "
-         "file's lights off where it is shown: they are in it. emissive: what leaves each surface, "
-         "as emission in 8-bit sRGB with KHR_materials_emissive_strength, base colour 0; opens in "
-         "every glTF viewer, nothing to hook up; surfaces look alike from all sides. moz: "
-         "MOZ_lightmap, 8-bit linear x intensity, so that light below 1/255 of a material's "
-         "brightest is lost; opens in Hubs, and in three.js by "
-         "loader.register(p => new GLTFLightMapLoaderExtension(p)) of its addons; others ignore "
-         "it. extras: half floats in a file beside -o that material.extras.lightmap names; opens "
-         "nowhere by itself, in three.js by material.lightMap = await new "
-         "KTX2Loader().loadAsync(uri), lightMap.channel = texCoord, lightMapIntensity = "
-         "intensity."},
+         "How light goes into -o, read with a coordinate set of its own; needs --maps light. The "
+         "light of the file's lamps is in it: switch them off where it is shown. emissive: what "
+         "leaves each surface, as emission in 8-bit sRGB (KHR_materials_emissive_strength), base "
+         "colour 0, textures no finer than the map; opens in every glTF viewer, nothing to hook "
+         "up. moz: MOZ_lightmap, 8-bit linear in 255 steps to the brightest of each material; "
+         "opens in Hubs, and in three.js with loader.register(p => new "
+         "GLTFLightMapLoaderExtension(p)) of its addons; others ignore it. extras: half floats in "
+         "a file beside -o, which the extras of each material name; opens nowhere by itself; in "
+         "three.js: m.lightMap = await new KTX2Loader().detectSupport(renderer).loadAsync(uri), "
+         "m.lightMap.channel = texCoord, m.lightMapIntensity = intensity."},
     {.id = OPTION_UNITS,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
