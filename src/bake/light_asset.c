@@ -63,6 +63,9 @@ static const char *find_fault(const alp_bake_options *o)
     if (as == ALP_LIGHTMAP_AS_EMISSIVE && units_of(o) != ALP_LIGHT_RADIANCE) {
         return "what a material emits is radiance";
     }
+    if (as == ALP_LIGHTMAP_AS_EMISSIVE && o->light.direct == ALP_DIRECT_OFF) {
+        return "a black material shows no direct light: bake it too where light becomes emission";
+    }
     if (as == ALP_LIGHTMAP_AS_MOZ && units_of(o) == ALP_LIGHT_RADIANCE) {
         return "readers of MOZ_lightmap multiply by the albedo; give them irradiance";
     }

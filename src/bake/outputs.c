@@ -23,6 +23,8 @@ typedef enum map_kind {
     MAP_OBSCURANCE,
     MAP_IRRADIANCE,
     MAP_IRRADIANCE_ERROR,
+    MAP_DIRECT,
+    MAP_BOUNCED,
     MAP_COUNT
 } map_kind;
 
@@ -38,7 +40,9 @@ static const struct {
                           [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
                           [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"},
                           [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
-                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"}};
+                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"},
+                          [MAP_DIRECT] = {ALP_MAP_DIRECT, "irradiance.direct", ".exr"},
+                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", ".exr"}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -198,15 +202,19 @@ static json_t *describe_light(const alpi_bake_job *job)
     static const char *const names[] = {[ALP_LIGHTMAP_AS_EMISSIVE] = "emissive",
                                         [ALP_LIGHTMAP_AS_MOZ] = "moz",
                                         [ALP_LIGHTMAP_AS_EXTRAS] = "extras"};
+    static const char *const gatherers[] = {[ALP_GATHER_RAYS] = "rays",
+                                            [ALP_GATHER_HEMICUBE] = "hemicube",
+                                            [ALP_GATHER_PATHS] = "paths"};
     const alp_bake_options *o = &job->options;
     const alp_bake_report *r = &job->report;
     const char *units = alpi_bake_light_units(o);
-    return json_pack(
-        "{s:s, s:s, s:s, s:f, s:i, s:o, s:b, s:I, s:o, s:s, s:i, s:i, s:i}", "as",
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:f, s:s, s:s, s:i, s:o, s:b, s:I, s:o, s:s, s:i, s:i, s:i}", "as",
         names[o->lightmap_as], "units", units, "unit",
         strcmp(units, "irradiance") == 0 ? "W/m2" : "W/(sr m2)", "largest_scale",
-        (double)job->light_asset.scale, r->light_direct ? "samples_per_light" : "paths_per_texel",
-        (int)r->light_samples, "bounces",
+        (double)job->light_asset.scale, "gather", gatherers[o->light.gather], "direct",
+        o->light.direct == ALP_DIRECT_OFF ? "off" : "on", "samples", (int)r->light_samples,
+        "bounces",
         o->light.bounces == ALP_BOUNCES_CONVERGE ? json_string("converge")
                                                  : json_integer((json_int_t)o->light.bounces),
         "one_sided", (int)o->occlusion.one_sided, "seed", (json_int_t)o->occlusion.seed,
@@ -214,6 +222,10 @@ static json_t *describe_light(const alpi_bake_job *job)
         isfinite(r->light_relative_error) ? json_real(r->light_relative_error) : json_null(),
         "atlas", atlas_name(r->atlas.mode), "size", (int)r->atlas.width, "pages",
         (int)r->atlas.pages, "padding", (int)o->atlas.padding);
+    if (r->light_direct) {
+        json_object_del(object, "gather"); // nothing was
+    }
+    return object;
 }
 
 /// Version, options, quantity, input hash.
@@ -288,6 +300,8 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                           : kind == MAP_OBSCURANCE       ? l->obscurance_pages
                           : kind == MAP_IRRADIANCE       ? l->irradiance_pages
                           : kind == MAP_IRRADIANCE_ERROR ? l->irradiance_error_pages
+                          : kind == MAP_DIRECT           ? l->direct_pages
+                          : kind == MAP_BOUNCED          ? l->bounced_pages
                                                          : NULL;
     if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,

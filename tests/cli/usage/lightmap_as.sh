@@ -13,6 +13,7 @@ bake -o out.glb --maps light --lightmap-as moz --units radiance
 bake -o out.glb --maps light --lightmap-as moz --units E
 bake -o out.glb --maps light --lightmap-as moz --lightmap-format exr
 bake -o out.glb --maps ao,light --lightmap-as moz --ao-into orm
+bake -o out.glb --maps light --lightmap-as emissive --direct off
 bake -o out.glb --maps light --lightmap-as three
 bake -o out.glb --maps light
 bake -o out.glb --maps bent,light --lightmap-as moz

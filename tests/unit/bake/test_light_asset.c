@@ -359,8 +359,8 @@ static void choices_without_meaning_are_refused(void **state)
     orm_bake p = start(plain, ALP_LIGHTMAP_AS_EMISSIVE);
     p.options.output = p.path;
     const alp_bake_options good = p.options;
-    alp_bake_options bad[9];
-    for (int i = 0; i < 9; i++) {
+    alp_bake_options bad[10];
+    for (int i = 0; i < 10; i++) {
         bad[i] = good;
     }
     bad[0].lightmap_as = (alp_lightmap_as)9;
@@ -374,7 +374,8 @@ static void choices_without_meaning_are_refused(void **state)
     bad[7].maps |= ALP_MAP_AO;
     bad[7].ao_into = ALP_AO_INTO_ORM;
     bad[8].output = NULL;
-    for (int i = 0; i < 9; i++) {
+    bad[9].light.direct = ALP_DIRECT_OFF; // a black material shows no other light
+    for (int i = 0; i < 10; i++) {
         assert_int_equal(alp_bake(p.scene, &bad[i], NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     }
     orm_stop(&p);
