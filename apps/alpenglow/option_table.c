@@ -404,7 +404,8 @@ static const option options[] = {
          "colour 0, textures no finer than the map; opens in every glTF viewer, nothing to hook "
          "up. moz: MOZ_lightmap, 8-bit linear in 255 steps to the brightest of each material; "
          "opens in Hubs, and in three.js with loader.register(p => new "
-         "GLTFLightMapLoaderExtension(p)) of its addons; others ignore it. extras: half floats in "
+         "GLTFLightMapLoaderExtension(p)), an addon after r187; others ignore it. extras: half "
+         "floats in "
          "a file beside -o, which the extras of each material name; opens nowhere by itself; in "
          "three.js: m.lightMap = await new KTX2Loader().detectSupport(renderer).loadAsync(uri), "
          "m.lightMap.channel = texCoord, m.lightMapIntensity = intensity."},
