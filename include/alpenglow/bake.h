@@ -179,6 +179,10 @@ typedef struct alp_bake_options {
     alp_light_units light_units;           ///< of lightmap_as
     alp_lightmap_format lightmap_format;   ///< of EXTRAS, else KTX2
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
+    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
+    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
+    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
+    bool ao_self;
     /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
     /// A surface is named like its node (like the mesh of a node without a name, "node N" without
     /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
@@ -187,10 +191,6 @@ typedef struct alp_bake_options {
     const char *only;
     /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
     const char *occluders;
-    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
-    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
-    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
-    bool ao_self;
     const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and

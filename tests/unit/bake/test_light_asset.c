@@ -232,8 +232,8 @@ static void moz_is_irradiance_over_its_intensity(void **state)
         }
         alp_image *image = NULL; // the asset's reader takes no notice of it
         const alpi_gltf_document *document = orm_document(p.result);
-        const size_t begin = (size_t)atol(orm_text(&p, "bufferViews/8/byteOffset"));
-        const size_t size = (size_t)atol(orm_text(&p, "bufferViews/8/byteLength"));
+        const size_t begin = strtoul(orm_text(&p, "bufferViews/8/byteOffset"), NULL, 10);
+        const size_t size = strtoul(orm_text(&p, "bufferViews/8/byteLength"), NULL, 10);
         ASSERT_OK(p.context,
                   alpi_png_decode(p.context, "light", document->bin + begin, size, &image));
         for (uint32_t i = 0; i < p.lightmap->texels.count; i++) {
