@@ -183,6 +183,7 @@ typedef struct alp_bake_options {
     /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
     /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
     bool ao_self;
+    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
     /// A surface is named like its node (like the mesh of a node without a name, "node N" without
     /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
@@ -198,7 +199,6 @@ typedef struct alp_bake_options {
     /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_ATLAS_VERTEX:
     /// NULL.
     const char *maps_folder;
-    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
     /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work
