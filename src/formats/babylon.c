@@ -68,10 +68,11 @@ static void print_lightmap(writer *w, uint32_t page)
 {
     alpi_bytes_print(&w->text, ",\"useLightmapAsShadowmap\":true,\"lightmapTexture\":{\"name\":");
     alpi_bytes_quote(&w->text, w->page_names[page]);
-    alpi_bytes_print(&w->text,
-                     ",\"coordinatesIndex\":%d,\"vScale\":-1,\"vOffset\":1,\"wrapU\":%d,"
-                     "\"wrapV\":%d,\"noMipmap\":true,\"samplingMode\":%d}",
-                     SET_LIGHT, WRAP_CLAMP, WRAP_CLAMP, SAMPLING_BILINEAR);
+    alpi_bytes_print(
+        &w->text,
+        ",\"coordinatesIndex\":%d,\"vScale\":-1,\"vOffset\":1,\"wrapU\":%d,"
+        "\"wrapV\":%d,\"noMipmap\":true,\"samplingMode\":%d,\"anisotropicFilteringLevel\":1}",
+        SET_LIGHT, WRAP_CLAMP, WRAP_CLAMP, SAMPLING_BILINEAR);
 }
 
 static void print_alpha(alpi_bytes *text, const alpi_material *material)
@@ -179,7 +180,8 @@ static void print_meshes(writer *w)
                          part->slot);
         print_vertices(w, part);
         alpi_bytes_print(text, ",\"indices\":[");
-        alpi_lightmap_print_indices(text, &w->parts, part);
+        // In a right-handed scene too triangles of Babylon.js wind clockwise.
+        alpi_lightmap_print_indices(text, &w->parts, part, true);
         alpi_bytes_print(text,
                          "],\"subMeshes\":[{\"materialIndex\":0,\"verticesStart\":0,"
                          "\"verticesCount\":%u,\"indexStart\":0,\"indexCount\":%u}]}",

@@ -245,10 +245,12 @@ void alpi_lightmap_print_light_uvs(alpi_bytes *text, const alpi_lightmap_parts *
 }
 
 void alpi_lightmap_print_indices(alpi_bytes *text, const alpi_lightmap_parts *parts,
-                                 const alpi_lightmap_part *part)
+                                 const alpi_lightmap_part *part, bool clockwise)
 {
-    for (uint32_t i = 0; i < part->index_count; i++) {
-        alpi_bytes_print(text, i > 0 ? ",%u" : "%u", parts->indices[part->first_index + i]);
+    for (uint32_t i = 0; i < part->index_count; i += 3) {
+        const uint32_t *corners = parts->indices + part->first_index + i;
+        alpi_bytes_print(text, "%s%u,%u,%u", i > 0 ? "," : "", corners[0],
+                         corners[clockwise ? 2 : 1], corners[clockwise ? 1 : 2]);
     }
 }
 

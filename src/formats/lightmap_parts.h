@@ -49,8 +49,9 @@ void alpi_lightmap_print_uvs(alpi_bytes *text, const alpi_lightmap_parts *parts,
                              const alpi_lightmap_part *part, const alpi_texture *texture);
 void alpi_lightmap_print_light_uvs(alpi_bytes *text, const alpi_lightmap_parts *parts,
                                    const alpi_lightmap_part *part);
+/// @param clockwise seen from outside, against the scene's order
 void alpi_lightmap_print_indices(alpi_bytes *text, const alpi_lightmap_parts *parts,
-                                 const alpi_lightmap_part *part);
+                                 const alpi_lightmap_part *part, bool clockwise);
 /// `count` numbers with commas between, each as short as brings the float back.
 void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t count);
 

@@ -96,7 +96,7 @@ static void print_geometries(writer *w)
                          comma(i), i);
         print_attributes(w, &w->parts.parts[i]);
         alpi_bytes_print(&w->text, "},\"index\":{\"type\":\"Uint32Array\",\"array\":[");
-        alpi_lightmap_print_indices(&w->text, &w->parts, &w->parts.parts[i]);
+        alpi_lightmap_print_indices(&w->text, &w->parts, &w->parts.parts[i], false);
         alpi_bytes_print(&w->text, "]}}}");
     }
     alpi_bytes_print(&w->text, "]");
