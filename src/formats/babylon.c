@@ -10,6 +10,9 @@
 /// Constants of Babylon.js.
 enum { WRAP_CLAMP = 0, WRAP_REPEAT = 1, WRAP_MIRROR = 2 };
 enum { SAMPLING_BILINEAR = 2 };
+/// Its reader (9.34) refuses pictures that are less than 8 wide, and loses the header of a file of
+/// less than a hundred bytes: it shows a red picture instead.
+enum { SIDE_LEAST = 8 };
 /// Sets of coordinates: texture.coordinatesIndex.
 enum { SET_COLOR = 0, SET_LIGHT = 1, SET_EMISSION = 2 };
 
@@ -216,6 +219,12 @@ static void print_cameras(writer *w)
 
 static alp_result fill(writer *w)
 {
+    if (w->light->width < SIDE_LEAST || w->light->height < SIDE_LEAST) {
+        return alpi_fail(w->context, ALP_ERROR_UNSUPPORTED,
+                         "%s: a map of %u × %u texels is too small for Babylon.js; make it %d or "
+                         "more",
+                         w->scene->name, w->light->width, w->light->height, SIDE_LEAST);
+    }
     ALP_TRY(alpi_lightmap_parts_create(w->scene, w->light, &w->parts));
     alpi_lightmap_warn_of_metal(&w->parts);
     alpi_bytes_print(&w->text,

@@ -62,6 +62,7 @@ alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *lig
                              size_t *size);
 /// The same as a .babylon file, whose maps are the Radiance pictures `page_names` beside it:
 /// PBRMaterial with useLightmapAsShadowmap, T = E/π.
+/// @return also UNSUPPORTED (pages of less than 8 × 8 texels)
 alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
                                const char *const *page_names, uint8_t **bytes, size_t *size);
 /// One of those pictures.
