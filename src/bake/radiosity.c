@@ -2,6 +2,7 @@
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
 #include "bake/light.h"
 
+#include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/radiosity.h"
@@ -10,7 +11,7 @@
 
 #include <math.h>
 
-enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16, REPLICATES = 4, DIRECT_SAMPLES = 16 };
+enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16, REPLICATES = 4, DIRECT_SAMPLES = 64 };
 
 /// How blocks gather, and how texels do.
 typedef struct light_gatherers {
@@ -68,9 +69,11 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-/// The last bounce, gathered from the texels themselves.
+/// The last bounce, and a soft sky, gathered from the texels themselves.
+/// @param skies [texels] out: what of it is the sky's
 static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
-                                const alpi_gatherer *gatherer, const alpi_radiosity *solution)
+                                const alpi_gatherer *gatherer, const alpi_radiosity *solution,
+                                float (*skies)[3])
 {
     const alpi_gather_scene from = alpi_radiosity_scene(solution);
     const alpi_gather_job gather = {.context = job->context,
@@ -79,7 +82,8 @@ static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
                                     .receivers = t->receivers,
                                     .list = t->order,
                                     .count = t->count,
-                                    .values = t->values};
+                                    .values = t->values,
+                                    .skies = skies};
     job->report.light_samples = gatherer->packet_count * ALPI_PACKET;
     job->report.rays += (uint64_t)t->count * job->report.light_samples;
     return alpi_gather_irradiance(&gather, &t->progress);
@@ -87,7 +91,7 @@ static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
 static void add_direct(const alpi_bake_job *job, const alpi_light_task *t,
-                       const alpi_radiosity *solution)
+                       const alpi_radiosity *solution, const float (*skies)[3])
 {
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
     for (uint32_t i = 0; i < t->count; i++) {
@@ -95,18 +99,19 @@ static void add_direct(const alpi_bake_job *job, const alpi_light_task *t,
         const alpi_reference_value *direct = &solution->direct[texel];
         alpi_reference_value *value = &t->values[texel];
         for (int k = 0; k < 3; k++) {
+            const float sky = skies[texel][k], bounced = value->mean[k] - sky;
             if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k];
-                job->bounced[texel][k] = value->mean[k];
+                job->direct[texel][k] = direct->mean[k] + sky;
+                job->bounced[texel][k] = bounced;
             }
-            value->mean[k] += on ? direct->mean[k] : 0.0f;
+            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
             value->variance[k] += on ? direct->variance[k] : 0.0f;
         }
     }
 }
 
 static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g)
+                               const light_gatherers *g, const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
     const alpi_radiosity_options options = {
@@ -114,6 +119,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
         .scene = job->scene,
         .tracer = t->tracer,
         .lighting = t->lighting,
+        .direct = direct,
         .filter = {.one_sided = o->occlusion.one_sided},
         .gatherer = &g->blocks,
         .bounces = o->light.bounces,
@@ -127,11 +133,39 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
-    const alp_result result = gather_texels(job, t, &g->texels, &solution);
+    float(*skies)[3] = alpi_allocate(job->context, t->receivers->count, sizeof *skies);
+    alp_result result = skies != NULL ? gather_texels(job, t, &g->texels, &solution, skies)
+                                      : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
-        add_direct(job, t, &solution);
+        add_direct(job, t, &solution, (const float(*)[3])skies);
     }
+    alpi_release(job->context, skies);
     alpi_radiosity_destroy(&solution);
+    return result;
+}
+
+/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
+/// mix the two.
+static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
+{
+    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
+    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
+           !alpi_tracer_has_panes(tracer);
+}
+
+/// The light that is looked for directly: all, or all but a soft sky.
+static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
+                                  const light_gatherers *g)
+{
+    if (!has_soft_sky(job, t->tracer)) {
+        return gather_light(job, t, g, t->lighting);
+    }
+    alp_lighting_options options = job->options.light.lighting;
+    alpi_lighting *direct = NULL;
+    options.sky.kind = ALP_SKY_NONE;
+    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
+    const alp_result result = gather_light(job, t, g, direct);
+    alpi_lighting_destroy(job->context, direct);
     return result;
 }
 
@@ -140,7 +174,7 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, &gatherers);
     if (result == ALP_OK) {
-        result = gather_light(job, task, &gatherers);
+        result = gather_with_sky(job, task, &gatherers);
     }
     alpi_hemicube_destroy(gatherers.block_cube);
     alpi_hemicube_destroy(gatherers.texel_cube);
