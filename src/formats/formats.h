@@ -35,9 +35,15 @@ alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch
 /// writable, not there already unless overwrite.
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite);
-/// The same for a patch with packed images.
-alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
-                                         uint32_t packed_count, const char *path, bool overwrite);
+/// Images that a patch brings.
+typedef struct alpi_gltf_images {
+    uint32_t occlusion, packed, light;
+    const char *light_ending; // ".png"; NULL without light
+    bool light_is_beside;     // a .glb too has them as files beside it
+} alpi_gltf_images;
+/// The same for a patch with other images than occlusion.
+alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                   const char *path, bool overwrite);
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
@@ -86,6 +92,12 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
 /// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR and HDR floats.
 alp_result alpi_png_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
+/// Half floats of red, green and blue (of four channels, without alpha): nearest, ties to even. The
+/// header says "alpenglowScale", what 1 stands for, where that is not 1.
+alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **bytes, size_t *size);
+/// RGBA16F with the first row at the top, one level, Zstandard; halves as above, and so the key
+/// "alpenglowScale", a power of two as text. Takes float images of four channels.
+alp_result alpi_ktx2_encode(const alp_image *image, float scale, uint8_t **bytes, size_t *size);
 /// Without alpha; what the format cannot hold is clamped, with a warning (hdr-range).
 alp_result alpi_hdr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // three.js Object JSON, format 4: geometries, materials, textures, images and the tree of objects,
 // as ObjectLoader reads them. Names in place of UUIDs: the same scene gives the same bytes.
-#include "formats/half.h"
 #include "formats/lightmap_parts.h"
 #include "formats/look.h"
 
+#include "base/half.h"
 #include "base/memory.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# run.sh PROGRAM: lets it write a scene with its lightmap, opens that in a browser and compares
-# pixels. 77 = skipped.
+# run.sh PROGRAM ALPENGLOW: lets both write a scene with its lightmap, opens that in a browser and
+# compares pixels. 77 = skipped.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 for tool in node "${CHROMIUM:-chromium}"; do
@@ -19,4 +19,13 @@ done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$1" "$folder"
+command=$2
+bake() { # file, form of the light
+    "$command" bake builtin:cornell --size 64 --maps light --samples 256 -q \
+        -o "$folder/$1" --lightmap-as "$2"
+}
+bake command.json three
+cmp "$folder/command.json" "$folder/cornell.json" # the bake whose pixels are known
+bake cornell.babylon babylon
+bake cornell.glb emissive
 node "$here/compare.mjs" "$folder"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// write_scene FOLDER: bakes the Cornell box, writes it there as viewers open it, and writes down
-// what pixels of a picture must be: albedo, irradiance where the pixel's ray ends, emission.
+// write_scene FOLDER: bakes the Cornell box, writes it there for three.js, and writes down what
+// pixels of a picture must be: albedo, irradiance where the pixel's ray ends, emission.
 #include "test_support.h"
 
 #include "atlas/atlas.h"
@@ -58,28 +58,13 @@ static void bake(job *j)
     }
 }
 
-static void save(const job *j, const char *folder, const char *name, uint8_t *bytes, size_t size)
-{
-    check(j, alpi_file_write(j->context, test_path(folder, name), true, bytes, size));
-    alpi_release(j->context, bytes);
-}
-
-static void write_files(const job *j, const char *folder)
+static void write_file(const job *j, const char *folder)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
-    char names[16][32];
-    const char *pointers[16];
-    for (uint32_t p = 0; p < j->light.page_count; p++) {
-        snprintf(names[p], sizeof names[p], "cornell.%u.hdr", p);
-        pointers[p] = names[p];
-        check(j, alpi_babylon_encode_page(j->scene, &j->light, p, &bytes, &size));
-        save(j, folder, names[p], bytes, size);
-    }
     check(j, alpi_three_encode(j->scene, &j->light, &bytes, &size));
-    save(j, folder, "cornell.json", bytes, size);
-    check(j, alpi_babylon_encode(j->scene, &j->light, pointers, &bytes, &size));
-    save(j, folder, "cornell.babylon", bytes, size);
+    check(j, alpi_file_write(j->context, test_path(folder, "cornell.json"), true, bytes, size));
+    alpi_release(j->context, bytes);
 }
 
 // --- what the pixels are -------------------------------------------------------------------------
@@ -213,7 +198,8 @@ static json_t *describe(const job *j, const view *at, int x, int y)
     double irradiance[3], spread[3], drift[3] = {0.0, 0.0, 0.0};
     read_map(j, at, irradiance, spread);
     read_drift(j, x, y, irradiance, drift);
-    json_t *pixel = json_pack("{s:i,s:i,s:s}", "x", x, "y", y, "surface", s->name);
+    json_t *pixel = json_pack("{s:i,s:i,s:s,s:s}", "x", x, "y", y, "surface", s->name, "material",
+                              j->scene->materials[s->material].name);
     add_triple(pixel, "albedo", (double)albedo.x, (double)albedo.y, (double)albedo.z);
     add_triple(pixel, "emission", (double)emission[0], (double)emission[1], (double)emission[2]);
     add_triple(pixel, "irradiance", irradiance[0], irradiance[1], irradiance[2]);
@@ -256,7 +242,7 @@ int main(int argc, char **argv)
     }
     job j = {0};
     bake(&j);
-    write_files(&j, argv[1]);
+    write_file(&j, argv[1]);
     write_pixels(&j, argv[1]);
     alp_lightmap_destroy(j.lightmap);
     alp_scene_destroy(j.scene);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Scenes with baked light as three.js and Babylon.js files, parsed back by another reader: the same
-// triangles, coordinates, light and colours; half floats against their definition.
+// triangles, coordinates, light and colours.
 #include "test_support.h"
 
 #include "base/memory.h"
 #include "formats/formats.h"
 #include "formats/gltf_splice.h"
-#include "formats/half.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -133,26 +132,6 @@ static double half_value(uint32_t half)
 }
 
 // --- numbers -------------------------------------------------------------------------------------
-
-static void halves_are_the_nearest(void **state)
-{
-    (void)state;
-    for (uint32_t h = 0; h < 0x7c00; h++) {
-        float value = (float)half_value(h);
-        assert_int_equal(alpi_half_from_float(value), h);
-        assert_int_equal(alpi_half_from_float(-value), h | 0x8000);
-        if (h + 1 < 0x7c00) { // the middle is a float, and goes to the even one
-            float middle = (float)(0.5 * (half_value(h) + half_value(h + 1)));
-            assert_int_equal(alpi_half_from_float(middle), h + (h & 1));
-            assert_int_equal(alpi_half_from_float(nextafterf(middle, 0.0f)), h);
-            assert_int_equal(alpi_half_from_float(nextafterf(middle, INFINITY)), h + 1);
-        }
-    }
-    assert_int_equal(alpi_half_from_float(65520.0f), 0x7bff); // half way to infinity
-    assert_int_equal(alpi_half_from_float(1e9f), 0x7bff);
-    assert_int_equal(alpi_half_from_float(INFINITY), 0x7bff);
-    assert_int_equal(alpi_half_from_float(NAN), 0);
-}
 
 static void floats_come_back(void **state)
 {
@@ -564,11 +543,15 @@ static void memory_may_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(halves_are_the_nearest),     cmocka_unit_test(floats_come_back),
-        cmocka_unit_test(three_holds_the_scene),      cmocka_unit_test(three_has_the_camera),
-        cmocka_unit_test(units_and_faults),           cmocka_unit_test(vertices_are_shared),
-        cmocka_unit_test(babylon_holds_the_scene),    cmocka_unit_test(babylon_pages_are_radiance),
-        cmocka_unit_test(textures_come_along),        cmocka_unit_test(memory_may_end),
+        cmocka_unit_test(floats_come_back),
+        cmocka_unit_test(three_holds_the_scene),
+        cmocka_unit_test(three_has_the_camera),
+        cmocka_unit_test(units_and_faults),
+        cmocka_unit_test(vertices_are_shared),
+        cmocka_unit_test(babylon_holds_the_scene),
+        cmocka_unit_test(babylon_pages_are_radiance),
+        cmocka_unit_test(textures_come_along),
+        cmocka_unit_test(memory_may_end),
         cmocka_unit_test(babylon_wants_eight_texels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
