@@ -428,6 +428,10 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     } else {
         printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
     }
+    if (r->light_interpolated > 0) {
+        printf("; %.0f %% of the texels gathered, the rest interpolated",
+               100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
+    }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
     if (isfinite(r->light_relative_error)) {
         printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);

@@ -249,7 +249,8 @@ typedef struct alp_bake_report {
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_mean; NaN if dark, and of hemicubes, which do not tell.
     double light_relative_error, light_p99_error;
-    uint32_t light_passes; ///< of radiosity, one a bounce; else 0
+    uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
+    uint32_t light_passes;                     ///< of radiosity, one a bounce; else 0
     /// Of each of the first 64 passes, the mean change of the light over its mean.
     float light_changes[64];
     alp_light_energy light_energy;

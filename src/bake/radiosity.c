@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "maps/bounced_map.h"
 #include "maps/radiosity.h"
 #include "transport/cosine_rays.h"
 #include "transport/hemicube.h"
@@ -80,13 +81,26 @@ static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
                                     .from = &from,
                                     .gatherer = gatherer,
                                     .receivers = t->receivers,
-                                    .list = t->order,
-                                    .count = t->count,
                                     .values = t->values,
                                     .skies = skies};
+    const alpi_bounced_options options = {
+        .gather = &gather,
+        .order = t->order,
+        .count = t->count,
+        .near = job->validity.near,
+        .adaptive = gatherer->replicates > 1 && job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+    };
+    alpi_bounced_report report = {0};
+    uint8_t *states = ALPI_NEW(job->context, uint8_t, t->receivers->count);
+    const alp_result result =
+        states != NULL ? alpi_bounced_map(&options, t->lattice, &t->progress, states, &report)
+                       : ALP_ERROR_OUT_OF_MEMORY;
+    alpi_release(job->context, states);
     job->report.light_samples = gatherer->packet_count * ALPI_PACKET;
-    job->report.rays += (uint64_t)t->count * job->report.light_samples;
-    return alpi_gather_irradiance(&gather, &t->progress);
+    job->report.light_traced = report.traced;
+    job->report.light_interpolated = report.interpolated;
+    job->report.rays += report.rays;
+    return result;
 }
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
