@@ -10,10 +10,20 @@
 #include <math.h>
 #include <string.h>
 
-static int check_output_name(const char *path)
+static int check_output_name(const char *path, alp_lightmap_as as)
 {
-    if (path == NULL || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
+    const bool viewer = as == ALP_LIGHTMAP_AS_THREE || as == ALP_LIGHTMAP_AS_BABYLON;
+    const char *ending = as == ALP_LIGHTMAP_AS_THREE ? ".json" : ".babylon";
+    if (viewer && path != NULL && !path_ends(path, ending)) {
+        return usage_error(COMMAND_BAKE, "-o %s: with --lightmap-as %s the name must end in %s",
+                           path, as == ALP_LIGHTMAP_AS_THREE ? "three" : "babylon", ending);
+    }
+    if (path == NULL || viewer || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
         return EXIT_DONE;
+    }
+    if (path_ends(path, ".json") || path_ends(path, ".babylon")) {
+        return usage_error(COMMAND_BAKE, "-o %s: needs --maps light --lightmap-as %s", path,
+                           path_ends(path, ".json") ? "three" : "babylon");
     }
     if (path_ends(path, ".dae") || path_ends(path, ".obj")) {
         return usage_error(COMMAND_BAKE, "-o %s: %s is not built yet; write .glb or .gltf", path,
@@ -133,10 +143,21 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "--lightmap-as: puts light into -o; needs %s",
                            o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
     }
+    const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
     if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+        return usage_error(COMMAND_BAKE, "--lightmap-format: is of --lightmap-as extras; %s %s",
+                           as->text, viewer ? "has its own" : "is a PNG inside the asset");
+    }
+    if (units->given && viewer) {
         return usage_error(COMMAND_BAKE,
-                           "--lightmap-format: is of --lightmap-as extras; %s is a "
-                           "PNG inside the asset",
+                           "--units: has no meaning with --lightmap-as %s, whose "
+                           "viewer takes one kind",
+                           as->text);
+    }
+    if (viewer && (values[OPTION_MAPS].whole & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps ao: --lightmap-as %s holds light alone; give "
+                           "--maps-dir DIR",
                            as->text);
     }
     if (o->ao_into == ALP_AO_INTO_ORM) {
@@ -312,10 +333,8 @@ static int read_options(const command_line *a, alp_bake_options *o, lamp_list *l
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    if (code == EXIT_DONE) {
-        code = check_output_name(o->output);
-    }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
+    code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
     code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;

@@ -65,7 +65,8 @@ static const option options[] = {
      .name = "-o",
      .alias = "--output",
      .value = "OUT.glb|OUT.gltf",
-     .help = "The baked scene. A .gltf gets its buffers and images beside it. Without -o, "
+     .help = "The baked scene (OUT.json, OUT.babylon: see --lightmap-as). A .gltf gets its buffers "
+             "and images beside it. Without -o, "
              "--maps-dir must be given. OUT.dae and OUT.obj are not built yet."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
@@ -401,9 +402,8 @@ static const option options[] = {
      .group = GROUP_LIGHT,
      .kind = KIND_CHOICE,
      .name = "--lightmap-as",
-     .value = "emissive|moz|extras",
-     .choices = "emissive|moz|extras",
-     .later_choices = "three|babylon",
+     .value = "emissive|moz|extras|three|babylon",
+     .choices = "emissive|moz|extras|three|babylon",
      .help =
          "How light goes into -o, read with a coordinate set of its own; needs --maps light. The "
          "light of the file's lamps is in it: switch them off where it is shown, or bake --direct "
@@ -417,7 +417,11 @@ static const option options[] = {
          "floats in "
          "a file beside -o, which the extras of each material name; opens nowhere by itself; in "
          "three.js: m.lightMap = await new KTX2Loader().detectSupport(renderer).loadAsync(uri), "
-         "m.lightMap.channel = texCoord, m.lightMapIntensity = intensity."},
+         "m.lightMap.channel = texCoord, m.lightMapIntensity = intensity. three: -o OUT.json, the "
+         "scene as three.js Object JSON with half floats; opens in three.js with new "
+         "ObjectLoader().loadAsync(url), nothing to hook up. babylon: -o OUT.babylon with OUT.hdr "
+         "beside it; opens in Babylon.js with AppendSceneAsync(url, scene). Both have no lamps "
+         "beside the light."},
     {.id = OPTION_UNITS,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,

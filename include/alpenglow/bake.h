@@ -50,7 +50,15 @@ typedef enum alp_lightmap_as {
     ALP_LIGHTMAP_AS_MOZ,
     /// Files beside the asset (alp_lightmap_format), which the extras of the materials name:
     /// "lightmap": {"uri", "texCoord", "intensity", "units"}; texel × intensity.
-    ALP_LIGHTMAP_AS_EXTRAS
+    ALP_LIGHTMAP_AS_EXTRAS,
+    /// In the place of an asset three.js Object JSON (`output` ends in .json), which ObjectLoader
+    /// opens as it is (r155 or later): surfaces in world space as MeshLambertMaterial, whose colour
+    /// has 8 bits of sRGB, with a lightMap of half floats, lightMap × lightMapIntensity = E. Lights
+    /// of the file are left out, so are textures of metalness (lightmap-metal), and occlusion.
+    ALP_LIGHTMAP_AS_THREE,
+    /// The same as a .babylon file and Radiance pictures beside it, OUT.hdr, OUT.1.hdr …, E/π, of
+    /// at least 8 × 8 texels: PBRMaterial with useLightmapAsShadowmap and white ambient light.
+    ALP_LIGHTMAP_AS_BABYLON
 } alp_lightmap_as;
 
 /// What the numbers of light in an asset are; irradiance.exr is always irradiance.

@@ -112,6 +112,11 @@ alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
 void alpi_bake_release_light_asset(alpi_bake_job *job);
 /// Bytes that making it takes at its peak, besides the encoded ones.
 uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
+/// Whether a viewer's own file is written in the place of an asset (viewer_file.c).
+bool alpi_bake_is_viewer_file(const alp_bake_options *options);
+/// Its ending, and that all its files can be written.
+alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages);
+alp_result alpi_bake_write_viewer_file(const alpi_bake_job *job);
 /// ".png", ".ktx2" …
 const char *alpi_bake_light_ending(const alp_bake_options *options);
 /// "irradiance" …

@@ -41,7 +41,7 @@ const char *alpi_bake_light_ending(const alp_bake_options *options)
 static const char *find_fault(const alp_bake_options *o)
 {
     const alp_lightmap_as as = o->lightmap_as;
-    if ((int)as < ALP_LIGHTMAP_AS_NONE || as > ALP_LIGHTMAP_AS_EXTRAS ||
+    if ((int)as < ALP_LIGHTMAP_AS_NONE || as > ALP_LIGHTMAP_AS_BABYLON ||
         (int)o->light_units < ALP_LIGHT_UNITS_AUTO || o->light_units > ALP_LIGHT_RADIANCE ||
         (int)o->lightmap_format < ALP_LIGHTMAP_KTX2 || o->lightmap_format > ALP_LIGHTMAP_HDR) {
         return "unknown form, units or format of light in an asset";
@@ -59,6 +59,9 @@ static const char *find_fault(const alp_bake_options *o)
     }
     if (as != ALP_LIGHTMAP_AS_EXTRAS && o->lightmap_format != ALP_LIGHTMAP_KTX2) {
         return "a format is of light that extras name; an image in glTF is a PNG";
+    }
+    if (alpi_bake_is_viewer_file(o) && o->light_units != ALP_LIGHT_UNITS_AUTO) {
+        return "what its viewer multiplies is what is written; leave the units alone";
     }
     if (as == ALP_LIGHTMAP_AS_EMISSIVE && units_of(o) != ALP_LIGHT_RADIANCE) {
         return "what a material emits is radiance";
@@ -85,7 +88,7 @@ uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_bak
     const uint64_t page = (uint64_t)atlas->width * atlas->height;
     const uint64_t work =
         (int)BYTES_OF_CODE > (int)ALPI_OUTGOING_BYTES ? BYTES_OF_CODE : ALPI_OUTGOING_BYTES;
-    return options->lightmap_as == ALP_LIGHTMAP_AS_NONE
+    return options->lightmap_as == ALP_LIGHTMAP_AS_NONE || alpi_bake_is_viewer_file(options)
                ? 0
                : BYTES_OF_VALUES * page * atlas->pages + work * page;
 }
@@ -249,7 +252,8 @@ static void tell_glass(const alpi_bake_job *job)
 
 alp_result alpi_bake_make_light_asset(alpi_bake_job *job)
 {
-    if (job->options.lightmap_as == ALP_LIGHTMAP_AS_NONE) {
+    if (job->options.lightmap_as == ALP_LIGHTMAP_AS_NONE ||
+        alpi_bake_is_viewer_file(&job->options)) {
         return ALP_OK;
     }
     alpi_light_asset *asset = &job->light_asset;

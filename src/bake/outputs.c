@@ -80,7 +80,9 @@ static alp_result check_map(alp_context *context, const char *folder, uint32_t p
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
-    if (o->output != NULL) {
+    if (o->output != NULL && alpi_bake_is_viewer_file(o)) {
+        ALP_TRY(alpi_bake_check_viewer_file(job, pages));
+    } else if (o->output != NULL) {
         if (!is_gltf_path(o->output)) {
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
@@ -434,7 +436,8 @@ static alp_result write_files(const alpi_bake_job *job, const encoded_page *page
     }
     alp_result result = count > 0 ? append_maps(job, pages, writers) : ALP_OK;
     if (result == ALP_OK && job->options.output != NULL) {
-        result = write_asset(job, pages);
+        result = alpi_bake_is_viewer_file(&job->options) ? alpi_bake_write_viewer_file(job)
+                                                         : write_asset(job, pages);
     }
     for (uint32_t i = 0; i < count; i++) {
         if (result == ALP_OK && writers[i].path != NULL) { // one that was opened

@@ -7,6 +7,8 @@ bake() {
 bake -o emissive.gltf --lightmap-as emissive
 bake -o moz.gltf --lightmap-as moz --units irradiance/pi
 bake -o beside.glb --lightmap-as extras
+bake -o three.json --lightmap-as three
+bake -o babylon.babylon --lightmap-as babylon
 bake -o both.gltf --lightmap-as extras --lightmap-format hdr --units radiance --maps ao,light
 ls
 for name in emissive moz both; do
@@ -17,3 +19,7 @@ done
 rm beside.glb
 alpenglow bake builtin:cornell --size 16 --maps light --lightmap-as extras -o beside.glb 2>&1 |
     grep -o 'beside.*; use -f.*\|beside.*exists.*'
+grep -o '"lightMapIntensity":[^,}]*' three.json | sort -u
+grep -o '"lightmapTexture":{"name":[^,]*' babylon.babylon | sort -u
+bake -o three.json --lightmap-as three 2>&1 | grep -o 'exists.*'
+bake -o babylon.json --lightmap-as babylon 2>&1 | grep -o 'babylon.json.*'

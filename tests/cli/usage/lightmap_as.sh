@@ -15,5 +15,10 @@ bake -o out.glb --maps light --lightmap-as moz --lightmap-format exr
 bake -o out.glb --maps ao,light --lightmap-as moz --ao-into orm
 bake -o out.glb --maps light --lightmap-as emissive --direct off
 bake -o out.glb --maps light --lightmap-as three
+bake -o out.json --maps light --lightmap-as babylon
+bake -o out.json --maps light --lightmap-as three --units irradiance
+bake -o out.json --maps ao,light --lightmap-as three
+bake -o out.json --maps light --lightmap-as three --lightmap-format exr
+bake -o out.json
 bake -o out.glb --maps light
 bake -o out.glb --maps bent,light --lightmap-as moz
