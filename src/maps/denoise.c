@@ -7,16 +7,17 @@
 #include <string.h>
 
 enum {
-    RADII = 4, // of the fits, smallest first
-    PAIRS = 1 + RADII * (RADII - 1) / 2,
+    ESTIMATES = 5, // a texel's own mean, then fits, the smallest radius first
+    PAIRS = ESTIMATES * (ESTIMATES - 1) / 2,
     NEIGHBOUR_LIMIT = 384, // 201 lie within the largest radius on one plane
     SITES_PER_RANGE = 64,
     CHANNELS = 3
 };
 
 // In sides of a texel.
-static const float RADIUS[RADII] = {1.6f, 2.7f, 4.6f, 8.0f};
-static const float CHOICE_RADIUS[RADII] = {3.0f, 3.0f, 3.0f, 4.6f};
+static const float RADIUS[ESTIMATES] = {0.0f, 1.6f, 2.7f, 4.6f, 8.0f};
+// Within which the excess of each over smaller ones is averaged.
+static const float CHOICE_RADIUS[ESTIMATES] = {3.0f, 3.0f, 3.0f, 3.0f, 4.6f};
 static const float LIFT = 0.25f;
 // Added to the spread of the neighbours, in squares of the radius, so that those on one line give
 // no gradient across it: takes off .15 % of a gradient at a straight border.
@@ -31,27 +32,27 @@ typedef struct light {
 } light;
 
 /// What is found of a texel in the first pass.
-typedef struct fits {
-    float means[RADII][CHANNELS], variances[RADII][CHANNELS];
-    float excess[PAIRS]; // squared difference of two fits beyond their noise, over all channels:
-                         // (bias − bias)²; [0]: of the first fit and the texel's own mean
-    bool known[RADII];   // whether there is such a fit
-} fits;
+typedef struct estimates {
+    float means[ESTIMATES][CHANNELS], variances[ESTIMATES][CHANNELS];
+    float excess[PAIRS];   // squared difference of two beyond their noise, over all channels:
+                           // (bias − bias)²
+    bool known[ESTIMATES]; // whether there is such an estimate
+} estimates;
 
 typedef struct denoise_job {
     const alpi_tracer *tracer;
     const alpi_denoise_texels *texels;
     const alpi_neighbours *neighbours;
-    light *lights; // [sites]
-    float *lifts;  // [sites] metres
-    fits *fits;    // [sites]
+    light *lights;        // [sites]
+    float *lifts;         // [sites] metres
+    estimates *estimates; // [sites]
     float (*means)[CHANNELS], (*variances)[CHANNELS];
 } denoise_job;
 
-/// Index in `excess` of fits a < b.
+/// Index in `excess` of estimates a < b.
 static int pair(int a, int b)
 {
-    return 1 + b * (b - 1) / 2 + a;
+    return b * (b - 1) / 2 + a;
 }
 
 // --- what there is -------------------------------------------------------------------------------
@@ -189,14 +190,14 @@ static void look(const denoise_job *job, uint32_t centre, circle *c)
 
 // --- fits ----------------------------------------------------------------------------------------
 
-/// Fit k is Σ weights · means of the circle.
+/// Estimate k is Σ weights · means of the circle.
 typedef struct kernels {
-    bool known[RADII];
-    double weights[RADII][NEIGHBOUR_LIMIT];
+    double weights[ESTIMATES][NEIGHBOUR_LIMIT];
 } kernels;
 
 /// The value at the centre of the plane that fits best, as weights of the neighbours' values: of
-/// weighted least squares, with the moments about the neighbours' own middle.
+/// least squares weighted by 1 − distance², with the moments about the neighbours' own middle.
+/// (V. A. Epanechnikov 1969: this kernel has the least error.)
 static bool find_kernel(const circle *c, float radius, double *weights)
 {
     const double scale = 1.0 / (double)radius;
@@ -231,7 +232,19 @@ static bool find_kernel(const circle *c, float radius, double *weights)
     return true;
 }
 
-static void sum_fit(const denoise_job *job, const circle *c, const double *weights, fits *f, int k)
+/// The texel's own mean.
+static bool find_own(const circle *c, uint32_t centre, double *weights)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < c->count; i++) {
+        weights[i] = c->sites[i] == centre ? 1.0 : 0.0;
+        any = any || c->sites[i] == centre;
+    }
+    return any;
+}
+
+static void sum_up(const denoise_job *job, const circle *c, const double *weights, float *mean,
+                   float *variance)
 {
     double means[CHANNELS] = {0.0}, variances[CHANNELS] = {0.0};
     for (uint32_t i = 0; i < c->count; i++) {
@@ -242,8 +255,8 @@ static void sum_fit(const denoise_job *job, const circle *c, const double *weigh
         }
     }
     for (int n = 0; n < CHANNELS; n++) {
-        f->means[k][n] = (float)means[n];
-        f->variances[k][n] = (float)variances[n];
+        mean[n] = (float)means[n];
+        variance[n] = (float)variances[n];
     }
 }
 
@@ -261,142 +274,130 @@ static double square_distance(const float a[CHANNELS], const float b[CHANNELS])
     return sum;
 }
 
-/// Squared differences of fits, less what their noise gives in the mean.
-static void find_excess(const denoise_job *job, const circle *c, uint32_t centre, const kernels *k,
-                        fits *f)
+/// Squared differences of estimates, less what their noise gives in the mean.
+static void find_excess(const denoise_job *job, const circle *c, const kernels *k, estimates *e)
 {
     double noise[PAIRS] = {0.0};
     for (uint32_t i = 0; i < c->count; i++) {
         const double variance = sum_channels(job->lights[c->sites[i]].variance);
-        const double own = c->sites[i] == centre ? 1.0 : 0.0;
-        noise[0] += (k->weights[0][i] - own) * (k->weights[0][i] - own) * variance;
-        for (int b = 1; b < RADII; b++) {
+        for (int b = 1; b < ESTIMATES; b++) {
             for (int a = 0; a < b; a++) {
                 const double d = k->weights[b][i] - k->weights[a][i];
                 noise[pair(a, b)] += d * d * variance;
             }
         }
     }
-    if (job->lights[centre].known) {
-        f->excess[0] = (float)(square_distance(f->means[0], job->lights[centre].mean) - noise[0]);
-    }
-    for (int b = 1; b < RADII; b++) {
+    for (int b = 1; b < ESTIMATES; b++) {
         for (int a = 0; a < b; a++) {
-            f->excess[pair(a, b)] =
-                (float)(square_distance(f->means[b], f->means[a]) - noise[pair(a, b)]);
+            if (e->known[a] && e->known[b]) {
+                e->excess[pair(a, b)] =
+                    (float)(square_distance(e->means[b], e->means[a]) - noise[pair(a, b)]);
+            }
         }
     }
 }
 
-static alp_result fit_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static alp_result estimate_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const denoise_job *job = user;
     circle c;
     kernels k;
     for (uint32_t i = begin; i < end; i++) {
-        fits *f = &job->fits[i];
-        find_circle(job, &job->neighbours->sites[i], RADIUS[RADII - 1], &c);
+        estimates *e = &job->estimates[i];
+        find_circle(job, &job->neighbours->sites[i], RADIUS[ESTIMATES - 1], &c);
         if (job->tracer != NULL) {
             look(job, i, &c);
         }
-        bool all = true;
-        for (int r = 0; r < RADII; r++) {
-            f->known[r] = find_kernel(&c, RADIUS[r], k.weights[r]);
-            all = all && f->known[r];
-            if (f->known[r]) {
-                sum_fit(job, &c, k.weights[r], f, r);
+        for (int r = 0; r < ESTIMATES; r++) {
+            e->known[r] =
+                r == 0 ? find_own(&c, i, k.weights[r]) : find_kernel(&c, RADIUS[r], k.weights[r]);
+            if (e->known[r]) {
+                sum_up(job, &c, k.weights[r], e->means[r], e->variances[r]);
             }
         }
-        if (all) {
-            find_excess(job, &c, i, &k, f);
-        }
+        find_excess(job, &c, &k, e);
     }
     return ALP_OK;
 }
 
 // --- choice --------------------------------------------------------------------------------------
 
-/// Estimates of one texel: [0] its own mean, then the fits.
-typedef struct candidates {
-    bool known[RADII + 1];
-    double errors[RADII + 1]; // squared, over all channels
-    double bias[RADII + 1];   // squared, over all channels
-} candidates;
+/// What the estimates of one texel are worth.
+typedef struct verdict {
+    double errors[ESTIMATES]; // squared, over all channels: bias² + variance
+    double bias[ESTIMATES];   // squared, over all channels
+} verdict;
 
-/// The excesses of a texel, alone too uncertain, with those of its neighbours.
+/// The excesses of a texel, alone too uncertain, with those of its neighbours; and the variance of
+/// its own mean likewise.
 static void smooth_excess(const denoise_job *job, const circle *c, double smooth[PAIRS],
                           double *variance)
 {
-    double sums[RADII] = {0.0}, spread = 0.0;
+    double weights[ESTIMATES] = {0.0};
     memset(smooth, 0, PAIRS * sizeof *smooth);
+    *variance = 0.0;
     for (uint32_t i = 0; i < c->count; i++) {
-        const fits *f = &job->fits[c->sites[i]];
-        const light *l = &job->lights[c->sites[i]];
-        for (int b = 0; b < RADII; b++) {
+        const estimates *e = &job->estimates[c->sites[i]];
+        for (int b = 0; b < ESTIMATES; b++) {
             const float r = CHOICE_RADIUS[b];
             const double w =
                 (double)(c->weights[i] * fmaxf(1.0f - c->distances[i] / (r * r), 0.0f));
-            sums[b] += w;
-            spread += b == 0 ? w * sum_channels(l->variance) : 0.0;
-            smooth[0] += b == 0 ? w * (double)f->excess[0] : 0.0;
+            weights[b] += w;
             for (int a = 0; a < b; a++) {
-                smooth[pair(a, b)] += w * (double)f->excess[pair(a, b)];
+                smooth[pair(a, b)] += w * (double)e->excess[pair(a, b)];
             }
+            *variance += b == 0 ? w * sum_channels(job->lights[c->sites[i]].variance) : 0.0;
         }
     }
-    *variance = sums[0] > 0.0 ? spread / sums[0] : 0.0;
-    smooth[0] /= fmax(sums[0], 1e-30);
-    for (int b = 1; b < RADII; b++) {
+    *variance /= fmax(weights[0], 1e-30);
+    for (int b = 1; b < ESTIMATES; b++) {
         for (int a = 0; a < b; a++) {
-            smooth[pair(a, b)] /= fmax(sums[b], 1e-30);
+            smooth[pair(a, b)] /= fmax(weights[b], 1e-30);
         }
     }
 }
 
-static void judge(const denoise_job *job, uint32_t site, const circle *c, candidates *out)
+/// An estimate's bias is the largest excess over smaller ones, which have less. A texel's own mean
+/// has none.
+static void judge(const denoise_job *job, uint32_t site, const circle *c, verdict *out)
 {
-    const fits *f = &job->fits[site];
+    const estimates *e = &job->estimates[site];
     double smooth[PAIRS];
-    *out = (candidates){.known = {job->lights[site].known}};
+    *out = (verdict){.bias = {0.0}};
     smooth_excess(job, c, smooth, &out->errors[0]);
-    for (int b = 0; b < RADII; b++) {
-        double bias = b == 0 ? smooth[0] : 0.0;
+    for (int b = 1; b < ESTIMATES; b++) {
         for (int a = 0; a < b; a++) {
-            bias = fmax(bias, smooth[pair(a, b)]);
+            out->bias[b] = fmax(out->bias[b], smooth[pair(a, b)]);
         }
-        out->known[b + 1] = f->known[b];
-        out->bias[b + 1] = fmax(bias, 0.0);
-        out->errors[b + 1] = out->bias[b + 1] + sum_channels(f->variances[b]);
+        out->errors[b] = out->bias[b] + sum_channels(e->variances[b]);
     }
 }
 
-/// Blends the candidates by 1/error².
-static void blend(const denoise_job *job, uint32_t site, const candidates *c)
+/// Blends the estimates by 1/error⁴.
+static void blend(const denoise_job *job, uint32_t site, const verdict *found)
 {
-    const fits *f = &job->fits[site];
-    const light *l = &job->lights[site];
+    const estimates *e = &job->estimates[site];
     const uint32_t texel = job->neighbours->sites[site].texel;
-    double weights[RADII + 1], sum = 0.0, bias = 0.0;
-    const double floor = 1e-9 * c->errors[0] + 1e-300;
-    for (int k = 0; k <= RADII; k++) {
-        weights[k] = c->known[k] ? 1.0 / (c->errors[k] + floor) : 0.0;
-        weights[k] *= weights[k];
+    double weights[ESTIMATES], sum = 0.0, bias = 0.0, least = HUGE_VAL;
+    for (int k = 0; k < ESTIMATES; k++) {
+        least = e->known[k] ? fmin(least, found->errors[k]) : least;
+    }
+    const double floor = 1e-9 * found->errors[0] + 1e-300; // no error is 0 for sure
+    for (int k = 0; k < ESTIMATES; k++) {
+        const double sureness = e->known[k] ? (least + floor) / (found->errors[k] + floor) : 0.0;
+        weights[k] = sureness * sureness;
         sum += weights[k];
     }
-    for (int k = 0; k <= RADII; k++) {
+    for (int k = 0; k < ESTIMATES; k++) {
         weights[k] /= sum;
-        bias += weights[k] * sqrt(c->bias[k]);
+        bias += weights[k] * sqrt(found->bias[k]);
     }
     for (int n = 0; n < CHANNELS; n++) {
         double mean = 0.0, error = 0.0;
-        for (int k = 0; k <= RADII; k++) {
-            if (c->known[k]) {
-                const float *m = k == 0 ? l->mean : f->means[k - 1];
-                const float *v = k == 0 ? l->variance : f->variances[k - 1];
-                mean += weights[k] * (double)m[n];
-                error += weights[k] * sqrt((double)v[n]);
-            }
+        for (int k = 0; k < ESTIMATES; k++) {
+            mean += weights[k] * (double)e->means[k][n];
+            error += weights[k] * sqrt((double)e->variances[k][n]);
         }
         job->means[texel][n] = (float)mean;
         job->variances[texel][n] = (float)(error * error + bias * bias / CHANNELS);
@@ -409,15 +410,15 @@ static alp_result choose_range(void *user, uint32_t begin, uint32_t end, uint32_
     const denoise_job *job = user;
     circle c;
     for (uint32_t i = begin; i < end; i++) {
-        candidates found;
-        find_circle(job, &job->neighbours->sites[i], CHOICE_RADIUS[RADII - 1], &c);
+        const estimates *e = &job->estimates[i];
+        verdict found;
+        find_circle(job, &job->neighbours->sites[i], CHOICE_RADIUS[ESTIMATES - 1], &c);
         judge(job, i, &c, &found);
-        bool any = !found.known[0] || found.errors[0] > 0.0;
         bool fitted = false;
-        for (int k = 0; k < RADII; k++) {
-            fitted = fitted || found.known[k + 1];
+        for (int k = 1; k < ESTIMATES; k++) {
+            fitted = fitted || e->known[k];
         }
-        if (any && fitted) {
+        if (fitted && (!e->known[0] || found.errors[0] > 0.0)) {
             blend(job, i, &found);
         }
     }
@@ -437,9 +438,9 @@ static alp_result denoise(alp_context *context, denoise_job *job,
     }
     ALPI_TRY_NEW(context, job->lights, placed);
     ALPI_TRY_NEW(context, job->lifts, placed);
-    ALPI_TRY_NEW(context, job->fits, placed);
+    ALPI_TRY_NEW(context, job->estimates, placed);
     ALP_TRY(alpi_parallel_for(context, placed, SITES_PER_RANGE, load_range, job, progress));
-    ALP_TRY(alpi_parallel_for(context, placed, SITES_PER_RANGE, fit_range, job, progress));
+    ALP_TRY(alpi_parallel_for(context, placed, SITES_PER_RANGE, estimate_range, job, progress));
     return alpi_parallel_for(context, placed, SITES_PER_RANGE, choose_range, job, progress);
 }
 
@@ -458,7 +459,7 @@ alp_result alpi_denoise(alp_context *context, const alpi_tracer *tracer,
     const alp_result result = denoise(context, &job, progress);
     alpi_release(context, job.lights);
     alpi_release(context, job.lifts);
-    alpi_release(context, job.fits);
+    alpi_release(context, job.estimates);
     alpi_neighbours_destroy(&neighbours);
     return result;
 }

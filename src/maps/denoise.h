@@ -4,10 +4,12 @@
 //
 // Around each texel, planes are fitted to the light of its neighbours in the tangent plane (local
 // linear regression: no bias at the border of a surface, none from a gradient), over radii that
-// grow by about 1.7. What a larger radius gives must agree with what smaller ones gave, up to the
-// noise that is left in both; where it does not, the excess is its bias. The estimates are blended
-// by what their squared errors, bias² + variance, then are.
+// grow by 1.7. What a larger radius gives must agree with the texel's own mean and with what
+// smaller radii give, up to the noise that is left in both; where it does not, the excess, averaged
+// over neighbours, is its bias². The estimates are blended by their squared errors, bias² +
+// variance.
 // Based on: W. S. Cleveland. Robust Locally Weighted Regression. JASA 74(368), 1979;
+//           C. M. Stein. Estimation of the Mean of a Multivariate Normal Distribution. 1981;
 //           O. V. Lepskii. On a Problem of Adaptive Estimation in Gaussian White Noise. 1990;
 //           F. Rousselle, C. Knaus, M. Zwicker. Adaptive Sampling and Reconstruction using Greedy
 //           Error Minimization. SIGGRAPH Asia 2011;
