@@ -28,11 +28,9 @@ static double cell_size(int octave)
     return ldexp(SIDES_PER_CELL, octave - EXPONENT_BIAS);
 }
 
-/// Cells beyond 2^62 are one: far from each other only in name.
 static int64_t find_cell(double coordinate, double size)
 {
-    const double c = floor(coordinate / size), limit = 4.6e18;
-    return (int64_t)(c < -limit ? -limit : c > limit ? limit : c);
+    return (int64_t)floor(coordinate / size);
 }
 
 static uint32_t hash_cell(const alpi_neighbours *n, const cell *c)
@@ -52,10 +50,15 @@ static cell cell_of(const alpi_site *site)
                   .octave = octave};
 }
 
+/// Sides that neither they nor their squares leave the range of floats, and coordinates that
+/// count cells.
 static bool has_place(const alpi_site *s)
 {
-    return vec3_is_finite(s->position) && vec3_is_finite(s->normal) && isfinite(s->side) &&
-           s->side > 0.0f;
+    const float side_limit = 1e15f, cell_limit = 1e15f;
+    const vec3 p = s->position;
+    return s->side > 1.0f / side_limit && s->side < side_limit && vec3_is_finite(s->normal) &&
+           fmaxf(fmaxf(fabsf(p.x), fabsf(p.y)), fabsf(p.z)) < cell_limit * s->side &&
+           vec3_is_finite(p);
 }
 
 // --- sorting -------------------------------------------------------------------------------------

@@ -28,8 +28,9 @@ typedef struct alpi_neighbours {
     bool octaves[256]; // which there are, by the biased exponent of the side
 } alpi_neighbours;
 
-/// Sorts `count` texels; those whose position, normal or side is not finite, or whose side is not
-/// above zero, stand last in `sites` and are nobody's neighbours.
+/// Sorts `count` texels; those whose position, normal or side is not finite, whose side is not
+/// between 1e-15 and 1e15 m, or whose position is beyond 1e15 sides, stand last in `sites` and are
+/// nobody's neighbours.
 /// @param positions [count] metres   @param normals [count] unit   @param sides [count] metres
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
 alp_result alpi_neighbours_create(alp_context *context, uint32_t count, const float (*positions)[3],
