@@ -109,6 +109,11 @@ static alp_result collect_surfaces(alpi_direct *d)
                 shared != ALPI_NONE ? shared : add_part(d, ALPI_DIRECT_MATERIAL, m);
         }
     }
+    d->polygon_count = alpi_polygons_collect(&d->emitters, d->material_parts, d->polygons);
+    if (d->polygon_count > 0) {
+        alpi_direct_emitters_clear(&d->emitters);
+        d->emitters = (alpi_direct_emitters){.scene = scene};
+    }
     return ALP_OK;
 }
 
