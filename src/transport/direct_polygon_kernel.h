@@ -6,6 +6,8 @@
 #include "transport/direct.h"
 
 enum { ALPI_POLYGON_CHUNK = ALPI_TRACE_BATCH }; // samples of each receiver at once
+/// Of the replicates; each decides how many samples the other has.
+enum { ALPI_POLYGON_HALVES = 2, ALPI_POLYGON_HALF = ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALVES };
 
 /// A triangle or parallelogram of even radiance.
 typedef struct alpi_polygon {
@@ -32,6 +34,9 @@ typedef struct alpi_polygon_wave {
     double factor[ALPI_POLYGON_CHUNK][ALPI_PACKET]; // form factor from each point
     float weight[ALPI_POLYGON_CHUNK][ALPI_PACKET];  // c: estimate of π × factor by one point of it
     uint32_t nears[ALPI_POLYGON_CHUNK]; // bit i: lane i is near the polygon
+    _Alignas(32) float wanted[ALPI_POLYGON_HALVES][ALPI_PACKET]; // 1 or 0: samples of a half of the
+                                                                 // replicates count
+    bool any_wanted[ALPI_POLYGON_HALVES];                        // by any lane
     alpi_rays rays[ALPI_POLYGON_CHUNK];
 } alpi_polygon_wave;
 

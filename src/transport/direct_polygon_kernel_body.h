@@ -184,9 +184,14 @@ static void add_clipped(lanes_view *v)
     add_arc(&h.left, &h.risen, v);
 }
 
+static inline uint32_t half_of(uint32_t sample) // chunks begin with the first replicate
+{
+    return sample % ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALF;
+}
+
 /// Form factors from the points of a sample, 0 where a point is behind, or so close to its plane
-/// that it is on it: closer than rays start.
-static void find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s)
+/// that it is on it: closer than rays start. @return false: all are 0
+static bool find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s)
 {
     lanes_view v;
     view_corners(w, p, s, &v);
@@ -199,12 +204,17 @@ static void find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s
         any = any || v.highest[i] > 0.0;
         w->nears[s] |= near ? 1u << i : 0u;
     }
-    if (any && clipped) {
+    if (!any) {
+        return false;
+    }
+    if (clipped) {
         add_clipped(&v);
     }
-    for (int k = 0; k < 4 && any && !clipped; k++) {
+    for (int k = 0; k < 4 && !clipped; k++) {
         add_edge(k, &v);
     }
+    const float *wanted = w->wanted[half_of(s)];
+    _Alignas(32) float given[ALPI_PACKET];
     const double3 front = double3_from(p->normal);
     const double behind = p->two_sided ? -1.0 : 0.0;
     ALPI_EACH_LANE
@@ -213,11 +223,17 @@ static void find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s
                                 front.z * v.corner[0].z[i]);
         const double away = height > 0.0 ? height : behind * height;
         const double factor = (height > 0.0 ? -0.5 / ALPI_PI : 0.5 / ALPI_PI) * v.sum[i];
-        const double given = factor > 0.0 ? factor : 0.0;
-        const double seen = away > (double)w->offset[s][i] ? given : 0.0;
-        w->factor[s][i] = seen;
-        w->weight[s][i] = (float)seen;
+        const double positive = factor > 0.0 ? factor : 0.0;
+        const double seen = away > (double)w->offset[s][i] ? positive : 0.0;
+        w->factor[s][i] = seen * (double)wanted[i];
+        given[i] = (float)w->factor[s][i];
     }
+    float sum = 0.0f;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        w->weight[s][i] = given[i];
+        sum += given[i];
+    }
+    return sum > 0.0f;
 }
 
 // --- rays ----------------------------------------------------------------------------------------
@@ -260,13 +276,23 @@ static inline void aim_sample(alpi_polygon_wave *w, const alpi_polygon *p, uint3
     }
 }
 
+/// Nothing comes of a sample.
+static void clear_sample(alpi_polygon_wave *w, uint32_t s)
+{
+    w->nears[s] = 0;
+    memset(w->factor[s], 0, sizeof w->factor[s]);
+    memset(w->weight[s], 0, sizeof w->weight[s]);
+    memset(w->rays[s].maximum, 0, sizeof w->rays[s].maximum);
+}
+
 static void aim(alpi_polygon_wave *w, const alpi_polygon *p)
 {
     for (uint32_t s = 0; s < w->count; s++) {
-        find_factors(w, p, s);
-    }
-    for (uint32_t s = 0; s < w->count; s++) {
-        aim_sample(w, p, s, &w->rays[s]);
+        if (w->any_wanted[half_of(s)] && find_factors(w, p, s)) {
+            aim_sample(w, p, s, &w->rays[s]);
+        } else {
+            clear_sample(w, s);
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
-enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK };
+enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16 };
 _Static_assert(CHUNK % R == 0, "replicates take turns");
 
 const alpi_polygon_loops *alpi_polygon_loops_of(const alp_context *context)
@@ -225,30 +225,102 @@ static void trace(alpi_polygon_gather *g, uint32_t active)
     }
 }
 
+/// Which samples of a polygon count from now on. @return whether any does
+static bool want(alpi_polygon_gather *g, uint32_t polygon)
+{
+    alpi_polygon_wave *w = &g->wave;
+    for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+        w->any_wanted[h] = g->wanted[polygon][h] != 0;
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            w->wanted[h][i] = (g->wanted[polygon][h] >> i & 1u) != 0 ? 1.0f : 0.0f;
+        }
+    }
+    return w->any_wanted[0] || w->any_wanted[1];
+}
+
+static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t active)
+{
+    alpi_polygon_wave *w = &g->wave;
+    const alpi_polygon *p = &g->polygons[polygon];
+    const bool panes = g->options->filter.panes;
+    g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_POLYGON + polygon, first);
+    g->loops->aim(w, p);
+    for (uint32_t s = 0; s < w->count; s++) {
+        for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
+            if ((w->nears[s] >> i & 1u) != 0 && w->factor[s][i] > 0.0) {
+                aim_near(w, p, s, (int)i);
+            }
+        }
+    }
+    trace(g, active);
+    g->loops->tally(w, panes, &g->tallies[polygon]);
+    if (panes) {
+        tally_panes(g, &g->tallies[polygon]);
+    }
+}
+
+/// Samples from `first` on, of the polygons and lanes that want any.
 static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
                          uint32_t first)
 {
-    alpi_polygon_wave *w = &g->wave;
-    const bool panes = g->options->filter.panes;
-    g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_PLACE, first);
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) { // lanes not in use are like the last
-        place_lane(g, receivers[i < count ? i : count - 1], (int)i);
+    uint32_t lanes = 0;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        lanes |= g->wanted[k][0] | g->wanted[k][1];
+    }
+    g->loops->draw(&g->wave, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_PLACE, first);
+    for (uint32_t i = 0; i < count; i++) {
+        if ((lanes >> i & 1u) != 0) {
+            place_lane(g, receivers[i], (int)i);
+        }
     }
     for (uint32_t k = 0; k < g->polygon_count; k++) {
-        const alpi_polygon *p = &g->polygons[k];
-        g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_POLYGON + k, first);
-        g->loops->aim(w, p);
-        for (uint32_t s = 0; s < w->count; s++) {
-            for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
-                if ((w->nears[s] >> i & 1u) != 0) {
-                    aim_near(w, p, s, (int)i);
-                }
+        if (want(g, k)) {
+            ask(g, k, first, lanes);
+        }
+    }
+}
+
+/// Whether rays of half of the replicates were of different minds about a polygon.
+static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uint32_t lane)
+{
+    double factor = 0.0, weight = 0.0, seen = 0.0;
+    for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
+        factor += t->factor[r][lane];
+        weight += t->weight[r][lane];
+        for (int k = 0; k < 3; k++) {
+            seen += t->seen[panes ? k : 0][r][lane] / 3.0;
+        }
+    }
+    return factor > 0.0 && (weight == 0.0 || (seen > 0.0 && seen < weight * (1.0 - 1e-9)));
+}
+
+/// After the first samples, only receivers that found a polygon partly hidden go on: each half of
+/// the replicates where the other did. What decides is independent of what it decides about, so
+/// nothing is biased.
+static bool choose(alpi_polygon_gather *g, uint32_t count)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+            g->wanted[k][h] = 0;
+            for (uint32_t i = 0; i < count; i++) {
+                const bool mixed = is_mixed(&g->tallies[k], g->options->filter.panes, 1 - h, i);
+                g->wanted[k][h] |= mixed ? 1u << i : 0u;
+                any = any || mixed;
             }
         }
-        trace(g, (1u << count) - 1u);
-        g->loops->tally(w, panes, &g->tallies[k]);
-        if (panes) {
-            tally_panes(g, &g->tallies[k]);
+    }
+    return any;
+}
+
+/// Makes sums over `few` samples those of `all`, alike.
+static void scale_tally(alpi_polygon_tally *t, uint32_t half, uint32_t lane, double scale)
+{
+    for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
+        t->factor[r][lane] *= scale;
+        t->weight[r][lane] *= scale;
+        for (int k = 0; k < 3; k++) {
+            t->seen[k][r][lane] *= scale;
         }
     }
 }
@@ -275,6 +347,26 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
     }
 }
 
+/// A quarter, but enough for both halves to tell.
+static uint32_t first_samples(uint32_t samples)
+{
+    const uint32_t few = samples / 4 / R * R;
+    return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
+}
+
+static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
+                                 uint32_t first, uint32_t end)
+{
+    for (; first < end; first += CHUNK) {
+        g->wave.count = end - first < CHUNK ? end - first : CHUNK;
+        gather_chunk(g, receivers, count, first);
+        if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
+            return ALP_ERROR_CANCELLED;
+        }
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
 {
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
@@ -288,15 +380,21 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         alpi_rays_clear(&g->wave.rays[s]);
     }
     memset(g->tallies, 0, g->polygon_count * sizeof *g->tallies);
-    for (uint32_t first = 0; first < g->samples; first += CHUNK) {
-        g->wave.count = g->samples - first < CHUNK ? g->samples - first : CHUNK;
-        gather_chunk(g, receivers, count, first);
-        if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
-            return ALP_ERROR_CANCELLED;
-        }
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
+    }
+    const uint32_t few = first_samples(g->samples);
+    ALP_TRY(gather_samples(g, receivers, count, 0, few));
+    if (few < g->samples && choose(g, count)) {
+        ALP_TRY(gather_samples(g, receivers, count, few, g->samples));
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {
+            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES && few < g->samples; h++) {
+                if ((g->wanted[k][h] >> i & 1u) == 0) {
+                    scale_tally(&g->tallies[k], h, i, (double)g->samples / few);
+                }
+            }
             finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
         }
     }

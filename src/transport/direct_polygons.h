@@ -38,6 +38,7 @@ typedef struct alpi_polygon_gather {
     /// Out: form factor × visibility, summed over the samples of each replicate.
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
     // Its own.
+    uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;
