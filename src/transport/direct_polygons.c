@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
-enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16 };
+enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
 _Static_assert(CHUNK % R == 0, "replicates take turns");
 
 const alpi_polygon_loops *alpi_polygon_loops_of(const alp_context *context)
@@ -238,12 +238,43 @@ static bool want(alpi_polygon_gather *g, uint32_t polygon)
     return w->any_wanted[0] || w->any_wanted[1];
 }
 
-static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t active)
+/// Numbers as drawn for the use, from sample `first` on; of scouts from the corners of the square.
+/// @param turn of which corner the first scout is
+static void draw(alpi_polygon_gather *g, uint32_t use, uint32_t first, uint32_t scouts,
+                 uint32_t turn)
+{
+    alpi_polygon_wave *w = &g->wave;
+    g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, use, first);
+    for (uint32_t k = 0; k < scouts; k++) {
+        const uint32_t corner = (k + turn * (k / 4)) % 4;
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            w->u[w->count - scouts + k][i] = (corner == 1 || corner == 2) ? 0.98f : 0.02f;
+            w->v[w->count - scouts + k][i] = corner >= 2 ? 0.98f : 0.02f;
+        }
+    }
+}
+
+/// Lanes whose scouts were of different minds.
+static uint32_t mixed_scouts(const alpi_polygon_wave *w, uint32_t scouts)
+{
+    uint32_t free = 0, hidden = 0;
+    for (uint32_t s = w->count - scouts; s < w->count; s++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            const uint32_t gives = w->weight[s][i] > 0.0f ? 1u << i : 0u;
+            free |= w->rays[s].maximum[i] >= 0.0f ? gives : 0u;
+            hidden |= w->rays[s].maximum[i] >= 0.0f ? 0u : gives;
+        }
+    }
+    return free & hidden;
+}
+
+static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t scouts,
+                uint32_t active)
 {
     alpi_polygon_wave *w = &g->wave;
     const alpi_polygon *p = &g->polygons[polygon];
     const bool panes = g->options->filter.panes;
-    g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_POLYGON + polygon, first);
+    draw(g, USE_POLYGON + polygon, first, scouts, 1);
     g->loops->aim(w, p);
     for (uint32_t s = 0; s < w->count; s++) {
         for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
@@ -253,21 +284,24 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
         }
     }
     trace(g, active);
+    g->mixed[polygon] = mixed_scouts(w, scouts);
+    w->count -= scouts;
     g->loops->tally(w, panes, &g->tallies[polygon]);
     if (panes) {
         tally_panes(g, &g->tallies[polygon]);
     }
+    w->count += scouts;
 }
 
 /// Samples from `first` on, of the polygons and lanes that want any.
 static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
-                         uint32_t first)
+                         uint32_t first, uint32_t scouts)
 {
     uint32_t lanes = 0;
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         lanes |= g->wanted[k][0] | g->wanted[k][1];
     }
-    g->loops->draw(&g->wave, (const uint32_t(*)[ALPI_PACKET])g->keys, USE_PLACE, first);
+    draw(g, USE_PLACE, first, scouts, 0);
     for (uint32_t i = 0; i < count; i++) {
         if ((lanes >> i & 1u) != 0) {
             place_lane(g, receivers[i], (int)i);
@@ -275,7 +309,7 @@ static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint
     }
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         if (want(g, k)) {
-            ask(g, k, first, lanes);
+            ask(g, k, first, scouts, lanes);
         }
     }
 }
@@ -294,20 +328,20 @@ static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uin
     return factor > 0.0 && (weight == 0.0 || (seen > 0.0 && seen < weight * (1.0 - 1e-9)));
 }
 
-/// After the first samples, only receivers that found a polygon partly hidden go on: each half of
-/// the replicates where the other did. What decides is independent of what it decides about, so
-/// nothing is biased.
+/// After the first samples, only receivers that found a polygon partly hidden go on: where their
+/// scouts did, which count in no mean, and each half of the replicates where the other did. What
+/// decides is independent of what it decides about, so nothing is biased.
 static bool choose(alpi_polygon_gather *g, uint32_t count)
 {
     bool any = false;
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
-            g->wanted[k][h] = 0;
+            g->wanted[k][h] = g->mixed[k] & ((1u << count) - 1u);
             for (uint32_t i = 0; i < count; i++) {
                 const bool mixed = is_mixed(&g->tallies[k], g->options->filter.panes, 1 - h, i);
                 g->wanted[k][h] |= mixed ? 1u << i : 0u;
-                any = any || mixed;
             }
+            any = any || g->wanted[k][h] != 0;
         }
     }
     return any;
@@ -347,19 +381,21 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
     }
 }
 
-/// A quarter, but enough for both halves to tell.
+/// A quarter, but enough for both halves to tell, and one chunk with the scouts.
 static uint32_t first_samples(uint32_t samples)
 {
-    const uint32_t few = samples / 4 / R * R;
+    const uint32_t most = CHUNK - SCOUTS;
+    uint32_t few = samples / 4 / R * R;
+    few = few < most ? few : most;
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
-static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
-                                 uint32_t first, uint32_t end)
+static alp_result gather_rest(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
+                              uint32_t first)
 {
-    for (; first < end; first += CHUNK) {
-        g->wave.count = end - first < CHUNK ? end - first : CHUNK;
-        gather_chunk(g, receivers, count, first);
+    for (; first < g->samples; first += CHUNK) {
+        g->wave.count = g->samples - first < CHUNK ? g->samples - first : CHUNK;
+        gather_chunk(g, receivers, count, first, 0);
         if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
             return ALP_ERROR_CANCELLED;
         }
@@ -384,9 +420,11 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
     }
     const uint32_t few = first_samples(g->samples);
-    ALP_TRY(gather_samples(g, receivers, count, 0, few));
+    const uint32_t scouts = few < g->samples ? SCOUTS : 0;
+    g->wave.count = few + scouts;
+    gather_chunk(g, receivers, count, 0, scouts);
     if (few < g->samples && choose(g, count)) {
-        ALP_TRY(gather_samples(g, receivers, count, few, g->samples));
+        ALP_TRY(gather_rest(g, receivers, count, few));
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {

@@ -39,6 +39,7 @@ typedef struct alpi_polygon_gather {
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
+    uint32_t mixed[ALPI_POLYGON_LIMIT];                       // bit i: scouts of lane i disagreed
     uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;
