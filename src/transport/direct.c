@@ -555,12 +555,11 @@ static void start_gather(gather *g, direct_job *job)
     g->direct = d;
     g->rays = 0;
     g->queued = 0;
-    g->polygons.options = &d->options;
-    g->polygons.receivers = job->receivers;
-    g->polygons.samples = d->samples;
-    g->polygons.polygons = d->polygons;
-    g->polygons.polygon_count = d->polygon_count;
-    g->polygons.loops = alpi_polygon_loops_of(d->options.context);
+    if (d->polygon_count > 0) {
+        alpi_polygons_start(&d->options, job->receivers, d->samples, &g->polygons);
+        g->polygons.polygons = d->polygons;
+        g->polygons.polygon_count = d->polygon_count;
+    }
     g->polygons.rays = 0;
 }
 

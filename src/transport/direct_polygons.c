@@ -11,7 +11,8 @@ enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
 enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
 _Static_assert(CHUNK % R == 0, "replicates take turns");
 
-const alpi_polygon_loops *alpi_polygon_loops_of(const alp_context *context)
+/// The loops for this machine, unless the context asks for less.
+static const alpi_polygon_loops *loops_of(const alp_context *context)
 {
 #ifdef ALPI_HAS_V3_KERNEL
     if (alpi_context_has_v3(context)) {
@@ -403,6 +404,20 @@ static alp_result gather_rest(alpi_polygon_gather *g, const uint32_t *receivers,
     return ALP_OK;
 }
 
+void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
+                         uint32_t samples, alpi_polygon_gather *g)
+{
+    g->options = options;
+    g->receivers = receivers;
+    g->samples = samples;
+    g->loops = loops_of(options->context);
+    g->rays = 0;
+    memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set
+    for (uint32_t s = 0; s < CHUNK; s++) {
+        alpi_rays_clear(&g->wave.rays[s]);
+    }
+}
+
 alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
 {
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
@@ -411,9 +426,6 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         for (uint32_t r = 0; r < R; r++) {
             g->keys[r][i] = alpi_hash32(key ^ alpi_hash32(r + 1u));
         }
-    }
-    for (uint32_t s = 0; s < CHUNK; s++) {
-        alpi_rays_clear(&g->wave.rays[s]);
     }
     memset(g->tallies, 0, g->polygon_count * sizeof *g->tallies);
     for (uint32_t k = 0; k < g->polygon_count; k++) {

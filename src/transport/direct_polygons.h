@@ -46,8 +46,9 @@ typedef struct alpi_polygon_gather {
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];
 } alpi_polygon_gather;
 
-/// The loops for this machine, unless the context asks for less.
-const alpi_polygon_loops *alpi_polygon_loops_of(const alp_context *context);
+/// Readies all but the polygons, which are the caller's to set. @param samples see above
+void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
+                         uint32_t samples, alpi_polygon_gather *gather);
 
 /// Fills `sums` of up to eight receivers, best if neighbours; what one gets does not depend on the
 /// others. @return ALP_OK; CANCELLED
