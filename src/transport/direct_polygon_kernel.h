@@ -26,6 +26,7 @@ typedef struct alpi_polygon {
 /// Samples [0, count) of eight receivers side by side: lane i is receiver i.
 typedef struct alpi_polygon_wave {
     uint32_t count;
+    uint32_t scouts; // the last of them count in no sum
     _Alignas(32) float position[3][ALPI_POLYGON_CHUNK][ALPI_PACKET]; // metres
     float normal[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // unit, the hemisphere's axis
     float origin[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // metres: where rays start

@@ -285,14 +285,29 @@ static void clear_sample(alpi_polygon_wave *w, uint32_t s)
     memset(w->rays[s].maximum, 0, sizeof w->rays[s].maximum);
 }
 
+/// As a scout: what it would bring does not count, so the form factor of another point says whether
+/// it would bring anything.
+static void aim_scout(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s)
+{
+    const uint32_t other = s - w->scouts;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        w->weight[s][i] = w->factor[other][i] > 0.0 ? 1.0f : 0.0f;
+    }
+    w->nears[s] = 0;
+    aim_sample(w, p, s, &w->rays[s]);
+}
+
 static void aim(alpi_polygon_wave *w, const alpi_polygon *p)
 {
-    for (uint32_t s = 0; s < w->count; s++) {
+    for (uint32_t s = 0; s < w->count - w->scouts; s++) {
         if (w->any_wanted[half_of(s)] && find_factors(w, p, s)) {
             aim_sample(w, p, s, &w->rays[s]);
         } else {
             clear_sample(w, s);
         }
+    }
+    for (uint32_t s = w->count - w->scouts; s < w->count; s++) {
+        aim_scout(w, p, s);
     }
 }
 
@@ -301,7 +316,7 @@ static void aim(alpi_polygon_wave *w, const alpi_polygon *p)
 static void tally(const alpi_polygon_wave *w, bool panes, alpi_polygon_tally *t)
 {
     const double share = panes ? 0.0 : 1.0;
-    for (uint32_t s = 0; s < w->count; s++) {
+    for (uint32_t s = 0; s < w->count - w->scouts; s++) {
         const uint32_t r = s % ALPI_DIRECT_REPLICATES; // chunks begin with the first
         ALPI_EACH_LANE
         {

@@ -185,7 +185,7 @@ static void place_lane(alpi_polygon_gather *g, uint32_t receiver, int lane)
 static void tally_panes(alpi_polygon_gather *g, alpi_polygon_tally *t)
 {
     alpi_polygon_wave *w = &g->wave;
-    for (uint32_t s = 0; s < w->count; s++) {
+    for (uint32_t s = 0; s < w->count - w->scouts; s++) {
         vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
         uint32_t free = 0;
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
@@ -241,25 +241,24 @@ static bool want(alpi_polygon_gather *g, uint32_t polygon)
 
 /// Numbers as drawn for the use, from sample `first` on; of scouts from the corners of the square.
 /// @param turn of which corner the first scout is
-static void draw(alpi_polygon_gather *g, uint32_t use, uint32_t first, uint32_t scouts,
-                 uint32_t turn)
+static void draw(alpi_polygon_gather *g, uint32_t use, uint32_t first, uint32_t turn)
 {
     alpi_polygon_wave *w = &g->wave;
     g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, use, first);
-    for (uint32_t k = 0; k < scouts; k++) {
+    for (uint32_t k = 0; k < w->scouts; k++) {
         const uint32_t corner = (k + turn * (k / 4)) % 4;
         for (int i = 0; i < ALPI_PACKET; i++) {
-            w->u[w->count - scouts + k][i] = (corner == 1 || corner == 2) ? 0.98f : 0.02f;
-            w->v[w->count - scouts + k][i] = corner >= 2 ? 0.98f : 0.02f;
+            w->u[w->count - w->scouts + k][i] = (corner == 1 || corner == 2) ? 0.98f : 0.02f;
+            w->v[w->count - w->scouts + k][i] = corner >= 2 ? 0.98f : 0.02f;
         }
     }
 }
 
 /// Lanes whose scouts were of different minds.
-static uint32_t mixed_scouts(const alpi_polygon_wave *w, uint32_t scouts)
+static uint32_t mixed_scouts(const alpi_polygon_wave *w)
 {
     uint32_t free = 0, hidden = 0;
-    for (uint32_t s = w->count - scouts; s < w->count; s++) {
+    for (uint32_t s = w->count - w->scouts; s < w->count; s++) {
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             const uint32_t gives = w->weight[s][i] > 0.0f ? 1u << i : 0u;
             free |= w->rays[s].maximum[i] >= 0.0f ? gives : 0u;
@@ -269,13 +268,12 @@ static uint32_t mixed_scouts(const alpi_polygon_wave *w, uint32_t scouts)
     return free & hidden;
 }
 
-static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t scouts,
-                uint32_t active)
+static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t active)
 {
     alpi_polygon_wave *w = &g->wave;
     const alpi_polygon *p = &g->polygons[polygon];
     const bool panes = g->options->filter.panes;
-    draw(g, USE_POLYGON + polygon, first, scouts, 1);
+    draw(g, USE_POLYGON + polygon, first, 1);
     g->loops->aim(w, p);
     for (uint32_t s = 0; s < w->count; s++) {
         for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
@@ -285,24 +283,22 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
         }
     }
     trace(g, active);
-    g->mixed[polygon] = mixed_scouts(w, scouts);
-    w->count -= scouts;
+    g->mixed[polygon] = mixed_scouts(w);
     g->loops->tally(w, panes, &g->tallies[polygon]);
     if (panes) {
         tally_panes(g, &g->tallies[polygon]);
     }
-    w->count += scouts;
 }
 
 /// Samples from `first` on, of the polygons and lanes that want any.
 static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
-                         uint32_t first, uint32_t scouts)
+                         uint32_t first)
 {
     uint32_t lanes = 0;
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         lanes |= g->wanted[k][0] | g->wanted[k][1];
     }
-    draw(g, USE_PLACE, first, scouts, 0);
+    draw(g, USE_PLACE, first, 0);
     for (uint32_t i = 0; i < count; i++) {
         if ((lanes >> i & 1u) != 0) {
             place_lane(g, receivers[i], (int)i);
@@ -310,7 +306,7 @@ static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint
     }
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         if (want(g, k)) {
-            ask(g, k, first, scouts, lanes);
+            ask(g, k, first, lanes);
         }
     }
 }
@@ -396,7 +392,7 @@ static alp_result gather_rest(alpi_polygon_gather *g, const uint32_t *receivers,
 {
     for (; first < g->samples; first += CHUNK) {
         g->wave.count = g->samples - first < CHUNK ? g->samples - first : CHUNK;
-        gather_chunk(g, receivers, count, first, 0);
+        gather_chunk(g, receivers, count, first);
         if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
             return ALP_ERROR_CANCELLED;
         }
@@ -432,9 +428,10 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
     }
     const uint32_t few = first_samples(g->samples);
-    const uint32_t scouts = few < g->samples ? SCOUTS : 0;
-    g->wave.count = few + scouts;
-    gather_chunk(g, receivers, count, 0, scouts);
+    g->wave.scouts = few < g->samples ? SCOUTS : 0;
+    g->wave.count = few + g->wave.scouts;
+    gather_chunk(g, receivers, count, 0);
+    g->wave.scouts = 0;
     if (few < g->samples && choose(g, count)) {
         ALP_TRY(gather_rest(g, receivers, count, few));
     }
