@@ -603,8 +603,8 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     const double rays = fmax(most_rays(direct, receivers), 1.0);
     const uint32_t blocks = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // some milliseconds
     told.units_per_item = rays;
-    const alp_result result =
-        alpi_parallel_for(direct->options.context, count, blocks * ALPI_PACKET, gather_range, &job, &told);
+    const alp_result result = alpi_parallel_for(direct->options.context, count,
+                                                blocks * ALPI_PACKET, gather_range, &job, &told);
     output->rays += atomic_load(&job.rays);
     return result;
 }

@@ -15,7 +15,7 @@ typedef struct alpi_polygon {
     bool triangle;
     bool two_sided;
     vec3 radiance;
-    uint32_t part; // of the light
+    uint32_t part;      // of the light
     vec3 along, across; // edges at corner 0
     vec3 normal;        // unit, of the front
     vec3 middle;
@@ -33,8 +33,8 @@ typedef struct alpi_polygon_wave {
     float offset[ALPI_POLYGON_CHUNK][ALPI_PACKET];                   // metres
     float u[ALPI_POLYGON_CHUNK][ALPI_PACKET], v[ALPI_POLYGON_CHUNK][ALPI_PACKET]; // random, [0, 1)
     double factor[ALPI_POLYGON_CHUNK][ALPI_PACKET]; // form factor from each point
-    float weight[ALPI_POLYGON_CHUNK][ALPI_PACKET];  // c: estimate of π × factor by one point of it
-    uint32_t nears[ALPI_POLYGON_CHUNK]; // bit i: lane i is near the polygon
+    float weight[ALPI_POLYGON_CHUNK][ALPI_PACKET]; // c: estimate of π × factor by one point of it
+    uint32_t nears[ALPI_POLYGON_CHUNK];            // bit i: lane i is near the polygon
     _Alignas(32) float wanted[ALPI_POLYGON_HALVES][ALPI_PACKET]; // 1 or 0: samples of a half of the
                                                                  // replicates count
     bool any_wanted[ALPI_POLYGON_HALVES];                        // by any lane

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loops over light of polygons, included once for each instruction set. Every inner loop runs
-// over the eight lanes and becomes a few vector instructions (gcc -fopt-info-vec shows it). No fused
-// operations in either: the same bits.
+// over the eight lanes and becomes a few vector instructions (gcc -fopt-info-vec shows it). No
+// fused operations in either: the same bits.
 #include "transport/direct_polygon_kernel.h"
 
 #include "base/random.h"
@@ -27,14 +27,15 @@ static void draw(alpi_polygon_wave *w, const uint32_t (*keys)[ALPI_PACKET], uint
 // --- form factors --------------------------------------------------------------------------------
 
 /// γ / sin γ of an angle up to a right one, over x = (1 − cos γ) / 2: to 1e-9 (interpolated at the
-/// Chebyshev points of [0, ½]), and 1 at 0, so that what small polygons leave of a sum of such terms
-/// is as exact.
+/// Chebyshev points of [0, ½]), and 1 at 0, so that what small polygons leave of a sum of such
+/// terms is as exact.
 static inline double angle_over_sine(double x)
 {
     const double low = 0.6666666682972414 +
                        x * (0.5333325457190476 + x * (0.457205227929286 + x * 0.404439952070041));
-    const double middle = 0.3990712758534087 + x * (0.07564079306575991 +
-                                                    x * (1.772037571211828 + x * -4.68324928552553));
+    const double middle =
+        0.3990712758534087 +
+        x * (0.07564079306575991 + x * (1.772037571211828 + x * -4.68324928552553));
     const double high = 10.7925268200366 + x * (-12.3978418283396 + x * 7.222992554337668);
     const double x2 = x * x, x4 = x2 * x2;
     return 1.0 + x * (low + x4 * (middle + x4 * high));
@@ -48,12 +49,12 @@ typedef struct lanes3 {
 
 /// A polygon as the points of a sample see it.
 typedef struct lanes_view {
-    lanes3 normal, corner[5];                       // from the point; the last is the first
-    _Alignas(32) double height[5][ALPI_PACKET];     // of the corners above the horizon
-    double square[5][ALPI_PACKET];                  // of their distances
-    double sum[ALPI_PACKET];                        // of γ (n·Γ) over the edges
+    lanes3 normal, corner[5];                         // from the point; the last is the first
+    _Alignas(32) double height[5][ALPI_PACKET];       // of the corners above the horizon
+    double square[5][ALPI_PACKET];                    // of their distances
+    double sum[ALPI_PACKET];                          // of γ (n·Γ) over the edges
     double lowest[ALPI_PACKET], highest[ALPI_PACKET]; // of the heights
-    double middle[ALPI_PACKET];                     // square of the distance of the middle
+    double middle[ALPI_PACKET];                       // square of the distance of the middle
 } lanes_view;
 
 static inline void view_corners(const alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s,
@@ -143,8 +144,7 @@ static inline void add_arc(const lanes3 *a, const lanes3 *b, lanes_view *v)
 }
 
 /// The part of edge k that is above the horizon; both ends are the first corner where none is.
-static inline void clip_edge(const lanes_view *v, int k, lanes3 *from, lanes3 *to,
-                             lanes_horizon *h)
+static inline void clip_edge(const lanes_view *v, int k, lanes3 *from, lanes3 *to, lanes_horizon *h)
 {
     const lanes3 *a = &v->corner[k], *b = &v->corner[k + 1];
     ALPI_EACH_LANE
@@ -219,8 +219,8 @@ static bool find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s
     const double behind = p->two_sided ? -1.0 : 0.0;
     ALPI_EACH_LANE
     {
-        const double height = -(front.x * v.corner[0].x[i] + front.y * v.corner[0].y[i] +
-                                front.z * v.corner[0].z[i]);
+        const double height =
+            -(front.x * v.corner[0].x[i] + front.y * v.corner[0].y[i] + front.z * v.corner[0].z[i]);
         const double away = height > 0.0 ? height : behind * height;
         const double factor = (height > 0.0 ? -0.5 / ALPI_PI : 0.5 / ALPI_PI) * v.sum[i];
         const double positive = factor > 0.0 ? factor : 0.0;

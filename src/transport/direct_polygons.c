@@ -9,7 +9,10 @@
 
 enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
 enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
-_Static_assert(CHUNK % R == 0, "replicates take turns");
+_Static_assert(CHUNK % R == 0 && SCOUTS % R == 0, "replicates take turns");
+/// Means of form factors over a half's replicates are uneven where their range is more of their
+/// mean.
+static const double UNEVEN = 1.0 / 32.0;
 
 /// The loops for this machine, unless the context asks for less.
 static const alpi_polygon_loops *loops_of(const alp_context *context)
@@ -191,8 +194,8 @@ static void tally_panes(alpi_polygon_gather *g, alpi_polygon_tally *t)
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             free |= w->weight[s][i] > 0.0f && w->rays[s].maximum[i] >= 0.0f ? 1u << i : 0u;
         }
-        alpi_panes_dim(g->options->scene, g->options->tracer, g->options->filter, free,
-                       &w->rays[s], left);
+        alpi_panes_dim(g->options->scene, g->options->tracer, g->options->filter, free, &w->rays[s],
+                       left);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             if ((free >> i & 1u) != 0) {
                 const double weight = (double)w->weight[s][i];
@@ -283,7 +286,7 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
         }
     }
     trace(g, active);
-    g->mixed[polygon] = mixed_scouts(w);
+    g->mixed[polygon] |= mixed_scouts(w);
     g->loops->tally(w, panes, &g->tallies[polygon]);
     if (panes) {
         tally_panes(g, &g->tallies[polygon]);
@@ -311,23 +314,28 @@ static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint
     }
 }
 
-/// Whether rays of half of the replicates were of different minds about a polygon.
+/// Whether half of the replicates were of different minds: rays about what is hidden, or points of
+/// the receiver about how much light there is.
 static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uint32_t lane)
 {
-    double factor = 0.0, weight = 0.0, seen = 0.0;
+    double factor = 0.0, weight = 0.0, seen = 0.0, least = HUGE_VAL, most = 0.0;
     for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
         factor += t->factor[r][lane];
+        least = fmin(least, t->factor[r][lane]);
+        most = fmax(most, t->factor[r][lane]);
         weight += t->weight[r][lane];
         for (int k = 0; k < 3; k++) {
             seen += t->seen[panes ? k : 0][r][lane] / 3.0;
         }
     }
-    return factor > 0.0 && (weight == 0.0 || (seen > 0.0 && seen < weight * (1.0 - 1e-9)));
+    const bool hidden = seen < weight * (1.0 - 1e-9) || weight == 0.0;
+    const bool uneven = (most - least) * ALPI_POLYGON_HALF > UNEVEN * factor;
+    return factor > 0.0 && (uneven || (hidden && (seen > 0.0 || weight == 0.0)));
 }
 
-/// After the first samples, only receivers that found a polygon partly hidden go on: where their
-/// scouts did, which count in no mean, and each half of the replicates where the other did. What
-/// decides is independent of what it decides about, so nothing is biased.
+/// After the first samples, only receivers that found a polygon partly hidden, or uneven, go on:
+/// where their scouts did, which count in no mean, and each half of the replicates where the other
+/// did. What decides is independent of what it decides about, so nothing is biased.
 static bool choose(alpi_polygon_gather *g, uint32_t count)
 {
     bool any = false;
@@ -378,21 +386,25 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
     }
 }
 
-/// A quarter, but enough for both halves to tell, and one chunk with the scouts.
+/// Half of them, but enough for both halves to tell.
 static uint32_t first_samples(uint32_t samples)
 {
-    const uint32_t most = CHUNK - SCOUTS;
-    uint32_t few = samples / 4 / R * R;
-    few = few < most ? few : most;
+    const uint32_t few = samples / 2 / R * R;
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
-static alp_result gather_rest(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
-                              uint32_t first)
+/// @param scouts sent with the first of them
+static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
+                                 const uint32_t range[2], uint32_t scouts)
 {
-    for (; first < g->samples; first += CHUNK) {
-        g->wave.count = g->samples - first < CHUNK ? g->samples - first : CHUNK;
+    alpi_polygon_wave *w = &g->wave;
+    for (uint32_t first = range[0]; first < range[1]; first += w->count) {
+        const uint32_t left = range[1] - first, room = CHUNK - scouts;
+        w->scouts = scouts;
+        w->count = (left < room ? left : room) + scouts;
         gather_chunk(g, receivers, count, first);
+        w->count -= scouts;
+        scouts = 0;
         if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
             return ALP_ERROR_CANCELLED;
         }
@@ -428,12 +440,11 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
     }
     const uint32_t few = first_samples(g->samples);
-    g->wave.scouts = few < g->samples ? SCOUTS : 0;
-    g->wave.count = few + g->wave.scouts;
-    gather_chunk(g, receivers, count, 0);
-    g->wave.scouts = 0;
+    const uint32_t stages[3] = {0, few, g->samples};
+    memset(g->mixed, 0, sizeof g->mixed);
+    ALP_TRY(gather_samples(g, receivers, count, stages, few < g->samples ? SCOUTS : 0));
     if (few < g->samples && choose(g, count)) {
-        ALP_TRY(gather_rest(g, receivers, count, few));
+        ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {

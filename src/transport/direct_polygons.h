@@ -6,8 +6,8 @@
 // ray is free and c the light that it would bring. Where all rays agree, as where a polygon is
 // wholly visible or hidden, V has no noise. It is a ratio of means: its bias, where rays disagree,
 // falls as 1 / samples, and is far below its noise.
-// Based on: D. R. Baum, H. E. Rushmeier, J. M. Winget. Improving Radiosity Solutions Through the Use
-// of Analytically Determined Form-Factors. SIGGRAPH 1989;
+// Based on: D. R. Baum, H. E. Rushmeier, J. M. Winget. Improving Radiosity Solutions Through the
+// Use of Analytically Determined Form-Factors. SIGGRAPH 1989;
 //           E. Heitz, S. Hill, M. McGuire. Combining Analytic Direct Illumination and Stochastic
 // Shadows. I3D 2018.
 #ifndef ALPI_TRANSPORT_DIRECT_POLYGONS_H

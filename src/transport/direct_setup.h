@@ -30,7 +30,7 @@ struct alpi_direct {
     alpi_polygon polygons[ALPI_POLYGON_LIMIT]; // [polygon_count] all emitters, if there are any
     uint32_t polygon_count;
     alpi_direct_emitters emitters; // others
-    const alpi_sky *sky; // NULL: none
+    const alpi_sky *sky;           // NULL: none
     uint32_t sky_part;
     bool sky_drawn; // it is uneven: directions to it are drawn besides those that meet it
 };
