@@ -586,11 +586,12 @@ static double most_rays(const alpi_direct *d, const alpi_receivers *receivers)
 {
     const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
     double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
-    of_each_sample += d->polygon_count + (d->emitters.all.count > 0 ? 1.0 : 0.0);
+    of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
     of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
     const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
     const bool once = !receivers->extended && !d->lamps_drawn;
-    return of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
+    const double polygons = (double)d->polygon_count * alpi_polygon_rays(d->samples);
+    return polygons + of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
 }
 
 alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receivers *receivers,

@@ -393,6 +393,11 @@ static uint32_t first_samples(uint32_t samples)
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
+uint32_t alpi_polygon_rays(uint32_t samples)
+{
+    return samples + (first_samples(samples) < samples ? SCOUTS : 0);
+}
+
 /// @param scouts sent with the first of them
 static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
                                  const uint32_t range[2], uint32_t scouts)

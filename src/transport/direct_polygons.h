@@ -46,6 +46,9 @@ typedef struct alpi_polygon_gather {
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];
 } alpi_polygon_gather;
 
+/// The most rays that a polygon takes at a receiver.
+uint32_t alpi_polygon_rays(uint32_t samples);
+
 /// Readies all but the polygons, which are the caller's to set. @param samples see above
 void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
                          uint32_t samples, alpi_polygon_gather *gather);
