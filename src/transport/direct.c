@@ -581,19 +581,6 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     return result;
 }
 
-/// The most rays that a receiver may take.
-static double most_rays(const alpi_direct *d, const alpi_receivers *receivers)
-{
-    const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
-    double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
-    of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
-    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
-    const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
-    const bool once = !receivers->extended && !d->lamps_drawn;
-    const double polygons = (double)d->polygon_count * alpi_polygon_rays(d->samples);
-    return polygons + of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
-}
-
 alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receivers *receivers,
                                   const uint32_t *list, uint32_t list_count,
                                   const alpi_task_progress *progress, alpi_direct_output *output)
@@ -601,7 +588,7 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     direct_job job = {.direct = direct, .receivers = receivers, .list = list, .output = output};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    const double rays = fmax(most_rays(direct, receivers), 1.0);
+    const double rays = fmax(alpi_direct_most_rays(direct, receivers->extended), 1.0);
     const uint32_t blocks = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // some milliseconds
     told.units_per_item = rays;
     const alp_result result = alpi_parallel_for(direct->options.context, count,

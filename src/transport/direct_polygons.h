@@ -5,7 +5,11 @@
 // above their horizon, and V = Σ c v / Σ c over rays to points of the polygon, with v = 1 where a
 // ray is free and c the light that it would bring. Where all rays agree, as where a polygon is
 // wholly visible or hidden, V has no noise. It is a ratio of means: its bias, where rays disagree,
-// falls as 1 / samples, and is far below its noise.
+// falls as 1 / samples, and is far below its noise (16 samples of a half hidden quad: below 1 %,
+// noise 18 %; test_direct_polygons.c).
+//
+// Points of a polygon are of even density over its area, which is fast; for a receiver closer than
+// its diameter, over its solid angle.
 // Based on: D. R. Baum, H. E. Rushmeier, J. M. Winget. Improving Radiosity Solutions Through the
 // Use of Analytically Determined Form-Factors. SIGGRAPH 1989;
 //           E. Heitz, S. Hill, M. McGuire. Combining Analytic Direct Illumination and Stochastic

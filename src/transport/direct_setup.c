@@ -185,6 +185,18 @@ void alpi_direct_destroy(alpi_direct *direct)
     alpi_release(context, direct);
 }
 
+double alpi_direct_most_rays(const alpi_direct *d, bool extended)
+{
+    const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
+    double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
+    of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
+    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
+    const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
+    const bool once = !extended && !d->lamps_drawn;
+    const double polygons = (double)d->polygon_count * alpi_polygon_rays(d->samples);
+    return polygons + of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
+}
+
 uint32_t alpi_direct_samples(const alpi_direct *direct)
 {
     return direct->samples;

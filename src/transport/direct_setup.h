@@ -35,4 +35,7 @@ struct alpi_direct {
     bool sky_drawn; // it is uneven: directions to it are drawn besides those that meet it
 };
 
+/// The most rays that a receiver may take. @param extended see alpi_receivers
+double alpi_direct_most_rays(const alpi_direct *direct, bool extended);
+
 #endif
