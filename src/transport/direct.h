@@ -6,9 +6,9 @@
 // emissive polygons the light is known in closed form, and rays say how much of it is hidden
 // (direct_polygons.h). Of others a triangle is drawn in proportion to what it can give, and a
 // stratified direction within its solid angle. Sky, and such surfaces that fill much of the
-// hemisphere, are also met by cosine-distributed rays; the balance heuristic weighs who asks
-// against who meets. Based on: E. Veach, L. J. Guibas. Optimally Combining Sampling Techniques.
-// SIGGRAPH 1995;
+// hemisphere, are also met by cosine-distributed rays; the balance heuristic weighs asking against
+// meeting.
+// Based on: E. Veach, L. J. Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995;
 //           J. Arvo. Stratified Sampling of Spherical Triangles. SIGGRAPH 1995.
 #ifndef ALPI_TRANSPORT_DIRECT_H
 #define ALPI_TRANSPORT_DIRECT_H
