@@ -75,21 +75,22 @@ static const char *find_given(const option_value *values, const named_option *na
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {
-        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
-        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
-        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
-        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
-        {OPTION_SPOT, "--spot"}};
-    static const named_option of_occlusion[] = {{OPTION_AO_SAMPLES, "--ao-samples"},
-                                                {OPTION_AO_DISTANCE, "--ao-distance"},
-                                                {OPTION_AO_FALLOFF, "--ao-falloff"},
-                                                {OPTION_AO_CONE, "--ao-cone"},
-                                                {OPTION_AO_DISTRIBUTION, "--ao-distribution"},
-                                                {OPTION_QUALITY, "--quality"},
-                                                {OPTION_ERROR, "--error"},
-                                                {OPTION_ADAPTIVE, "--adaptive"},
-                                                {OPTION_AO_INTO, "--ao-into"}};
+    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
+                                            {OPTION_BOUNCES, "--bounces"},
+                                            {OPTION_GATHER, "--gather"},
+                                            {OPTION_HEMICUBE, "--hemicube"},
+                                            {OPTION_DIRECT, "--direct"},
+                                            {OPTION_SKY, "--sky"},
+                                            {OPTION_SKY_TURN, "--sky-turn"},
+                                            {OPTION_SUN, "--sun"},
+                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
+                                            {OPTION_SUN_SIZE, "--sun-size"},
+                                            {OPTION_LAMP, "--lamp"},
+                                            {OPTION_SPOT, "--spot"}};
+    static const named_option of_occlusion[] = {
+        {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
+        {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
+        {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
     static const named_option not_of_light[] = {{OPTION_TIME_LIMIT, "--time-limit"},
                                                 {OPTION_KEEP_PARTIAL, "--keep-partial"},
                                                 {OPTION_AO_SELF, "--ao-self"},
@@ -166,6 +167,9 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     } else if (values[OPTION_ERROR].given) {
         s->error = (float)(values[OPTION_ERROR].real / 100.0);
     }
+    if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS) {
+        o->light.error = s->error > 0.0f ? s->error : 0.01f;
+    }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
     if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
         o->occlusion.samples = MOST_SAMPLES;
@@ -193,6 +197,44 @@ static int read_choice(const option_value *values, alp_bake_options *o)
                            "%s: with --atlas vertex all surfaces are baked, and "
                            "together; use --atlas charts",
                            o->ao_self ? "--ao-self" : "--only");
+    }
+    return EXIT_DONE;
+}
+
+/// How irradiance is gathered, and which.
+static int read_light(const command_line *a, alp_light_options *o)
+{
+    enum { DIRECT_ON, DIRECT_OFF, DIRECT_ONLY, DIRECT_APART }; // the choices of --direct
+    const option_value *values = a->values;
+    const int direct = values[OPTION_DIRECT].choice;
+    o->gather = (alp_gather)values[OPTION_GATHER].choice;
+    o->bounces = direct == DIRECT_ONLY ? 0 : lighting_bounces(a);
+    o->samples = (uint32_t)values[OPTION_SAMPLES].whole;
+    o->hemicube = (uint32_t)values[OPTION_HEMICUBE].whole;
+    o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
+                : direct == DIRECT_APART ? ALP_DIRECT_APART
+                                         : ALP_DIRECT_ON;
+    if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
+        return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
+                           values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
+    }
+    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
+        return usage_error(COMMAND_BAKE, "--direct %s: with --bounces 0 all light is direct",
+                           values[OPTION_DIRECT].text);
+    }
+    if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
+        return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
+                           values[OPTION_DIRECT].text);
+    }
+    if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
+        return usage_error(COMMAND_BAKE, "--hemicube: needs --gather hemicube");
+    }
+    if (o->gather == ALP_GATHER_HEMICUBE && o->hemicube % 2 != 0) {
+        return usage_error(COMMAND_BAKE, "--hemicube %u: give an even number", o->hemicube);
+    }
+    if (o->gather == ALP_GATHER_HEMICUBE && values[OPTION_SAMPLES].given) {
+        return usage_error(COMMAND_BAKE,
+                           "--samples: are of rays; hemicubes have pixels, --hemicube N");
     }
     return EXIT_DONE;
 }
@@ -226,8 +268,7 @@ static int read_options(const command_line *a, alp_bake_options *o, lamp_list *l
     code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;
-    o->light.bounces = lighting_bounces(a);
-    o->light.samples = (uint32_t)values[OPTION_SAMPLES].whole;
+    code = code == EXIT_DONE ? read_light(a, &o->light) : code;
     return code == EXIT_DONE ? read_sampling(a, o) : code;
 }
 
@@ -240,7 +281,7 @@ static void print_atlas(const alp_atlas_info *atlas)
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
 }
 
-static void print_maps(const alp_bake_options *o, uint32_t pages)
+static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
 {
     static const struct {
         alp_map map;
@@ -248,11 +289,13 @@ static void print_maps(const alp_bake_options *o, uint32_t pages)
     } of_maps[] = {{ALP_MAP_AO, "ao.exr, ao.png, ao.error.exr, ao.sampling.png"},
                    {ALP_MAP_BENT, "bent.exr, bent.png"},
                    {ALP_MAP_LIGHT, "irradiance.exr, irradiance.error.exr"},
+                   {ALP_MAP_DIRECT, "irradiance.direct.exr"},
+                   {ALP_MAP_BOUNCED, "irradiance.bounced.exr"},
                    {ALP_MAP_OBSCURANCE, "obscurance.exr, obscurance.png"}};
     const char *separator = "";
     printf("maps       %s/", o->maps_folder);
     for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++) {
-        if ((o->maps & (unsigned)of_maps[i].map) != 0) {
+        if ((maps & (unsigned)of_maps[i].map) != 0) {
             printf("%s%s", separator, of_maps[i].files);
             separator = ", ";
         }
@@ -304,7 +347,9 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
 {
     printf("light      %u %s, ", r->light_samples,
-           r->light_direct ? "samples of each light per texel" : "paths per texel");
+           r->light_direct                       ? "samples of each light per texel"
+           : o->light.gather == ALP_GATHER_PATHS ? "paths per texel"
+                                                 : "rays per texel");
     if (r->light_direct) {
         printf("no bounce");
     } else if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
@@ -312,11 +357,24 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     } else {
         printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
     }
+    if (r->light_interpolated > 0) {
+        printf("; %.0f %% of the texels gathered, the rest interpolated",
+               100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
+    }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
     if (isfinite(r->light_relative_error)) {
         printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);
     }
     putchar('\n');
+    const alp_light_energy *e = &r->light_energy;
+    if (r->light_passes > 0 && e->known) {
+        printf(
+            "energy     emitted %.4g W; absorbed %.4g, escaped %.4g, behind surfaces %.4g, not yet "
+            "reflected %.2g; %+.2g %% off\n",
+            e->emitted, e->absorbed, e->escaped, e->behind, e->unshot,
+            100.0 * (e->absorbed + e->escaped + e->behind + e->unshot - e->emitted) /
+                (e->emitted > 0.0 ? e->emitted : 1.0));
+    }
 }
 
 static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
@@ -326,7 +384,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
-        print_maps(o, r->atlas.pages);
+        print_maps(o, r->maps, r->atlas.pages);
     }
     if (o->only != NULL) {
         printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);

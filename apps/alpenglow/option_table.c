@@ -87,7 +87,7 @@ static const option options[] = {
      .initial = "ao",
      .help = "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
              "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
-             "per channel, not divided by pi, without albedo, by path tracing from every texel; "
+             "per channel, not divided by pi, without albedo, direct and bounced (--gather); "
              "blended and transmissive surfaces let it through in part, in their colour. "
              "What is not ao goes to --maps-dir alone, and -o needs ao."},
     {.id = OPTION_MAPS_FOLDER,
@@ -344,10 +344,48 @@ static const option options[] = {
      .value = "N",
      .minimum = 1,
      .maximum = 65536,
-     .unit = "paths per texel",
+     .unit = "rays per texel",
      .initial = "256",
-     .help = "Of --maps light, rounded up to a multiple of 16; with --bounces 0 samples of each "
-             "light, rounded up to a multiple of 8. --ao-samples are those of ao."},
+     .help =
+         "Of --maps light: rays of a texel, rounded up to a multiple of 32; with --gather paths "
+         "its paths, to a multiple of 16; with --bounces 0 samples of each light, to a "
+         "multiple of 8. --ao-samples are those of ao."},
+    {.id = OPTION_GATHER,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--gather",
+     .value = "rays|hemicube|paths",
+     .choices = "rays|hemicube|paths",
+     .initial = "rays",
+     .help = "How --maps light finds what surfaces reflect. rays: radiosity, each texel by rays in "
+             "cosine-distributed directions. hemicube: radiosity, each texel by the five faces of "
+             "a half cube about it, without an estimate of the error. paths: the reference path "
+             "tracer, without bias and many times slower."},
+    {.id = OPTION_HEMICUBE,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--hemicube",
+     .value = "N",
+     .minimum = 2,
+     .maximum = 1024,
+     .unit = "pixels",
+     .initial = "64",
+     .help = "Edge of the front face of --gather hemicube, an even number: 3 N N rays a texel."},
+    {.id = OPTION_DIRECT,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--direct",
+     .value = "on|off|only|apart",
+     .choices = "on|off|only|apart",
+     .initial = "on",
+     .help =
+         "Light that comes straight from where it is made. on: in the map. off: not in the map, "
+         "for a renderer that adds its own. only: nothing else, the same as --bounces 0. "
+         "apart: in the map, and in irradiance.direct.exr, beside the rest in "
+         "irradiance.bounced.exr."},
     {.id = OPTION_BOUNCES,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,
@@ -674,8 +712,6 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--direct", "on|off|only", no_light),
-    LATER(IN_BAKE, "--gather", "rays|hemicube", "occlusion is gathered by rays"),
     LATER(IN_BAKE, "--units", "irradiance|irradiance/pi|radiance", no_light),
     LATER(IN_BAKE, "--layers", NULL, no_light),
     LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",

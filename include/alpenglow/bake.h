@@ -46,27 +46,60 @@ typedef enum alp_map {
     ALP_MAP_BENT = 2,  ///< bent normals, from the rays of ALP_MAP_AO
     ALP_MAP_LIGHT = 4, ///< irradiance E [W·m⁻² per channel, linear Rec.709], without albedo,
                        ///< without occlusion maps, not divided by π
-    ALP_MAP_OBSCURANCE = 8 ///< coloured obscurance, every texel with rays of its own
+    ALP_MAP_OBSCURANCE = 8, ///< coloured obscurance, every texel with rays of its own
+    ALP_MAP_DIRECT = 16,    ///< irradiance that comes straight from lights: see ALP_DIRECT_APART
+    ALP_MAP_BOUNCED = 32    ///< irradiance that surfaces reflect: see ALP_DIRECT_APART
 } alp_map;
 
 /// `bounces` of light that goes on as long as it brings anything.
 #define ALP_BOUNCES_CONVERGE UINT32_MAX
 
-/// How ALP_MAP_LIGHT is gathered: by the reference path tracer; without bounces each light by
-/// samples of its own (of more than 64 lamps, and suns, one at a time). Blended and transmissive
-/// materials filter light on its way, see docs/conventions.md, "Sides".
+/// How bounced light is gathered.
+typedef enum alp_gather {
+    ALP_GATHER_RAYS = 0,     ///< radiosity by stratified cosine rays (default)
+    ALP_GATHER_HEMICUBE = 1, ///< radiosity by hemicubes
+    ALP_GATHER_PATHS = 2     ///< by the reference path tracer
+} alp_gather;
+
+/// Which light ALP_MAP_LIGHT holds.
+typedef enum alp_direct {
+    ALP_DIRECT_ON = 0,   ///< direct and bounced light (default)
+    ALP_DIRECT_OFF = 1,  ///< bounced light alone
+    ALP_DIRECT_APART = 2 ///< as ON, and besides ALP_MAP_DIRECT and ALP_MAP_BOUNCED, which add up to
+                         ///< it
+} alp_direct;
+
+/// How ALP_MAP_LIGHT is gathered. Without bounces each light by samples of its own (of more than 64
+/// lamps, and suns, one at a time). Blended and transmissive materials filter light on its way, see
+/// docs/conventions.md, "Sides".
 ///
-/// With bounces, eight neighbouring texels share what their paths find after the first bounce,
-/// without bias. Their errors are then alike: the standard error of a texel holds, that of a mean
-/// over many texels is larger than independent texels would have. In scenes with such materials
-/// nothing is shared.
+/// RAYS and HEMICUBE: radiosity. Direct light on every texel; its reflections are gathered by
+/// blocks of 4 × 4 texels of one chart, pass after pass, until the bounces are done; then every
+/// texel gathers the last of them itself.
+/// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
+///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
+///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
+/// Bias: within a block, light that has bounced is taken as even when it bounces again; docs/
+/// accuracy.md measures it.
+///
+/// PATHS: eight neighbouring texels share what their paths find after the first bounce, without
+/// bias. Their errors are then alike: the standard error of a texel holds, that of a mean over many
+/// texels is larger than independent texels would have. In scenes with blended or transmissive
+/// materials nothing is shared.
 /// Based on: P. Bekaert, M. Sbert, J. Halton. Accelerating Path Tracing by Re-Using Paths. EGWR
 /// 2002.
 typedef struct alp_light_options {
     alp_lighting_options lighting; ///< beside the lights and emissive materials of the scene
-    uint32_t bounces;              ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    uint32_t samples; ///< paths of a texel, [1, 65536], rounded up to a multiple of 16; without
-                      ///< bounces rays to each light, to a multiple of 8; default 256
+    alp_gather gather;
+    alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
+    uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
+    /// more and more samples until it is stated. 0 (default): `samples` in one round.
+    float error;
+    uint32_t samples;  ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
+                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
+                       ///< each light, to a multiple of 8. HEMICUBE: not read
+    uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
 } alp_light_options;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
@@ -134,6 +167,18 @@ typedef struct alp_bake_options {
 } alp_bake_options;
 ALP_API alp_bake_options alp_bake_options_default(void);
 
+/// Where the light of a radiosity goes: fluxes in W, means of the three channels, over the surfaces
+/// that were baked and the backs they see. To the noise of the rays, emitted = absorbed + escaped +
+/// behind + unshot.
+typedef struct alp_light_energy {
+    bool known;      ///< false: no radiosity, or materials let light through
+    double emitted;  ///< by surfaces, and what lamps, suns and sky bring to them
+    double absorbed; ///< where it arrives
+    double escaped;  ///< out of the scene, by the rays that meet nothing
+    double behind;   ///< into the black backs of single-sided surfaces, by the rays that meet them
+    double unshot;   ///< reflected by the last bounce, and not followed any more
+} alp_light_energy;
+
 /// What was done.
 typedef struct alp_bake_report {
     alp_scene_info scene;
@@ -153,8 +198,13 @@ typedef struct alp_bake_report {
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
-    /// texel's, both over light_mean; NaN if dark.
+    /// texel's, both over light_mean; NaN if dark, and of hemicubes, which do not tell.
     double light_relative_error, light_p99_error;
+    uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
+    uint32_t light_passes;                     ///< of radiosity, one a bounce; else 0
+    /// Of each of the first 64 passes, the mean change of the light over its mean.
+    float light_changes[64];
+    alp_light_energy light_energy;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     /// Rays of occlusion, plus what light took: with bounces its paths, each of which is several
     /// rays, and where light_direct the rays sent from texels. A ray that goes on behind a pane is

@@ -102,6 +102,16 @@ bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel);
 /// outlive the receivers.
 alpi_receivers alpi_texels_receivers(const alpi_texels *texels);
 
+/// A place on the surface inside a texel.
+typedef struct alpi_texel_spot {
+    uint32_t triangle;
+    float b1, b2; // weights of corners 1 and 2
+} alpi_texel_spot;
+/// The spot that a point of the unit square stands for, as in alpi_texels_receivers with all strata
+/// valid and without the lift.
+void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float square[2],
+                      alpi_texel_spot *spot);
+
 // --- the stages, each alone in its file ----------------------------------------------------------
 
 /// neighbours[t][k] = triangle across edge (corner k, corner k+1), or ALPI_NONE: border, unusable,

@@ -66,8 +66,8 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     }
 }
 
-/// The point of a fan at (u, v) of its own unit square.
-static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *point)
+/// Barycentrics of the point of a fan at (u, v) of its own unit square.
+static void find_in_fan(const fan *f, double u, double v, double b[2])
 {
     int i = 0;
     while (i + 3 < f->shape.count && u >= f->ends[i]) {
@@ -77,7 +77,7 @@ static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *
     const double along =
         f->ends[i] > begin ? alpi_lesser((u - begin) / (f->ends[i] - begin), 1.0) : 0.0;
     const double outward = sqrt(v); // as many points at a distance as the fan is wide there
-    double at[2], b[2];
+    double at[2];
     for (int k = 0; k < 2; k++) {
         const double o = f->shape.p[0][k], near = f->shape.p[i + 1][k];
         const double far = f->shape.p[i + 2][k];
@@ -92,7 +92,6 @@ static void place_in_fan(const fan *f, double u, double v, alpi_receiver_point *
         b[0] /= sum;
         b[1] /= sum;
     }
-    alpi_facet_point(&f->facet, b, point);
 }
 
 /// The piece that holds u of a texel's area.
@@ -110,6 +109,15 @@ static uint32_t find_piece(const alpi_texels *texels, uint32_t texel, float u)
     return low;
 }
 
+/// Where a piece begins, and how much it has, of its texel's area.
+static double piece_begin(const alpi_texels *texels, uint32_t texel, uint32_t piece, double *width)
+{
+    const bool first = piece == texels->piece_first[texel];
+    const double begin = first ? 0.0 : (double)texels->piece_ends[piece - 1];
+    *width = (double)texels->piece_ends[piece] - begin;
+    return begin;
+}
+
 /// Each piece is clipped once for all points that fall into it.
 static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t count,
                             const float (*square)[2], alpi_receiver_point *points)
@@ -125,13 +133,14 @@ static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t 
             continue; // placed
         }
         load_fan(texels, texel, piece, &f);
-        const bool first = piece == texels->piece_first[texel];
-        const double begin = first ? 0.0 : (double)texels->piece_ends[piece - 1];
-        const double width = (double)texels->piece_ends[piece] - begin;
+        double width;
+        const double begin = piece_begin(texels, texel, piece, &width);
         for (uint32_t j = i; j < count; j++) {
             if (pieces[j] == piece) {
                 const double u = width > 0.0 ? ((double)square[j][0] - begin) / width : 0.0;
-                place_in_fan(&f, u, (double)square[j][1], &points[j]);
+                double b[2];
+                find_in_fan(&f, u, (double)square[j][1], b);
+                alpi_facet_point(&f.facet, b, &points[j]);
                 pieces[j] = ALPI_NONE;
             }
         }
@@ -201,6 +210,30 @@ static void place(const void *user, uint32_t texel, uint32_t count, const float 
         keep_valid(valid, batch, square + i, moved);
         place_in_texel(texels, texel, batch, (const float(*)[2])moved, points + i);
     }
+}
+
+void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float square[2],
+                      alpi_texel_spot *spot)
+{
+    double b[2], width;
+    if (texels->piece_first[texel] != texels->piece_first[texel + 1]) {
+        const uint32_t piece = find_piece(texels, texel, square[0]);
+        const double begin = piece_begin(texels, texel, piece, &width);
+        fan f;
+        load_fan(texels, texel, piece, &f);
+        find_in_fan(&f, width > 0.0 ? ((double)square[0] - begin) / width : 0.0, (double)square[1],
+                    b);
+        *spot = (alpi_texel_spot){texels->piece_triangles[piece], (float)b[0], (float)b[1]};
+        return;
+    }
+    alpi_page_triangle page;
+    alpi_page_triangle_load(texels->atlas, texels->triangles[texel], &page);
+    const alpi_facet_patch map =
+        alpi_page_triangle_patch(&page, texels->pixels[texel][0], texels->pixels[texel][1]);
+    for (int k = 0; k < 2; k++) {
+        b[k] = map.at[k] + (double)square[0] * map.by_x[k] + (double)square[1] * map.by_y[k];
+    }
+    *spot = (alpi_texel_spot){texels->triangles[texel], (float)b[0], (float)b[1]};
 }
 
 alpi_receivers alpi_texels_receivers(const alpi_texels *texels)

@@ -17,7 +17,8 @@ alp_bake_options alp_bake_options_default(void)
                               .occlusion = alp_occlusion_options_default(),
                               .light = {.lighting = alp_lighting_options_default(),
                                         .bounces = ALP_BOUNCES_CONVERGE,
-                                        .samples = 256},
+                                        .samples = 256,
+                                        .hemicube = 64},
                               .maps = ALP_MAP_AO,
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
 }
@@ -99,6 +100,9 @@ static alp_result run(alpi_bake_job *job)
     double started = alpi_seconds();
     ALP_TRY(check_options(job));
     ALP_TRY(alpi_bake_choose(job));
+    if (alpi_bake_lights_apart(job)) {
+        job->options.maps |= ALP_MAP_DIRECT | ALP_MAP_BOUNCED;
+    }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);
     }

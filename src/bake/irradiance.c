@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Irradiance at the texels of a bake: direct light alone, or all of it by the reference.
-#include "bake/job.h"
+// Irradiance at the texels of a bake: direct light alone, or all of it, by radiosity or by the
+// reference.
+#include "bake/light.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -14,6 +15,12 @@
 bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
 {
     return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
+}
+
+static bool is_by_hemicubes(const alpi_bake_job *job)
+{
+    const alp_light_options *o = &job->options.light;
+    return o->gather == ALP_GATHER_HEMICUBE && o->bounces > 0;
 }
 
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
@@ -38,24 +45,14 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
     const double all = 3.0 * fmax((double)count, 1.0);
     alp_bake_report *r = &job->report;
     r->light_mean = mean / all;
-    r->light_relative_error = mean > 0.0 ? sqrt(squares / all) / r->light_mean : (double)NAN;
-    r->light_p99_error = mean > 0.0 ? p99 / r->light_mean : (double)NAN;
+    const bool told = mean > 0.0 && !is_by_hemicubes(job);
+    r->light_relative_error = told ? sqrt(squares / all) / r->light_mean : (double)NAN;
+    r->light_p99_error = told ? p99 / r->light_mean : (double)NAN;
     return ALP_OK;
 }
 
-/// Where light is gathered, and what it becomes.
-typedef struct light_task {
-    const alpi_lighting *lighting;
-    const alpi_tracer *tracer;
-    const alpi_receivers *receivers;
-    const uint32_t *order; // [count] receivers
-    uint32_t count;
-    alpi_task_progress progress;
-    alpi_reference_value *values; // [receivers]
-} light_task;
-
 /// Light that comes straight from where it is made.
-static alp_result gather_direct(alpi_bake_job *job, const light_task *t)
+static alp_result gather_direct(alpi_bake_job *job, const alpi_light_task *t)
 {
     const alp_bake_options *o = &job->options;
     const alpi_direct_options options = {
@@ -78,7 +75,7 @@ static alp_result gather_direct(alpi_bake_job *job, const light_task *t)
     return result;
 }
 
-static alp_result gather_paths(alpi_bake_job *job, const light_task *t)
+static alp_result gather_paths(alpi_bake_job *job, const alpi_light_task *t)
 {
     const alp_bake_options *o = &job->options;
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
@@ -101,7 +98,7 @@ static alp_result gather_paths(alpi_bake_job *job, const light_task *t)
     return ALP_OK;
 }
 
-static alp_result gather(alpi_bake_job *job, light_task *t)
+static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
 {
     const uint32_t count = t->receivers->count;
     t->progress.stage = "light";
@@ -110,7 +107,9 @@ static alp_result gather(alpi_bake_job *job, light_task *t)
     alp_result result = t->values != NULL && errors != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
         job->report.light_direct = job->options.light.bounces == 0;
-        result = job->report.light_direct ? gather_direct(job, t) : gather_paths(job, t);
+        result = job->report.light_direct                        ? gather_direct(job, t)
+                 : job->options.light.gather == ALP_GATHER_PATHS ? gather_paths(job, t)
+                                                                 : alpi_bake_radiosity(job, t);
     }
     if (result == ALP_OK) {
         result = take_values(job, t->order, t->count, t->values, errors);
@@ -122,7 +121,8 @@ static alp_result gather(alpi_bake_job *job, light_task *t)
 
 alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
                                 const alpi_receivers *receivers, const uint32_t *order,
-                                uint32_t count, const alpi_task_progress *progress)
+                                uint32_t count, const alpi_lattice *lattice,
+                                const alpi_task_progress *progress)
 {
     if (job->irradiance == NULL) {
         return ALP_OK;
@@ -132,12 +132,13 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
     alp_result result = alpi_examine_light(tracer, filter, job->scene, lighting, progress->callback,
                                            progress->user);
-    light_task task = {.lighting = lighting,
-                       .tracer = tracer,
-                       .receivers = receivers,
-                       .order = order,
-                       .count = count,
-                       .progress = *progress};
+    alpi_light_task task = {.lighting = lighting,
+                            .tracer = tracer,
+                            .receivers = receivers,
+                            .order = order,
+                            .count = count,
+                            .lattice = lattice,
+                            .progress = *progress};
     if (result == ALP_OK) {
         result = gather(job, &task);
     }

@@ -33,6 +33,7 @@ typedef struct alpi_bake_job {
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
     float (*irradiance)[3], (*irradiance_errors)[3]; // the same
+    float (*direct)[3], (*bounced)[3];               // [texels] apart, both or none
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
     alpi_packing packing;
@@ -60,13 +61,16 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
                                 const alpi_receivers *receivers, const uint32_t *order,
                                 uint32_t order_count, uint32_t samples,
                                 const alpi_task_progress *progress);
+/// Whether direct and bounced light get maps of their own.
+bool alpi_bake_lights_apart(const alpi_bake_job *job);
 /// Whether any map is asked for that needs occlusion.
 bool alpi_bake_wants_occlusion(const alpi_bake_job *job);
 /// Irradiance of the texels in `order`, if it was asked for; fills the report. The stage of
 /// `progress` is set here.
 alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
                                 const alpi_receivers *receivers, const uint32_t *order,
-                                uint32_t count, const alpi_task_progress *progress);
+                                uint32_t count, const alpi_lattice *lattice,
+                                const alpi_task_progress *progress);
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 

@@ -181,7 +181,8 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
                                           &progress);
         }
         if (result == ALP_OK) {
-            result = alpi_bake_irradiance(job, setup->tracer, &receivers, order, count, &progress);
+            result = alpi_bake_irradiance(job, setup->tracer, &receivers, order, count, lattice,
+                                          &progress);
         }
     }
     alpi_release(job->context, order);

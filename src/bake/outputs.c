@@ -23,6 +23,8 @@ typedef enum map_kind {
     MAP_OBSCURANCE,
     MAP_IRRADIANCE,
     MAP_IRRADIANCE_ERROR,
+    MAP_DIRECT,
+    MAP_BOUNCED,
     MAP_COUNT
 } map_kind;
 
@@ -38,7 +40,9 @@ static const struct {
                           [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
                           [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"},
                           [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
-                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"}};
+                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"},
+                          [MAP_DIRECT] = {ALP_MAP_DIRECT, "irradiance.direct", ".exr"},
+                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", ".exr"}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -252,6 +256,8 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                           : kind == MAP_OBSCURANCE       ? l->obscurance_pages
                           : kind == MAP_IRRADIANCE       ? l->irradiance_pages
                           : kind == MAP_IRRADIANCE_ERROR ? l->irradiance_error_pages
+                          : kind == MAP_DIRECT           ? l->direct_pages
+                          : kind == MAP_BOUNCED          ? l->bounced_pages
                                                          : NULL;
     if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,

@@ -10,6 +10,38 @@
 enum { ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT };
 enum { PATH_LIMIT = 65536 };
 
+bool alpi_bake_lights_apart(const alpi_bake_job *job)
+{
+    return (job->options.maps & ALP_MAP_LIGHT) != 0 &&
+           job->options.light.direct == ALP_DIRECT_APART;
+}
+
+static alp_result check_light(const alpi_bake_job *job)
+{
+    const alp_light_options *o = &job->options.light;
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    if ((int)o->gather < ALP_GATHER_RAYS || o->gather > ALP_GATHER_PATHS ||
+        (int)o->direct < ALP_DIRECT_ON || o->direct > ALP_DIRECT_APART) {
+        return alpi_fail(job->context, code, "bake: unknown choice %d of gatherer or %d of light",
+                         (int)o->gather, (int)o->direct);
+    }
+    if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
+        return alpi_fail(job->context, code,
+                         "bake: paths gather all light together; rays or hemicubes tell direct "
+                         "light apart");
+    }
+    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
+        return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
+    }
+    if (o->gather == ALP_GATHER_HEMICUBE &&
+        (o->hemicube < 2 || o->hemicube > 1024 || o->hemicube % 2 != 0)) {
+        return alpi_fail(job->context, code,
+                         "bake: hemicubes of %u pixels, need an even number from 2 to 1024",
+                         o->hemicube);
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_bake_check_maps(const alpi_bake_job *job)
 {
     const alp_bake_options *o = &job->options;
@@ -40,6 +72,7 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
         return alpi_fail(job->context, code,
                          "bake: light falls on the whole scene, not on each object alone");
     }
+    ALP_TRY(check_light(job));
     if ((o->maps & ALP_MAP_LIGHT) != 0 && (o->light.samples < 1 || o->light.samples > PATH_LIMIT)) {
         return alpi_fail(job->context, code, "bake: %u paths of a texel, need 1 to %d",
                          o->light.samples, PATH_LIMIT);
@@ -60,6 +93,10 @@ alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
         ALPI_TRY_NEW(job->context, job->irradiance, count);
         ALPI_TRY_NEW(job->context, job->irradiance_errors, count);
     }
+    if (alpi_bake_lights_apart(job)) {
+        ALPI_TRY_NEW(job->context, job->direct, count);
+        ALPI_TRY_NEW(job->context, job->bounced, count);
+    }
     return ALP_OK;
 }
 
@@ -67,7 +104,9 @@ void alpi_bake_end_side_maps(alpi_bake_job *job)
 {
     alpi_release(job->context, job->irradiance);
     alpi_release(job->context, job->irradiance_errors);
-    job->irradiance = job->irradiance_errors = NULL;
+    alpi_release(job->context, job->direct);
+    alpi_release(job->context, job->bounced);
+    job->irradiance = job->irradiance_errors = job->direct = job->bounced = NULL;
     alpi_release(job->context, job->bent);
     alpi_release(job->context, job->obscurance);
     job->bent = NULL;
@@ -105,6 +144,10 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
                                             &l->irradiance_pages));
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->irradiance_errors,
                                             &l->irradiance_error_pages));
+    }
+    if (job->direct != NULL) {
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->direct, &l->direct_pages));
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bounced, &l->bounced_pages));
     }
     return ALP_OK;
 }

@@ -25,6 +25,8 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
     release_pages(lightmap, lightmap->obscurance_pages);
     release_pages(lightmap, lightmap->irradiance_pages);
     release_pages(lightmap, lightmap->irradiance_error_pages);
+    release_pages(lightmap, lightmap->direct_pages);
+    release_pages(lightmap, lightmap->bounced_pages);
     alpi_release(context, lightmap->vertex_values);
     alpi_release(context, lightmap->errors);
     alpi_release(context, lightmap->states);
@@ -247,6 +249,8 @@ const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, ui
     float *const *pages = map == ALP_MAP_BENT         ? lightmap->bent_pages
                           : map == ALP_MAP_OBSCURANCE ? lightmap->obscurance_pages
                           : map == ALP_MAP_LIGHT      ? lightmap->irradiance_pages
+                          : map == ALP_MAP_DIRECT     ? lightmap->direct_pages
+                          : map == ALP_MAP_BOUNCED    ? lightmap->bounced_pages
                                                       : NULL;
     return pages != NULL ? pages[page] : NULL;
 }

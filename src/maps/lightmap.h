@@ -23,6 +23,7 @@ struct alp_lightmap {
     float **bent_pages;                                 // bent normals: unit, world space
     float **obscurance_pages;                           // coloured obscurance
     float **irradiance_pages, **irradiance_error_pages; // W·m⁻², and its standard error
+    float **direct_pages, **bounced_pages;              // W·m⁻², of which irradiance is the sum
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.

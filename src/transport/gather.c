@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "transport/gather.h"
 
+#include "base/tasks.h"
 #include "scene/double3.h"
 #include "transport/panes.h"
 
@@ -100,4 +101,187 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
         add_surfaces(from, &met, left, radiance);
         active = filter.panes ? alpi_panes_go_on(from->scene, &hits, active, rays, left) : 0;
     }
+}
+
+// --- sums ----------------------------------------------------------------------------------------
+
+static double weight_of(const alpi_gatherer *g, uint32_t packet, int lane)
+{
+    return g->weights != NULL ? (double)g->weights[packet][lane]
+                              : 1.0 / ((double)g->packet_count * ALPI_PACKET);
+}
+
+void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
+                     const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums)
+{
+    double *sum = sums->light[packet % gatherer->replicates];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const double weight = weight_of(gatherer, packet, i);
+        sum[0] += weight * (double)radiance[i].x;
+        sum[1] += weight * (double)radiance[i].y;
+        sum[2] += weight * (double)radiance[i].z;
+    }
+}
+
+void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
+                           const uint32_t cells[ALPI_PACKET], const float (*light)[4],
+                           alpi_gather_sums *sums)
+{
+    double *sum = sums->light[packet % gatherer->replicates];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const double weight = weight_of(gatherer, packet, i);
+        const float *l = light[cells[i]];
+        sum[0] += weight * (double)l[0];
+        sum[1] += weight * (double)l[1];
+        sum[2] += weight * (double)l[2];
+        sums->lost[0] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0;
+        sums->lost[1] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0;
+    }
+}
+
+void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
+                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+                         alpi_gather_sums *sums)
+{
+    double *sum = sums->light[packet % gatherer->replicates];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if (cells[i] == ALPI_CELL_ESCAPED) {
+            const vec3 sky = sky_radiance(
+                from, (vec3){rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]});
+            const double weight = weight_of(gatherer, packet, i);
+            const double added[3] = {weight * (double)sky.x, weight * (double)sky.y,
+                                     weight * (double)sky.z};
+            for (int k = 0; k < 3; k++) {
+                sum[k] += added[k];
+                sums->sky[k] += added[k];
+            }
+        }
+    }
+}
+
+void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
+                        alpi_reference_value *value)
+{
+    const uint32_t n = gatherer->replicates;
+    for (int k = 0; k < 3; k++) {
+        double mean = 0.0, squares = 0.0;
+        for (uint32_t r = 0; r < n; r++) {
+            mean += sums->light[r][k];
+        }
+        for (uint32_t r = 0; r < n; r++) {
+            const double apart = sums->light[r][k] * n - mean;
+            squares += apart * apart;
+        }
+        value->mean[k] = (float)(ALPI_PI * mean);
+        value->variance[k] =
+            n > 1 ? (float)(ALPI_PI * ALPI_PI * squares / ((double)n * (n - 1))) : 0.0f;
+    }
+}
+
+// --- cells ---------------------------------------------------------------------------------------
+
+bool alpi_gather_meets_cells(const alpi_gather_scene *from)
+{
+    return from->light.cell != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
+}
+
+void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
+                       bool coherent, uint32_t cells[ALPI_PACKET])
+{
+    const alpi_rays *rays = &packet->rays;
+    alpi_hits hits;
+    if (coherent) {
+        alpi_trace_nearest_coherent(from->tracer, rays, packet->active, from->filter, &hits);
+    } else {
+        alpi_trace_nearest(from->tracer, rays, packet->active, from->filter, &hits);
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        cells[i] = ALPI_CELL_BLACK;
+        if ((packet->active >> i & 1u) == 0) {
+            continue;
+        }
+        const uint32_t triangle = hits.triangle[i];
+        if (triangle == ALPI_NONE) {
+            cells[i] = ALPI_CELL_ESCAPED;
+            continue;
+        }
+        const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
+        const bool behind = is_behind(from->scene, triangle, direction);
+        if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
+            const alpi_surface_point point = {triangle, hits.b1[i], hits.b2[i],
+                                              vec3_scale(direction, -1.0f), behind};
+            cells[i] = from->light.cell(from->light.user, &point);
+        }
+    }
+}
+
+void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
+{
+    alpi_gather_finish(job->gatherer, sums, &job->values[receiver]);
+    for (int k = 0; k < 3 && job->skies != NULL; k++) {
+        job->skies[receiver][k] = (float)(ALPI_PI * sums->sky[k]);
+    }
+    for (int k = 0; k < 2 && job->lost != NULL; k++) {
+        job->lost[receiver][k] = (float)sums->lost[k];
+    }
+}
+
+// --- receivers -----------------------------------------------------------------------------------
+
+/// Packets [first, first + count) of one receiver.
+static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t first,
+                         uint32_t count, bool cells, alpi_gather_sums *sums)
+{
+    const alpi_gatherer *g = job->gatherer;
+    alpi_gather_packet packets[ALPI_GATHER_BATCH];
+    g->aim(g->user, job->receivers, receiver, first, count, packets);
+    for (uint32_t k = 0; k < count; k++) {
+        if (cells) {
+            uint32_t met[ALPI_PACKET];
+            alpi_gather_cells(job->from, &packets[k], g->coherent, met);
+            alpi_gather_add_cells(g, first + k, met, job->from->light.cells, sums);
+            if (job->from->sky) {
+                alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met, sums);
+            }
+        } else {
+            vec3 radiance[ALPI_PACKET];
+            alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance);
+            alpi_gather_add(g, first + k, radiance, sums);
+        }
+    }
+}
+
+static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const alpi_gather_job *job = user;
+    const bool cells = alpi_gather_meets_cells(job->from);
+    const uint32_t packets = job->gatherer->packet_count;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = job->list != NULL ? job->list[i] : i;
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        for (uint32_t first = 0; first < packets; first += ALPI_GATHER_BATCH) {
+            const uint32_t left = packets - first;
+            gather_batch(job, receiver, first, left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH,
+                         cells, &sums);
+            if (!alpi_loop_goes_on(job->context)) {
+                return ALP_ERROR_CANCELLED;
+            }
+        }
+        alpi_gather_put(job, receiver, &sums);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress)
+{
+    enum { RAYS_PER_RANGE = 4096 }; // some tenths of a millisecond
+    alpi_gather_job own = *job;
+    const uint32_t rays = job->gatherer->packet_count * ALPI_PACKET;
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    told.units_per_item = (double)rays;
+    told.units_are_rays = true;
+    return alpi_parallel_for(job->context, job->count,
+                             rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1, gather_receivers,
+                             &own, &told);
 }

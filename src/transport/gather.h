@@ -5,7 +5,7 @@
 
 #include "scene/lighting.h"
 #include "scene/receivers.h"
-#include "trace/trace.h"
+#include "transport/reference.h"
 #include "transport/surface_light.h"
 
 /// What a gatherer looks at; all borrowed. Emissive surfaces and the sky count where a ray happens
@@ -30,16 +30,73 @@ typedef struct alpi_gather_scene {
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
                       bool coherent, vec3 radiance[ALPI_PACKET]);
 
-/// Gathers the irradiance E [W·m⁻²] of one receiver. Called by many threads. What is random in it
-/// is keyed by the receiver.
-/// @return ALP_OK; CANCELLED
-typedef alp_result alpi_gather_fn(const void *user, const alpi_receivers *receivers,
-                                  uint32_t receiver, float irradiance[3]);
+/// Rays of one packet, as a gatherer spreads them.
+typedef struct alpi_gather_packet {
+    alpi_rays rays; // unit directions
+    uint32_t active;
+} alpi_gather_packet;
 
-/// A way of gathering: hemicube, or rays.
+/// Aims packets [first, first + count) of a receiver, at most ALPI_GATHER_BATCH. Called by many
+/// threads. What is random in it is keyed by the receiver.
+typedef void alpi_aim_fn(const void *user, const alpi_receivers *receivers, uint32_t receiver,
+                         uint32_t first, uint32_t count, alpi_gather_packet *packets);
+enum { ALPI_GATHER_BATCH = 32, ALPI_GATHER_REPLICATE_LIMIT = 8 };
+
+/// A way to spread rays over what a receiver sees, hemicube or cosine rays: E = π Σ weight · L.
 typedef struct alpi_gatherer {
-    alpi_gather_fn *gather;
-    const void *user; // what it reads
+    alpi_aim_fn *aim;
+    const void *user;                    // what it reads
+    uint32_t packet_count;               // of each receiver
+    const float (*weights)[ALPI_PACKET]; // [packet_count], they sum to 1; NULL: all alike
+    uint32_t replicates; // packet k is of replicate k % replicates, each scrambled apart; 1: the
+                         // error is not known
+    bool coherent;       // the rays of a packet leave in about one direction
 } alpi_gatherer;
+
+/// What is gathered, where and how; all borrowed.
+typedef struct alpi_gather_job {
+    alp_context *context;
+    const alpi_gather_scene *from;
+    const alpi_gatherer *gatherer;
+    const alpi_receivers *receivers;
+    const uint32_t *list; // [count] receivers; NULL = all
+    uint32_t count;
+    // Out, of the receivers listed.
+    alpi_reference_value *values; // [receivers] E [W·m⁻²]; variance 0 with one replicate
+    float (*skies)[3];            // [receivers] or NULL: what of E is the sky's. Of surface light
+                                  // in cells without panes; else 0
+    float (*lost)[2];             // [receivers] or NULL: weights of the rays that left the scene,
+                                  // and of those that met a surface's black back; the same
+} alpi_gather_job;
+
+/// @return ALP_OK; CANCELLED. The same bits for any number of workers.
+alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress);
+
+/// Whether rays meet nothing but surface light that is kept in cells, and the sky.
+bool alpi_gather_meets_cells(const alpi_gather_scene *from);
+/// The cells that the rays of a packet meet. Needs alpi_gather_meets_cells.
+/// @param cells out: CELL_BLACK of lanes that are not active
+void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
+                       bool coherent, uint32_t cells[ALPI_PACKET]);
+
+/// Sums over the rays of one receiver, in their order.
+typedef struct alpi_gather_sums {
+    double light[ALPI_GATHER_REPLICATE_LIMIT][3]; // Σ weight · L
+    double sky[3];                                // of it
+    double lost[2];
+} alpi_gather_sums;
+void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
+                     const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
+/// Adds the sky along the rays that met nothing.
+void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
+                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+                         alpi_gather_sums *sums);
+void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
+                           const uint32_t cells[ALPI_PACKET], const float (*light)[4],
+                           alpi_gather_sums *sums);
+void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
+                        alpi_reference_value *value);
+/// Writes what a receiver gathered to the job's outputs.
+void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums);
 
 #endif

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { STREAM_TURN = 7 };
+enum { STREAM_TURN = 7, STREAM_PLACE = 9 };
 enum { BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2, FACES = 5 };
 _Static_assert(BLOCK_WIDTH *BLOCK_HEIGHT == ALPI_PACKET, "a block fills a packet");
 /// Packets between questions whether to go on: some milliseconds.
@@ -153,11 +153,11 @@ static alp_result fill_weights(alpi_hemicube *cube)
         }
     }
     for (uint32_t p = 0; p < cube->packet_count; p++) {
-        alpi_hemicube_packet *packet = &cube->packets[p];
+        const alpi_hemicube_packet *packet = &cube->packets[p];
         for (int i = 0; i < ALPI_PACKET; i++) {
             if ((packet->active >> i & 1u) != 0) {
                 const place at = place_of(n, packet->column[i], packet->row[i]);
-                packet->weight[i] = eighth[(size_t)(at.far / 2) * half + at.near / 2];
+                cube->weights[p][i] = eighth[(size_t)(at.far / 2) * half + at.near / 2];
             }
         }
     }
@@ -175,6 +175,7 @@ static alp_result fill(alpi_hemicube *cube)
                  blocks_across(faces[i].height, BLOCK_HEIGHT);
     }
     ALPI_TRY_NEW(cube->context, cube->packets, count);
+    ALPI_TRY_NEW(cube->context, cube->weights, count);
     for (int i = 0; i < FACES; i++) {
         fill_face(cube, &faces[i]);
     }
@@ -209,6 +210,7 @@ void alpi_hemicube_destroy(alpi_hemicube *cube)
 {
     if (cube != NULL) {
         alpi_release(cube->context, cube->packets);
+        alpi_release(cube->context, cube->weights);
         alpi_release(cube->context, cube);
     }
 }
@@ -235,20 +237,19 @@ alpi_hemicube_frame alpi_hemicube_frame_upright(vec3 normal)
 
 // --- gathering -----------------------------------------------------------------------------------
 
-/// Aims the rays of a packet. @return those that leave the surface
+/// Aims the rays of a packet. Those below the surface itself, where shading is smooth, meet it from
+/// above and get its own light, as in the reference. @return those of pixels
 static uint32_t aim(const alpi_hemicube_packet *packet, const alpi_receiver_point *p,
                     const alpi_hemicube_frame *f, alpi_rays *rays)
 {
     const vec3 start = vec3_mad(p->position, p->offset, p->geometric_normal);
-    uint32_t active = 0;
     alpi_rays_clear(rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const vec3 across = vec3_mad(vec3_scale(f->right, packet->x[i]), packet->y[i], f->up);
         const vec3 direction = vec3_mad(across, packet->z[i], f->forward);
         alpi_rays_set(rays, i, start, direction, INFINITY);
-        active |= vec3_dot(direction, p->geometric_normal) > 0.0f ? 1u << i : 0u;
     }
-    return active & packet->active;
+    return packet->active;
 }
 
 void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receiver_point *point,
@@ -274,7 +275,7 @@ alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
         }
         alpi_hemicube_look(options, point, frame, k, radiance);
         for (int i = 0; i < ALPI_PACKET; i++) {
-            const double weight = (double)cube->packets[k].weight[i];
+            const double weight = (double)cube->weights[k][i];
             sum[0] += weight * (double)radiance[i].x;
             sum[1] += weight * (double)radiance[i].y;
             sum[2] += weight * (double)radiance[i].z;
@@ -302,16 +303,28 @@ alp_result alpi_hemicube_gather(const alpi_hemicube_options *options,
     return alpi_hemicube_gather_in(options, point, &frame, irradiance);
 }
 
-static alp_result gather_receiver(const void *user, const alpi_receivers *receivers,
-                                  uint32_t receiver, float irradiance[3])
+static void aim_receiver(const void *user, const alpi_receivers *receivers, uint32_t receiver,
+                         uint32_t first, uint32_t count, alpi_gather_packet *packets)
 {
-    static const float middle[1][2] = {{0.5f, 0.5f}};
+    const alpi_hemicube_options *o = user;
+    const vec2 at = alpi_sample_2d(alpi_random_key(o->seed, receiver, STREAM_PLACE), 0);
+    const float square[1][2] = {{o->scattered ? at.x : 0.5f, o->scattered ? at.y : 0.5f}};
     alpi_receiver_point point;
-    receivers->place(receivers->user, receiver, 1, middle, &point);
-    return alpi_hemicube_gather(user, &point, receiver, irradiance);
+    receivers->place(receivers->user, receiver, 1, square, &point);
+    const alpi_hemicube_frame frame =
+        alpi_hemicube_frame_about(point.shading_normal, turn_of(o, receiver));
+    for (uint32_t k = 0; k < count; k++) {
+        packets[k].active = aim(&o->cube->packets[first + k], &point, &frame, &packets[k].rays);
+    }
 }
 
 alpi_gatherer alpi_hemicube_gatherer(const alpi_hemicube_options *options)
 {
-    return (alpi_gatherer){gather_receiver, options};
+    const alpi_hemicube *cube = options->cube;
+    return (alpi_gatherer){.aim = aim_receiver,
+                           .user = options,
+                           .packet_count = cube->packet_count,
+                           .weights = (const float(*)[ALPI_PACKET])cube->weights,
+                           .replicates = 1,
+                           .coherent = cube->resolution >= COHERENT_FROM};
 }

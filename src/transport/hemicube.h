@@ -28,7 +28,6 @@ enum { ALPI_HEMICUBE_LEAST = 2, ALPI_HEMICUBE_MOST = 1024 };
 /// Neighbouring pixels of one face, up to 4 × 2, whose rays are traced together.
 typedef struct alpi_hemicube_packet {
     float x[ALPI_PACKET], y[ALPI_PACKET], z[ALPI_PACKET]; // unit: right, up and forward
-    float weight[ALPI_PACKET];                            // 0 where there is no pixel
     uint16_t column[ALPI_PACKET], row[ALPI_PACKET];       // in the cross
     uint32_t active;                                      // bit i: there is a pixel
 } alpi_hemicube_packet;
@@ -38,7 +37,8 @@ typedef struct alpi_hemicube {
     uint32_t resolution; // n
     uint32_t packet_count;
     alpi_hemicube_packet *packets;
-} alpi_hemicube; // immutable, for all threads
+    float (*weights)[ALPI_PACKET]; // [packet_count] form factors, 0 where there is no pixel
+} alpi_hemicube;                   // immutable, for all threads
 
 /// @param resolution n, even, from LEAST to MOST
 /// @return ALP_OK; INVALID_ARGUMENT (no such resolution); OUT_OF_MEMORY
@@ -71,11 +71,12 @@ typedef struct alpi_hemicube_options {
     const alpi_hemicube *cube;
     bool turned; // about the normal, by an angle of each receiver's own: what pixels are too coarse
                  // for then becomes noise in place of bands along the faces' edges
+    bool scattered; // at a random point of each receiver, not at its middle: right in the mean over
+                    // many large receivers
     uint64_t seed;
 } alpi_hemicube_options;
 
-/// Irradiance E [W·m⁻²] = π Σ weight · L at a point, about its shading normal. Directions below the
-/// surface itself (its geometric normal) bring nothing.
+/// Irradiance E [W·m⁻²] = π Σ weight · L at a point, about its shading normal.
 /// @param receiver key of the turn
 /// @return ALP_OK; CANCELLED
 /// Cost: 3 n² rays. Bias: light with edges counts by whole pixels, so that the error is at most the
@@ -89,7 +90,7 @@ alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
                                    const alpi_receiver_point *point,
                                    const alpi_hemicube_frame *frame, float irradiance[3]);
 
-/// Gathers at the middle of each receiver. The options are borrowed.
+/// Gathers at one point of each receiver. The options are borrowed.
 alpi_gatherer alpi_hemicube_gatherer(const alpi_hemicube_options *options);
 
 /// Radiance along the rays of one packet, before weights; for pictures.

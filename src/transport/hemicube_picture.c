@@ -17,9 +17,9 @@ static void put_pixel(alp_image *image, const alpi_hemicube_packet *packet, int 
     rgba[3] = 1.0f;
 }
 
-static float multiplier(const alpi_hemicube *cube, const alpi_hemicube_packet *packet, int lane,
-                        alpi_hemicube_map map)
+static float multiplier(const alpi_hemicube *cube, uint32_t number, int lane, alpi_hemicube_map map)
 {
+    const alpi_hemicube_packet *packet = &cube->packets[number];
     const float n = (float)cube->resolution;
     const float x = fabsf(packet->x[lane]), y = fabsf(packet->y[lane]), z = packet->z[lane];
     const float axis = fmaxf(fmaxf(x, y), z); // the face is the one the ray leaves by
@@ -31,7 +31,7 @@ static float multiplier(const alpi_hemicube *cube, const alpi_hemicube_packet *p
     case ALPI_HEMICUBE_MAP_WEIGHT:
         break;
     }
-    return packet->weight[lane] * n * n * (float)(ALPI_PI / 4.0);
+    return cube->weights[number][lane] * n * n * (float)(ALPI_PI / 4.0);
 }
 
 alp_result alpi_hemicube_draw_map(const alpi_hemicube *cube, alpi_hemicube_map map,
@@ -42,7 +42,7 @@ alp_result alpi_hemicube_draw_map(const alpi_hemicube *cube, alpi_hemicube_map m
         const alpi_hemicube_packet *packet = &cube->packets[k];
         for (int i = 0; i < ALPI_PACKET; i++) {
             if ((packet->active >> i & 1u) != 0) {
-                const float m = multiplier(cube, packet, i, map);
+                const float m = multiplier(cube, k, i, map);
                 put_pixel(*image, packet, i, (vec3){m, m, m});
             }
         }
@@ -50,12 +50,13 @@ alp_result alpi_hemicube_draw_map(const alpi_hemicube *cube, alpi_hemicube_map m
     return ALP_OK;
 }
 
-static void draw_packet(const alpi_hemicube *cube, const alpi_hemicube_packet *packet,
-                        const vec3 *radiance, bool weighted, alp_image *image)
+static void draw_packet(const alpi_hemicube *cube, uint32_t number, const vec3 *radiance,
+                        bool weighted, alp_image *image)
 {
+    const alpi_hemicube_packet *packet = &cube->packets[number];
     for (int i = 0; i < ALPI_PACKET; i++) {
         if ((packet->active >> i & 1u) != 0) {
-            const float m = weighted ? multiplier(cube, packet, i, ALPI_HEMICUBE_MAP_WEIGHT) : 1.0f;
+            const float m = weighted ? multiplier(cube, number, i, ALPI_HEMICUBE_MAP_WEIGHT) : 1.0f;
             put_pixel(image, packet, i, vec3_scale(radiance[i], m));
         }
     }
@@ -76,7 +77,7 @@ alp_result alpi_hemicube_draw_view(const alpi_hemicube_options *options,
             return ALP_ERROR_CANCELLED;
         }
         alpi_hemicube_look(options, point, frame, k, radiance);
-        draw_packet(cube, &cube->packets[k], radiance, weighted, *image);
+        draw_packet(cube, k, radiance, weighted, *image);
     }
     return ALP_OK;
 }

@@ -25,9 +25,18 @@ typedef struct alpi_surface_point {
 typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *points, uint32_t count,
                                vec3 *radiance);
 
+/// Cells of surface light that are none: what a ray meets that leaves the scene, and what is black.
+enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
+/// The cell that holds a point, CELL_FIRST or more, or CELL_BLACK. Asked like alpi_reflected_fn.
+typedef uint32_t alpi_light_cell_fn(const void *user, const alpi_surface_point *point);
+
 typedef struct alpi_surface_light {
     alpi_reflected_fn *reflected; // NULL: surfaces reflect nothing
     const void *user;             // what it reads
+    // Of light that is the same all over each of some cells, or NULL: then a ray that was traced
+    // once need not be again when the light changes.
+    alpi_light_cell_fn *cell;
+    const float (*cells)[4]; // radiance in RGB; black in the first CELL_FIRST
 } alpi_surface_light;
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 
+#include <string.h>
+
 static const vec3 BLACK = {0, 0, 0}, ONE = {1, 1, 1}, UP = {0, 1, 0};
 /// Faces the origin.
 static const vec3 SMALL[4] = {
@@ -49,7 +51,7 @@ static void a_closed_room_is_exact(void **state)
     const alpi_receiver_point point = test_probe_point((vec3){0.25f, 0.0f, 0.125f}, UP);
     float e[3];
     ASSERT_NEAR(test_probe_gather(&p, &point, 0), ALPI_PI, 2e-7 * ALPI_PI);
-    p.options.from.light = (alpi_surface_light){reflect_half, &half};
+    p.options.from.light = (alpi_surface_light){.reflected = reflect_half, .user = &half};
     ASSERT_OK(context, alpi_hemicube_gather(&p.options, &point, 0, e));
     ASSERT_NEAR(e[0], 1.5 * ALPI_PI, 4e-7 * ALPI_PI);
     ASSERT_NEAR(e[1], 2.0 * ALPI_PI, 4e-7 * ALPI_PI);
@@ -124,7 +126,7 @@ static void surfaces_are_asked_for_their_light(void **state)
         test_probe p = test_probe_open(context, make_box(cases[i].inside, &m), &o, 6);
         uint32_t asked = 0;
         const watcher w = {p.stage.scene, {0.125f, 0.25f, -0.25f}, !cases[i].inside, &asked};
-        p.options.from.light = (alpi_surface_light){watch, &w};
+        p.options.from.light = (alpi_surface_light){.reflected = watch, .user = &w};
         p.options.from.filter.one_sided = cases[i].one_sided;
         const alpi_receiver_point point = {w.eye, {0, 0, 1}, {0, 0, 1}, 0.0f};
         ASSERT_NEAR(test_probe_gather(&p, &point, 0), cases[i].share * ALPI_PI, 2e-7 * ALPI_PI);
@@ -154,6 +156,22 @@ static void lamps_and_suns_are_not_counted(void **state)
 
 // --- turns, receivers and cancelling -------------------------------------------------------------
 
+static void test_gather_one(const test_probe *p, const alpi_receivers *receivers, uint32_t receiver,
+                            float light[3])
+{
+    const alpi_gatherer gatherer = alpi_hemicube_gatherer(&p->options);
+    alpi_reference_value values[2];
+    const alpi_gather_job job = {.context = context,
+                                 .from = &p->options.from,
+                                 .gatherer = &gatherer,
+                                 .receivers = receivers,
+                                 .list = &receiver,
+                                 .count = 1,
+                                 .values = values};
+    ASSERT_OK(context, alpi_gather_irradiance(&job, NULL));
+    memcpy(light, values[receiver].mean, 3 * sizeof *light);
+}
+
 /// The turn is the receiver's own, and a gatherer asks at the receiver's middle.
 static void turns_are_keyed(void **state)
 {
@@ -164,12 +182,11 @@ static void turns_are_keyed(void **state)
     const test_patches all = {.count = 2, .patches = patches, .offset = 1e-6f};
     const alpi_receivers receivers = test_patches_receivers(&all);
     const alpi_receiver_point middle = test_probe_point((vec3){0.75f, 0, 0.125f}, UP);
-    const alpi_gatherer g = alpi_hemicube_gatherer(&p.options);
     for (int turned = 0; turned < 2; turned++) {
         float e[2][3];
         p.options.turned = turned != 0;
         for (uint32_t i = 0; i < 2; i++) {
-            ASSERT_OK(context, g.gather(g.user, &receivers, i, e[i]));
+            test_gather_one(&p, &receivers, i, e[i]);
             assert_true((double)e[i][0] == test_probe_gather(&p, &middle, i));
         }
         assert_true((e[0][0] != e[1][0]) == (turned != 0));
@@ -197,28 +214,12 @@ static void the_axis_is_the_shading_normal(void **state)
 
 enum { RECEIVERS = 24 };
 
-typedef struct many {
-    alpi_gatherer gatherer;
-    alpi_receivers receivers;
-    float light[RECEIVERS][3];
-} many;
-
-static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    many *m = user;
-    for (uint32_t i = begin; i < end; i++) {
-        ALP_TRY(m->gatherer.gather(m->gatherer.user, &m->receivers, i, m->light[i]));
-    }
-    return ALP_OK;
-}
-
 static void workers_change_nothing(void **state)
 {
     (void)state;
     static test_patch patches[RECEIVERS];
     static const uint32_t workers[3] = {1, 2, 7};
-    static many made[3];
+    static alpi_reference_value made[3][RECEIVERS];
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
     test_probe p = test_probe_open(context, scene, NULL, 16);
@@ -227,16 +228,22 @@ static void workers_change_nothing(void **state)
         patches[i] = test_point((vec3){0.02f * (float)i + 0.03f, 0, 0.1f}, UP);
     }
     const test_patches all = {.count = RECEIVERS, .patches = patches, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&all);
     for (int k = 0; k < 3; k++) {
         alp_context *own = test_context(workers[k]);
         p.options.context = own;
-        made[k].gatherer = alpi_hemicube_gatherer(&p.options);
-        made[k].receivers = test_patches_receivers(&all);
-        ASSERT_OK(own, alpi_parallel_for(own, RECEIVERS, 1, gather_range, &made[k], NULL));
-        assert_memory_equal(made[k].light, made[0].light, sizeof made[0].light);
+        const alpi_gatherer gatherer = alpi_hemicube_gatherer(&p.options);
+        const alpi_gather_job job = {.context = own,
+                                     .from = &p.options.from,
+                                     .gatherer = &gatherer,
+                                     .receivers = &receivers,
+                                     .count = RECEIVERS,
+                                     .values = made[k]};
+        ASSERT_OK(own, alpi_gather_irradiance(&job, NULL));
+        assert_memory_equal(made[k], made[0], sizeof made[0]);
         alp_context_destroy(own);
     }
-    assert_true(made[0].light[RECEIVERS - 1][0] > 0.0f);
+    assert_true(made[0][RECEIVERS - 1].mean[0] > 0.0f);
     test_probe_close(&p);
 }
 

@@ -149,18 +149,18 @@ static void packets_hold_every_pixel_once(void **state)
                 const uint32_t c = packet->column[i], r = packet->row[i];
                 double d[3];
                 if ((packet->active >> i & 1u) == 0) {
-                    assert_true(packet->weight[i] == 0.0f);
+                    assert_true(cube->weights[p][i] == 0.0f);
                     continue;
                 }
                 assert_true(alpi_hemicube_pixel(n, c, r, d));
                 assert_int_equal(seen[r * 2 * n + c]++, 0);
-                assert_true(packet->weight[i] == (float)alpi_hemicube_weight(n, c, r));
+                assert_true(cube->weights[p][i] == (float)alpi_hemicube_weight(n, c, r));
                 const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
                 ASSERT_NEAR(packet->x[i], d[0] / length, 6e-8); // half a float step
                 ASSERT_NEAR(packet->y[i], d[1] / length, 6e-8);
                 ASSERT_NEAR(packet->z[i], d[2] / length, 6e-8);
                 assert_true(c - packet->column[0] < 4 && r - packet->row[0] < 2);
-                sum += (double)packet->weight[i];
+                sum += (double)cube->weights[p][i];
                 count++;
             }
         }

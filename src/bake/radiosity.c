@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
+#include "bake/light.h"
+
+#include "maps/radiosity.h"
+#include "transport/cosine_rays.h"
+#include "transport/hemicube.h"
+
+enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16 };
+
+/// How blocks gather, and, by hemicubes, how texels do.
+typedef struct light_gatherers {
+    alpi_cosine_rays block_rays;
+    alpi_hemicube *block_cube, *texel_cube; // or NULL
+    alpi_hemicube_options block_cubes, texel_cubes;
+    alpi_gatherer blocks, texels;
+} light_gatherers;
+
+static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_gatherers *g)
+{
+    const uint32_t n = job->options.light.hemicube;
+    ALP_TRY(alpi_hemicube_create(job->context, n, &g->texel_cube));
+    ALP_TRY(alpi_hemicube_create(job->context, n < BLOCK_CUBE ? n : BLOCK_CUBE, &g->block_cube));
+    g->texel_cubes = (alpi_hemicube_options){
+        .context = job->context, .cube = g->texel_cube, .turned = true, .seed = seed};
+    g->block_cubes = g->texel_cubes;
+    g->block_cubes.cube = g->block_cube;
+    g->block_cubes.scattered = true;
+    g->blocks = alpi_hemicube_gatherer(&g->block_cubes);
+    g->texels = alpi_hemicube_gatherer(&g->texel_cubes);
+    return ALP_OK;
+}
+
+static alp_result make_gatherers(const alpi_bake_job *job, light_gatherers *g)
+{
+    const alp_light_options *o = &job->options.light;
+    const uint64_t seed = job->options.occlusion.seed;
+    *g = (light_gatherers){0};
+    if (o->gather == ALP_GATHER_HEMICUBE) {
+        return make_hemicubes(job, seed, g);
+    }
+    g->block_rays = (alpi_cosine_rays){
+        .context = job->context, .samples = BLOCK_RAYS, .replicates = 1, .seed = seed};
+    g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
+    return ALP_OK;
+}
+
+static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
+{
+    const alpi_energy *e = &solution->energy;
+    alp_bake_report *r = &job->report;
+    const uint32_t most = sizeof r->light_changes / sizeof *r->light_changes;
+    r->rays += solution->rays;
+    r->light_passes = solution->passes;
+    r->light_energy = (alp_light_energy){e->known,   e->emitted,     e->absorbed,
+                                         e->escaped, e->lost_behind, e->unshot};
+    for (uint32_t i = 0; i < solution->passes && i < most; i++) {
+        r->light_changes[i] = solution->changes[i];
+    }
+}
+
+static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
+                               const light_gatherers *g, const alpi_lighting *direct)
+{
+    const alp_bake_options *o = &job->options;
+    const alpi_radiosity_options options = {
+        .context = job->context,
+        .scene = job->scene,
+        .tracer = t->tracer,
+        .lighting = t->lighting,
+        .direct = direct,
+        .filter = {.one_sided = o->occlusion.one_sided},
+        .gatherer = &g->blocks,
+        .bounces = o->light.bounces,
+        .tolerance = 5e-4,
+        .spacing = SPACING,
+        .direct_samples = alpi_light_first_direct(job),
+        .kept_limit = 1ull << 30,
+        .seed = o->occlusion.seed,
+    };
+    alpi_radiosity solution;
+    ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
+                                 &t->progress, &solution));
+    report_solution(job, &solution);
+    const alp_result result =
+        alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
+    alpi_radiosity_destroy(&solution);
+    return result;
+}
+
+/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
+/// mix the two.
+static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
+{
+    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
+    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
+           !alpi_tracer_has_panes(tracer);
+}
+
+/// The light that is looked for directly: all, or all but a soft sky.
+static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
+                                  const light_gatherers *g)
+{
+    if (!has_soft_sky(job, t->tracer)) {
+        return gather_light(job, t, g, t->lighting);
+    }
+    alp_lighting_options options = job->options.light.lighting;
+    alpi_lighting *direct = NULL;
+    options.sky.kind = ALP_SKY_NONE;
+    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
+    const alp_result result = gather_light(job, t, g, direct);
+    alpi_lighting_destroy(job->context, direct);
+    return result;
+}
+
+alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
+{
+    light_gatherers gatherers;
+    alp_result result = make_gatherers(job, &gatherers);
+    if (result == ALP_OK) {
+        result = gather_with_sky(job, task, &gatherers);
+    }
+    alpi_hemicube_destroy(gatherers.block_cube);
+    alpi_hemicube_destroy(gatherers.texel_cube);
+    return result;
+}

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+#include "maps/patches.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "scene/lighting.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ALBEDO_STRATA = 4, SPACING_LIMIT = 16, BLOCK_LIMIT = SPACING_LIMIT * SPACING_LIMIT };
+
+// --- what a texel reflects -----------------------------------------------------------------------
+
+static bool is_textured(const alpi_texture *texture)
+{
+    return texture->image != ALPI_NONE;
+}
+
+/// Whether all points of a texel are alike: of one triangle, without textures or vertex colours.
+static bool is_even(const alpi_patches *p, uint32_t texel)
+{
+    const alp_scene *scene = p->scene;
+    const alpi_texels *t = p->texels;
+    if (t->piece_first[texel] != t->piece_first[texel + 1]) {
+        return false;
+    }
+    const uint32_t material =
+        scene->surfaces[scene->triangle_surface[t->triangles[texel]]].material;
+    if (scene->colors != NULL || material == ALPI_NONE) {
+        return scene->colors == NULL;
+    }
+    const alpi_material *m = &scene->materials[material];
+    return !is_textured(&m->base_color_texture) && !is_textured(&m->metallic_texture) &&
+           !is_textured(&m->emission_texture) && !is_textured(&m->transmission_texture);
+}
+
+static vec3 outward(const alp_scene *scene, uint32_t triangle)
+{
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    return vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
+}
+
+static bool is_masked_out(const alp_scene *scene, const alpi_texel_spot *s)
+{
+    const uint32_t material = scene->surfaces[scene->triangle_surface[s->triangle]].material;
+    return material != ALPI_NONE && scene->materials[material].alpha_mode == ALPI_ALPHA_MASK &&
+           alpi_surface_is_cut(scene, s->triangle, s->b1, s->b2);
+}
+
+/// Albedo and emission, means over those of the texel's strata that are there for a ray to meet.
+static void find_material(const alpi_patches *p, uint32_t texel)
+{
+    const uint32_t strata = is_even(p, texel) ? 1 : ALBEDO_STRATA;
+    double albedo[3] = {0.0}, emission[3] = {0.0};
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < strata * strata; i++) {
+        const float at[2] = {((float)(i % strata) + 0.5f) / (float)strata,
+                             ((float)(i / strata) + 0.5f) / (float)strata};
+        alpi_texel_spot s;
+        alpi_texels_spot(p->texels, texel, at, &s);
+        if (is_masked_out(p->scene, &s)) {
+            continue;
+        }
+        met++;
+        const alpi_pane pane = alpi_surface_pane(p->scene, s.triangle, s.b1, s.b2);
+        const vec3 a = alpi_surface_albedo(p->scene, s.triangle, s.b1, s.b2);
+        const vec3 e =
+            alpi_surface_emission(p->scene, s.triangle, s.b1, s.b2, outward(p->scene, s.triangle));
+        const float ab[3] = {a.x, a.y, a.z}, eb[3] = {e.x, e.y, e.z};
+        for (int k = 0; k < 3; k++) {
+            albedo[k] += (double)(pane.kept * ab[k]);
+            emission[k] += (double)eb[k];
+        }
+    }
+    for (int k = 0; k < 3 && met > 0; k++) {
+        p->reflectances[texel][k] = (float)(albedo[k] / met);
+        p->emissions[texel][k] = (float)(emission[k] / met);
+    }
+}
+
+static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const alpi_patches *p = user;
+    for (uint32_t t = begin; t < end; t++) {
+        find_material(p, t);
+    }
+    return ALP_OK;
+}
+
+// --- where light is looked up --------------------------------------------------------------------
+
+/// The nearest texel of a chart, with light of its own, about a pixel: in rings of up to `rings`.
+static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64_t y,
+                          uint32_t chart, int rings)
+{
+    uint32_t best = ALPI_NONE;
+    int best_distance = INT32_MAX;
+    for (int dy = -rings; dy <= rings; dy++) {
+        for (int dx = -rings; dx <= rings; dx++) {
+            const uint32_t t = alpi_lattice_texel(p->lattice, page, x + dx, y + dy);
+            const int distance = dx * dx + dy * dy;
+            if (t != ALPI_NONE && distance < best_distance && p->texels->charts[t] == chart &&
+                p->blocks[t] != ALPI_NONE) {
+                best = t;
+                best_distance = distance;
+            }
+        }
+    }
+    return best;
+}
+
+/// Nearest texels with light for those without, and a texel of each chart.
+static void find_stand_ins(alpi_patches *p)
+{
+    enum { RINGS = 3 };
+    const alpi_texels *texels = p->texels;
+    for (uint32_t t = 0; t < texels->count; t++) {
+        const uint16_t *pixel = texels->pixels[t];
+        p->stand_ins[t] = p->blocks[t] != ALPI_NONE ? t
+                                                    : find_near(p, texels->pages[t], pixel[0],
+                                                                pixel[1], texels->charts[t], RINGS);
+        const uint32_t chart = texels->charts[t];
+        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE &&
+            p->blocks[t] != ALPI_NONE) {
+            p->chart_texels[chart] = t;
+        }
+    }
+}
+
+uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2)
+{
+    const alp_atlas *atlas = patches->atlas;
+    const uint32_t page = atlas->triangle_pages[triangle], chart = atlas->triangle_charts[triangle];
+    if (page == ALPI_NONE || chart == ALPI_NONE) {
+        return ALPI_NONE;
+    }
+    const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
+    const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
+    const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
+    const int64_t x = (int64_t)floorf(u * (float)patches->lattice->width);
+    const int64_t y = (int64_t)floorf(v * (float)patches->lattice->height);
+    const uint32_t t = alpi_lattice_texel(patches->lattice, page, x, y);
+    if (t != ALPI_NONE && patches->texels->charts[t] == chart) {
+        const uint32_t stand_in = patches->stand_ins[t];
+        return stand_in != ALPI_NONE ? stand_in : patches->chart_texels[chart];
+    }
+    const uint32_t near = find_near(patches, page, x, y, chart, 1);
+    return near != ALPI_NONE ? near : patches->chart_texels[chart];
+}
+
+static uint32_t find_cell(const void *user, const alpi_surface_point *point)
+{
+    const alpi_patches *p = user;
+    const uint32_t texel = alpi_patches_find(p, point->triangle, point->b1, point->b2);
+    if (texel == ALPI_NONE) {
+        return ALPI_CELL_BLACK;
+    }
+    if (point->from_behind) {
+        if (!p->two_sided) {
+            return ALPI_CELL_BLACK;
+        }
+        uint8_t *seen = &p->seen_backs[p->blocks[texel]];
+        if (__atomic_load_n(seen, __ATOMIC_RELAXED) == ALPI_BACK_UNSEEN) {
+            __atomic_store_n(seen, ALPI_BACK_SEEN, __ATOMIC_RELAXED);
+        }
+        return alpi_patches_cell(p, texel, ALPI_BACK);
+    }
+    return alpi_patches_cell(p, texel, ALPI_FRONT);
+}
+
+static void look_up(const void *user, const alpi_surface_point *points, uint32_t count,
+                    vec3 *radiance)
+{
+    const alpi_patches *p = user;
+    for (uint32_t i = 0; i < count; i++) {
+        radiance[i] = vec3_load(p->cells[find_cell(user, &points[i])]);
+    }
+}
+
+alpi_surface_light alpi_patches_light(const alpi_patches *patches)
+{
+    return (alpi_surface_light){.reflected = look_up,
+                                .user = patches,
+                                .cell = find_cell,
+                                .cells = (const float(*)[4])patches->cells};
+}
+
+// --- blocks --------------------------------------------------------------------------------------
+
+/// Texels of one square of the page, with light of their own, chart by chart.
+typedef struct page_square {
+    uint32_t count;
+    uint32_t texels[BLOCK_LIMIT];
+} page_square;
+
+static void list_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
+                        uint32_t spacing, page_square *s)
+{
+    s->count = 0;
+    for (uint32_t y = y0; y < y0 + spacing; y++) {
+        for (uint32_t x = x0; x < x0 + spacing; x++) {
+            const uint32_t t = alpi_lattice_texel(p->lattice, page, x, y);
+            if (t != ALPI_NONE && p->blocks[t] != ALPI_NONE) {
+                s->texels[s->count++] = t;
+            }
+        }
+    }
+}
+
+/// Takes the texels of the first one's chart out of a square and makes a block of them.
+static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
+{
+    const uint32_t chart = p->texels->charts[s->texels[0]], first = *placed;
+    uint32_t left = 0;
+    double area = 0.0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const uint32_t t = s->texels[i];
+        if (p->texels->charts[t] != chart) {
+            s->texels[left++] = t;
+            continue;
+        }
+        area += (double)p->texels->areas[t];
+        p->blocks[t] = p->block_count;
+        p->block_ends[*placed] = (float)area;
+        p->block_texels[(*placed)++] = t;
+    }
+    for (uint32_t i = first; i < *placed; i++) {
+        p->block_ends[i] = area > 0.0 ? (float)((double)p->block_ends[i] / area)
+                                      : (float)(i - first + 1) / (float)(*placed - first);
+    }
+    p->block_ends[*placed - 1] = 1.0f;
+    p->block_areas[p->block_count] = area;
+    p->block_first[++p->block_count] = *placed;
+    s->count = left;
+}
+
+static alp_result make_blocks(alpi_patches *p, uint32_t spacing)
+{
+    const alpi_lattice *l = p->lattice;
+    uint32_t placed = 0;
+    page_square s;
+    for (uint32_t page = 0; page < l->page_count; page++) {
+        for (uint32_t y = 0; y < l->height; y += spacing) {
+            for (uint32_t x = 0; x < l->width; x += spacing) {
+                list_square(p, page, x, y, spacing, &s);
+                while (s.count > 0) {
+                    take_block(p, &s, &placed);
+                }
+            }
+            ALP_TRY(alpi_tick(p->context, "light", 0, 1));
+        }
+    }
+    return ALP_OK;
+}
+
+/// The member of a block that holds u of its area.
+static uint32_t find_member(const alpi_patches *p, uint32_t block, float u)
+{
+    uint32_t low = p->block_first[block], high = p->block_first[block + 1] - 1;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (u < p->block_ends[middle]) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+// --- receivers -----------------------------------------------------------------------------------
+
+/// The other side of each point.
+static void turn_over(uint32_t count, alpi_receiver_point *points)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        points[i].geometric_normal = vec3_scale(points[i].geometric_normal, -1.0f);
+        points[i].shading_normal = vec3_scale(points[i].shading_normal, -1.0f);
+    }
+}
+
+static void place_in_texel(const void *user, uint32_t receiver, uint32_t count,
+                           const float (*square)[2], alpi_receiver_point *points)
+{
+    const alpi_patches *p = user;
+    const alpi_receivers texels = alpi_texels_receivers(p->texels);
+    const bool back = receiver >= texels.count;
+    texels.place(texels.user, back ? receiver - texels.count : receiver, count, square, points);
+    if (back) {
+        turn_over(count, points);
+    }
+}
+
+alpi_receivers alpi_patches_texel_receivers(const alpi_patches *patches)
+{
+    return (alpi_receivers){.count = patches->texels->count * (patches->two_sided ? 2u : 1u),
+                            .extended = true,
+                            .place = place_in_texel,
+                            .user = patches};
+}
+
+enum { PLACE_BATCH = 64 };
+
+/// Points that fall into one texel of a block are placed together.
+static void place_batch(const alpi_patches *p, uint32_t block, uint32_t count,
+                        const float (*square)[2], alpi_receiver_point *points)
+{
+    const alpi_receivers texels = alpi_texels_receivers(p->texels);
+    uint32_t members[PLACE_BATCH], lanes[PLACE_BATCH];
+    float inside[PLACE_BATCH][2];
+    alpi_receiver_point placed[PLACE_BATCH];
+    for (uint32_t i = 0; i < count; i++) {
+        members[i] = find_member(p, block, square[i][0]);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t member = members[i];
+        if (member == ALPI_NONE) {
+            continue; // placed
+        }
+        const float begin = member == p->block_first[block] ? 0.0f : p->block_ends[member - 1];
+        const float width = p->block_ends[member] - begin;
+        uint32_t together = 0;
+        for (uint32_t j = i; j < count; j++) {
+            if (members[j] == member) {
+                const float u = width > 0.0f ? (square[j][0] - begin) / width : 0.0f;
+                inside[together][0] = fminf(fmaxf(u, 0.0f), 1.0f - 0x1p-24f);
+                inside[together][1] = square[j][1];
+                lanes[together++] = j;
+                members[j] = ALPI_NONE;
+            }
+        }
+        texels.place(texels.user, p->block_texels[member], together, (const float(*)[2])inside,
+                     placed);
+        for (uint32_t k = 0; k < together; k++) {
+            points[lanes[k]] = placed[k];
+        }
+    }
+}
+
+static void place_in_block(const void *user, uint32_t receiver, uint32_t count,
+                           const float (*square)[2], alpi_receiver_point *points)
+{
+    const alpi_patches *p = user;
+    const bool back = receiver >= p->block_count;
+    const uint32_t block = back ? receiver - p->block_count : receiver;
+    for (uint32_t i = 0; i < count; i += PLACE_BATCH) {
+        place_batch(p, block, count - i < PLACE_BATCH ? count - i : PLACE_BATCH, square + i,
+                    points + i);
+    }
+    if (back) {
+        turn_over(count, points);
+    }
+}
+
+alpi_receivers alpi_patches_block_receivers(const alpi_patches *patches)
+{
+    return (alpi_receivers){.count = patches->block_count * (patches->two_sided ? 2u : 1u),
+                            .extended = true,
+                            .place = place_in_block,
+                            .user = patches};
+}
+
+// --- making --------------------------------------------------------------------------------------
+
+static bool has_double_sided(const alp_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].double_sided) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t count_charts(const alpi_patches *p)
+{
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < p->scene->triangle_count; t++) {
+        const uint32_t chart = p->atlas->triangle_charts[t];
+        count = chart != ALPI_NONE && chart >= count ? chart + 1 : count;
+    }
+    return count;
+}
+
+static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count, uint32_t spacing)
+{
+    const uint32_t texels = p->texels->count, charts = count_charts(p);
+    const size_t sides = p->two_sided ? 2 : 1;
+    ALPI_TRY_NEW(p->context, p->stand_ins, texels);
+    ALPI_TRY_NEW(p->context, p->chart_texels, charts);
+    ALPI_TRY_NEW(p->context, p->reflectances, texels);
+    ALPI_TRY_NEW(p->context, p->emissions, texels);
+    ALPI_TRY_NEW(p->context, p->blocks, texels);
+    ALPI_TRY_NEW(p->context, p->block_first, (size_t)count + 1);
+    ALPI_TRY_NEW(p->context, p->block_texels, count);
+    ALPI_TRY_NEW(p->context, p->block_ends, count);
+    ALPI_TRY_NEW(p->context, p->block_areas, count);
+    ALPI_TRY_NEW(p->context, p->seen_backs, p->two_sided ? count : 0);
+    ALPI_TRY_NEW(p->context, p->cells, ALPI_CELL_FIRST + sides * texels);
+    memset(p->blocks, 0xff, texels * sizeof *p->blocks);
+    memset(p->chart_texels, 0xff, charts * sizeof *p->chart_texels);
+    for (uint32_t i = 0; i < count; i++) {
+        p->blocks[order[i]] = 0; // has light of its own; which block, comes next
+    }
+    ALP_TRY(make_blocks(p, spacing));
+    find_stand_ins(p);
+    const alpi_task_progress told = {.stage = "light"};
+    return alpi_parallel_for(p->context, texels, 1024, find_materials, p, &told);
+}
+
+alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
+                               const uint32_t *order, uint32_t count, uint32_t spacing,
+                               alpi_patches *patches)
+{
+    *patches = (alpi_patches){.context = lattice->context,
+                              .scene = atlas->scene,
+                              .atlas = atlas,
+                              .texels = lattice->texels,
+                              .lattice = lattice,
+                              .two_sided = has_double_sided(atlas->scene)};
+    const alp_result result = create(patches, order, count, spacing);
+    if (result != ALP_OK) {
+        alpi_patches_destroy(patches);
+    }
+    return result;
+}
+
+void alpi_patches_destroy(alpi_patches *patches)
+{
+    alp_context *context = patches->context;
+    if (context == NULL) {
+        return;
+    }
+    alpi_release(context, patches->stand_ins);
+    alpi_release(context, patches->chart_texels);
+    alpi_release(context, patches->reflectances);
+    alpi_release(context, patches->emissions);
+    alpi_release(context, patches->blocks);
+    alpi_release(context, patches->block_first);
+    alpi_release(context, patches->block_texels);
+    alpi_release(context, patches->block_ends);
+    alpi_release(context, patches->block_areas);
+    alpi_release(context, patches->seen_backs);
+    alpi_release(context, patches->cells);
+    *patches = (alpi_patches){0};
+}

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+#include "maps/radiosity.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "transport/direct.h"
+#include "transport/kept_rays.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TEXELS_PER_RANGE = 4096 };
+
+typedef struct solver {
+    alpi_radiosity *r;
+    alpi_gather_scene from;
+    alpi_receivers blocks;
+    alpi_kept_rays kept;
+    uint32_t *new_receivers; // [sides × blocks]
+    alpi_task_progress progress;
+} solver;
+
+static size_t sides_of(const alpi_patches *p)
+{
+    return p->two_sided ? 2 : 1;
+}
+
+alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
+{
+    const alpi_radiosity_options *o = &radiosity->options;
+    return (alpi_gather_scene){.scene = o->scene,
+                               .tracer = o->tracer,
+                               .lighting = o->lighting,
+                               .filter = o->filter,
+                               .light = alpi_patches_light(&radiosity->patches),
+                               .sky = o->direct != o->lighting};
+}
+
+// --- direct light --------------------------------------------------------------------------------
+
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays)
+{
+    const alpi_radiosity_options *o = &radiosity->options;
+    const alpi_direct_options options = {.context = o->context,
+                                         .scene = o->scene,
+                                         .tracer = o->tracer,
+                                         .lighting = o->direct,
+                                         .filter = o->filter,
+                                         .samples = samples,
+                                         .seed = seed};
+    alpi_direct *direct = NULL;
+    alpi_direct_output output = {.values = values};
+    const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
+    ALP_TRY(alpi_direct_create(&options, &direct));
+    const alp_result result =
+        alpi_direct_irradiance(direct, &texels, list, count, progress, &output);
+    *rays += output.rays;
+    alpi_direct_destroy(direct);
+    return result;
+}
+
+static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+{
+    const alpi_radiosity_options *o = &s->r->options;
+    return alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress,
+                                 s->r->direct, &s->r->rays);
+}
+
+/// Direct light on the backs of some blocks, the listed receivers.
+static alp_result light_backs(const solver *s, const uint32_t *blocks, uint32_t count)
+{
+    const alpi_patches *p = &s->r->patches;
+    uint32_t *list = ALPI_NEW(p->context, uint32_t, p->texels->count);
+    uint32_t texels = 0;
+    if (list == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t b = blocks[i] - p->block_count;
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            list[texels++] = p->texels->count + p->block_texels[k];
+        }
+    }
+    const alp_result result = gather_direct(s, list, texels);
+    alpi_release(p->context, list);
+    return result;
+}
+
+// --- rays ----------------------------------------------------------------------------------------
+
+static alpi_gather_job job_of(const solver *s, const uint32_t *list, uint32_t count)
+{
+    return (alpi_gather_job){.context = s->r->options.context,
+                             .from = &s->from,
+                             .gatherer = s->r->options.gatherer,
+                             .receivers = &s->blocks,
+                             .list = list,
+                             .count = count,
+                             .values = s->r->bounced,
+                             .skies = s->r->skies,
+                             .lost = s->r->lost};
+}
+
+/// The first look around of the listed receivers: what the sky brings, which backs are seen, and
+/// the rays themselves where they are kept.
+static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
+{
+    const alpi_gather_job job = job_of(s, list, count);
+    if (!s->r->kept && !s->r->patches.two_sided && !s->from.sky) {
+        return ALP_OK;
+    }
+    s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
+    return s->r->kept ? alpi_kept_rays_trace(&job, &s->progress, &s->kept)
+                      : alpi_gather_irradiance(&job, &s->progress);
+}
+
+/// Adds the backs that were seen since to the receivers. @return how many
+static uint32_t add_seen_backs(solver *s)
+{
+    const alpi_patches *p = &s->r->patches;
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < p->block_count && p->two_sided; b++) {
+        if (p->seen_backs[b] == ALPI_BACK_SEEN) {
+            p->seen_backs[b] = ALPI_BACK_LIT;
+            s->new_receivers[count] = p->block_count + b;
+            s->r->receivers[s->r->receiver_count++] = s->new_receivers[count++];
+        }
+    }
+    return count;
+}
+
+/// Finds who gathers: all fronts, and the backs that any of those who gather sees. The rays of all
+/// are kept where there is room for them.
+static alp_result find_receivers(solver *s)
+{
+    alpi_radiosity *r = s->r;
+    const alpi_patches *p = &r->patches;
+    const alpi_radiosity_options *o = &r->options;
+    uint32_t room = p->block_count;
+    r->kept = alpi_gather_meets_cells(&s->from) &&
+              alpi_kept_rays_size(o->gatherer) * room * sides_of(p) <= o->kept_limit;
+    if (r->kept) {
+        ALP_TRY(alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept));
+    }
+    for (uint32_t b = 0; b < p->block_count; b++) {
+        r->receivers[b] = s->new_receivers[b] = b;
+    }
+    r->receiver_count = p->block_count;
+    for (uint32_t count = p->block_count; count > 0; count = add_seen_backs(s)) {
+        if (s->new_receivers[0] >= p->block_count) {
+            if (r->kept && room == p->block_count) {
+                room *= 2;
+                ALP_TRY(alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept));
+            }
+            ALP_TRY(light_backs(s, s->new_receivers, count));
+        }
+        ALP_TRY(look_around(s, s->new_receivers, count));
+    }
+    s->from.sky = false; // its light is known now
+    memset(r->bounced, 0, (size_t)p->block_count * sides_of(p) * sizeof *r->bounced);
+    return ALP_OK;
+}
+
+// --- passes --------------------------------------------------------------------------------------
+
+static void light_cell(const alpi_radiosity *r, uint32_t texel, alpi_side side)
+{
+    const alpi_patches *p = &r->patches;
+    const size_t back = side == ALPI_BACK ? 1 : 0;
+    const float *bounced = r->bounced[back * p->block_count + p->blocks[texel]].mean;
+    const float *sky = r->skies[back * p->block_count + p->blocks[texel]];
+    const float *direct = r->direct[back * p->texels->count + texel].mean;
+    float *cell = p->cells[alpi_patches_cell(p, texel, side)];
+    for (int k = 0; k < 3; k++) {
+        cell[k] =
+            p->reflectances[texel][k] * (float)(1.0 / ALPI_PI) * (direct[k] + sky[k] + bounced[k]);
+    }
+}
+
+/// Radiance of all patches, by their direct light and what was gathered last. Backs that nobody
+/// sees are black.
+static alp_result light_cells(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const alpi_radiosity *r = user;
+    for (uint32_t t = begin; t < end; t++) {
+        const uint32_t block = r->patches.blocks[t];
+        if (block == ALPI_NONE) {
+            continue;
+        }
+        light_cell(r, t, ALPI_FRONT);
+        if (r->patches.two_sided && r->patches.seen_backs[block] == ALPI_BACK_LIT) {
+            light_cell(r, t, ALPI_BACK);
+        }
+    }
+    return ALP_OK;
+}
+
+static double sum_of(const float v[3])
+{
+    return (double)v[0] + (double)v[1] + (double)v[2];
+}
+
+static uint32_t block_of(const alpi_patches *p, uint32_t receiver, size_t *back)
+{
+    *back = receiver >= p->block_count ? 1 : 0;
+    return *back ? receiver - p->block_count : receiver;
+}
+
+/// Light of a block: area integral of direct and gathered irradiance, all channels.
+static double light_of(const alpi_radiosity *r, uint32_t receiver)
+{
+    const alpi_patches *p = &r->patches;
+    size_t back;
+    const uint32_t b = block_of(p, receiver, &back);
+    double sum =
+        p->block_areas[b] * (sum_of(r->bounced[receiver].mean) + sum_of(r->skies[receiver]));
+    for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+        const uint32_t t = p->block_texels[k];
+        sum += (double)p->texels->areas[t] * sum_of(r->direct[back * p->texels->count + t].mean);
+    }
+    return sum;
+}
+
+/// Sums |Eₖ − Eₖ₋₁|, Eₖ − Eₖ₋₁ and all light over the receivers.
+static void sum_changes(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_radiosity *r = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = r->receivers[i];
+        size_t back;
+        const double area = r->patches.block_areas[block_of(&r->patches, receiver, &back)];
+        for (int k = 0; k < 3; k++) {
+            const double change =
+                (double)r->bounced[receiver].mean[k] - (double)r->before[receiver][k];
+            sums[0] += area * fabs(change);
+        }
+        sums[1] += light_of(r, receiver);
+    }
+}
+
+/// One pass. @param change out: mean change over mean light
+static alp_result pass(solver *s, double *change)
+{
+    alpi_radiosity *r = s->r;
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    ALP_TRY(alpi_parallel_for(r->options.context, r->patches.texels->count, TEXELS_PER_RANGE,
+                              light_cells, r, &s->progress));
+    for (uint32_t i = 0; i < r->receiver_count; i++) {
+        const uint32_t receiver = r->receivers[i];
+        for (int k = 0; k < 3; k++) {
+            r->before[receiver][k] = r->bounced[receiver].mean[k];
+        }
+    }
+    alpi_gather_job job = job_of(s, r->receivers, r->receiver_count);
+    job.skies = NULL; // known
+    if (r->kept) {
+        ALP_TRY(alpi_kept_rays_gather(&job, &s->kept, &s->progress));
+    } else {
+        r->rays += (uint64_t)job.count * job.gatherer->packet_count * ALPI_PACKET;
+        ALP_TRY(alpi_gather_irradiance(&job, &s->progress));
+    }
+    ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_changes, r, &s->progress,
+                              sums));
+    *change = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    if (r->passes < ALPI_RADIOSITY_CHANGES) {
+        r->changes[r->passes] = (float)*change;
+    }
+    r->passes++;
+    return ALP_OK;
+}
+
+/// What all later passes would add, over all light, if each adds in proportion to the one before as
+/// the last two did.
+static double left_over(double change, double former)
+{
+    const double ratio = former > 0.0 ? fmin(change / former, 0.999) : 0.999;
+    return change * ratio / (1.0 - ratio);
+}
+
+static alp_result run_passes(solver *s)
+{
+    const alpi_radiosity_options *o = &s->r->options;
+    const bool converge = o->bounces > ALPI_RADIOSITY_PASS_LIMIT;
+    const uint32_t limit = converge ? ALPI_RADIOSITY_PASS_LIMIT : o->bounces;
+    double change = 0.0, former = 0.0;
+    while (s->r->passes < limit) {
+        ALP_TRY(pass(s, &change));
+        const bool settled =
+            converge && s->r->passes > 1 && left_over(change, former) < o->tolerance;
+        if (change == 0.0 || settled) {
+            break;
+        }
+        former = change;
+    }
+    return ALP_OK;
+}
+
+// --- energy --------------------------------------------------------------------------------------
+
+static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
+                             double surface_emitted[3], alpi_energy *e)
+{
+    const alpi_patches *p = &r->patches;
+    const double area = (double)p->texels->areas[t];
+    const float *direct = r->direct[back * p->texels->count + t].mean;
+    const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
+    const double escaped = (double)r->lost[receiver][0], behind = (double)r->lost[receiver][1];
+    for (int k = 0; k < 3; k++) {
+        const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
+        const double emitted = back ? 0.0 : ALPI_PI * (double)p->emissions[t][k];
+        const double first = (double)direct[k] + (double)r->skies[receiver][k];
+        const double shot = albedo * (first + (double)before[k]) + emitted;
+        e->received += share * first;
+        e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
+        e->escaped += share * escaped * shot;
+        e->lost_behind += share * behind * shot;
+        e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
+        surface_emitted[0] += share * emitted;
+        surface_emitted[1] += share * emitted * (1.0 - escaped - behind);
+    }
+}
+
+/// Adds up in the order of the receivers, on one thread: some nanoseconds a texel.
+static void find_energy(alpi_radiosity *r)
+{
+    const alpi_patches *p = &r->patches;
+    alpi_energy *e = &r->energy;
+    double surface_emitted[3] = {0.0}; // all, and what reaches other surfaces
+    for (uint32_t i = 0; i < r->receiver_count; i++) {
+        size_t back;
+        const uint32_t b = block_of(p, r->receivers[i], &back);
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], surface_emitted, e);
+        }
+    }
+    const alpi_lighting *l = r->options.lighting;
+    const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
+    e->emitted = surface_emitted[0] + (others ? e->received - surface_emitted[1] : 0.0);
+    e->known = !alpi_tracer_has_panes(r->options.tracer);
+}
+
+// --- all of it -----------------------------------------------------------------------------------
+
+static alp_result allocate(solver *s)
+{
+    alpi_radiosity *r = s->r;
+    const alpi_patches *p = &r->patches;
+    alp_context *context = r->options.context;
+    const size_t blocks = sides_of(p) * p->block_count;
+    ALPI_TRY_NEW(context, r->direct, sides_of(p) * p->texels->count);
+    ALPI_TRY_NEW(context, r->bounced, blocks);
+    ALPI_TRY_NEW(context, r->before, blocks);
+    ALPI_TRY_NEW(context, r->skies, blocks);
+    ALPI_TRY_NEW(context, r->lost, blocks);
+    ALPI_TRY_NEW(context, r->receivers, blocks);
+    ALPI_TRY_NEW(context, s->new_receivers, blocks);
+    return ALP_OK;
+}
+
+static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
+{
+    ALP_TRY(allocate(s));
+    ALP_TRY(gather_direct(s, order, count));
+    s->from = alpi_radiosity_scene(s->r);
+    s->blocks = alpi_patches_block_receivers(&s->r->patches);
+    ALP_TRY(find_receivers(s));
+    ALP_TRY(run_passes(s));
+    find_energy(s->r);
+    return ALP_OK;
+}
+
+alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alpi_lattice *lattice,
+                                const alp_atlas *atlas, const uint32_t *order, uint32_t count,
+                                const alpi_task_progress *progress, alpi_radiosity *radiosity)
+{
+    *radiosity = (alpi_radiosity){.options = *options};
+    solver s = {.r = radiosity};
+    s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
+    ALP_TRY(
+        alpi_patches_create(lattice, atlas, order, count, options->spacing, &radiosity->patches));
+    const alp_result result = solve(&s, order, count);
+    alpi_kept_rays_destroy(&s.kept);
+    alpi_release(options->context, s.new_receivers);
+    if (result != ALP_OK) {
+        alpi_radiosity_destroy(radiosity);
+    }
+    return result;
+}
+
+void alpi_radiosity_destroy(alpi_radiosity *radiosity)
+{
+    alp_context *context = radiosity->options.context;
+    if (context == NULL) {
+        return;
+    }
+    alpi_patches_destroy(&radiosity->patches);
+    alpi_release(context, radiosity->direct);
+    alpi_release(context, radiosity->bounced);
+    alpi_release(context, radiosity->before);
+    alpi_release(context, radiosity->skies);
+    alpi_release(context, radiosity->lost);
+    alpi_release(context, radiosity->receivers);
+    *radiosity = (alpi_radiosity){0};
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Radiosity: light that goes from surface to surface until nothing is left of it.
+//
+// On every patch x, with direct light E₀ and reflectance ρ, pass k gathers
+//
+//     Eₖ(x) = ∫ ρ/π (E₀ + Eₖ₋₁) cosθ dω    over the surfaces that x sees, E at pass 0 = 0
+//
+// so that E₀ + Eₖ is the light after k bounces. Direct light is apart: it has edges, and better
+// ways to find it (alpi_direct). Only a soft sky's is left to the rays that leave the scene, which
+// are many, and miss no light of a sky without bright spots.
+// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
+//           Light Between Diffuse Surfaces. SIGGRAPH 1984; H. Elias. Radiosity.
+#ifndef ALPI_MAPS_RADIOSITY_H
+#define ALPI_MAPS_RADIOSITY_H
+
+#include "maps/patches.h"
+
+enum { ALPI_RADIOSITY_PASS_LIMIT = 1024, ALPI_RADIOSITY_CHANGES = 64 };
+
+typedef struct alpi_radiosity_options {
+    alp_context *context;
+    const alp_scene *scene;
+    const alpi_tracer *tracer;
+    const alpi_lighting *lighting; // all light
+    const alpi_lighting *direct;   // that alpi_direct looks for: all of it, or all but a soft sky
+                                   // (then no panes)
+    alpi_trace_filter filter;
+    const alpi_gatherer *gatherer; // how blocks gather; all borrowed
+    uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left
+    double tolerance; // then: light that is not yet gathered, over all, that is called nothing
+    uint32_t spacing; // texels along a block
+    uint32_t direct_samples; // of each light at each texel
+    uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
+    uint64_t seed;
+} alpi_radiosity_options;
+
+/// Where the light goes: fluxes in W, means of the three channels, area integrals over the patches
+/// that were gathered for. They close to the noise of the rays:
+/// emitted = absorbed + escaped + lost_behind + unshot.
+typedef struct alpi_energy {
+    double emitted;  // by surfaces, and what lamps, suns and sky bring directly
+    double received; // of it, directly
+    double absorbed;
+    double escaped;     // out of the scene, counted by the rays that meet nothing
+    double lost_behind; // into black backs of surfaces, by the rays that meet them
+    double unshot;      // reflected by the last bounce and not gathered any more
+    bool known;         // false: panes let light through, and rays are not counted
+} alpi_energy;
+
+typedef struct alpi_radiosity {
+    alpi_radiosity_options options;
+    alpi_patches patches;          // cells hold what the last bounce wanted brings
+    alpi_reference_value *direct;  // [sides × texels] E₀ with its variance, a soft sky apart
+    float (*skies)[3];             // [sides × blocks] E of a soft sky
+    alpi_reference_value *bounced; // [sides × blocks] E of the last pass
+    float (*before)[3];            // [sides × blocks] of the one before
+    float (*lost)[2];              // [sides × blocks] see alpi_gather_job
+    uint32_t *receivers;           // [receiver_count] blocks that gather: fronts, seen backs
+    uint32_t receiver_count;
+    uint32_t passes;
+    float
+        changes[ALPI_RADIOSITY_CHANGES]; // |Eₖ − Eₖ₋₁| over all light, by area; of the first passes
+    bool kept;                           // rays were traced once
+    uint64_t rays;
+    alpi_energy energy;
+} alpi_radiosity;
+
+/// Solves for the patches of an atlas.
+/// @param order [count] texels with light of their own, neighbours together
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alpi_lattice *lattice,
+                                const alp_atlas *atlas, const uint32_t *order, uint32_t count,
+                                const alpi_task_progress *progress, alpi_radiosity *radiosity);
+void alpi_radiosity_destroy(alpi_radiosity *radiosity);
+
+/// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples.
+/// @param values [sides × texels] out, of those listed   @param rays added to
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays);
+
+/// What gatherers look at to find the light of the last bounce at other receivers.
+alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity);
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Gathering by rays: stratified, cosine-distributed directions from points spread over a receiver,
+// so that all rays count alike, E = π/N Σ L.
+#ifndef ALPI_TRANSPORT_COSINE_RAYS_H
+#define ALPI_TRANSPORT_COSINE_RAYS_H
+
+#include "transport/gather.h"
+
+/// Packets are dealt out to the replicates in turns, each with sequences of its own; the spread of
+/// the replicates' means tells the error. One replicate is the best stratified.
+typedef struct alpi_cosine_rays {
+    alp_context *context; // for its instruction set
+    uint32_t samples;     // of each receiver: a multiple of 8 × replicates
+    uint32_t replicates;  // [1, ALPI_GATHER_REPLICATE_LIMIT]
+    uint64_t seed;
+} alpi_cosine_rays;
+
+/// `samples` rounded up to what there can be.
+uint32_t alpi_cosine_rays_samples(uint32_t samples, uint32_t replicates);
+
+/// Unbiased. The options are borrowed.
+alpi_gatherer alpi_cosine_rays_gatherer(const alpi_cosine_rays *rays);
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "transport/kept_rays.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <string.h>
+
+enum { RAYS_PER_RANGE = 4096 };
+
+uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
+{
+    return (uint64_t)gatherer->packet_count * ALPI_PACKET * sizeof(uint32_t);
+}
+
+alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
+                                  uint32_t count, alpi_kept_rays *kept)
+{
+    const uint32_t rays = gatherer->packet_count * ALPI_PACKET;
+    const size_t had = (size_t)kept->receivers * kept->rays;
+    uint32_t *cells = ALPI_NEW(context, uint32_t, (size_t)count * rays);
+    if (cells == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    if (had > 0) {
+        memcpy(cells, kept->cells, had * sizeof *cells);
+    }
+    alpi_release(context, kept->cells);
+    *kept = (alpi_kept_rays){context, count, rays, cells};
+    return ALP_OK;
+}
+
+void alpi_kept_rays_destroy(alpi_kept_rays *kept)
+{
+    if (kept->context != NULL) {
+        alpi_release(kept->context, kept->cells);
+    }
+    *kept = (alpi_kept_rays){0};
+}
+
+typedef struct kept_job {
+    const alpi_gather_job *job;
+    const alpi_kept_rays *kept;
+} kept_job;
+
+static uint32_t receiver_at(const alpi_gather_job *job, uint32_t i)
+{
+    return job->list != NULL ? job->list[i] : i;
+}
+
+static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const kept_job *k = user;
+    const alpi_gather_job *job = k->job;
+    const alpi_gatherer *g = job->gatherer;
+    alpi_gather_packet packets[ALPI_GATHER_BATCH];
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = receiver_at(job, i);
+        uint32_t(*cells)[ALPI_PACKET] =
+            (uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
+            const uint32_t left = g->packet_count - first;
+            const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
+            g->aim(g->user, job->receivers, receiver, first, count, packets);
+            for (uint32_t p = 0; p < count; p++) {
+                alpi_gather_cells(job->from, &packets[p], g->coherent, cells[first + p]);
+                if (job->from->sky) {
+                    alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
+                                        &sums);
+                }
+            }
+            if (!alpi_loop_goes_on(job->context)) {
+                return ALP_ERROR_CANCELLED;
+            }
+        }
+        for (int c = 0; c < 3 && job->skies != NULL; c++) {
+            job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
+        }
+    }
+    return ALP_OK;
+}
+
+/// Runs a body over the listed receivers.
+static alp_result run(kept_job *k, alpi_task_fn *body, const alpi_task_progress *progress)
+{
+    const uint32_t rays = k->kept->rays;
+    return alpi_parallel_for(k->job->context, k->job->count,
+                             rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1, body, k, progress);
+}
+
+alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
+                                alpi_kept_rays *kept)
+{
+    kept_job k = {job, kept};
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    told.units_per_item = (double)kept->rays;
+    told.units_are_rays = true;
+    return run(&k, trace_range, &told);
+}
+
+static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const kept_job *k = user;
+    const alpi_gather_job *job = k->job;
+    alpi_gather_job without_sky = *job;
+    without_sky.skies = NULL;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = receiver_at(job, i);
+        const uint32_t(*cells)[ALPI_PACKET] =
+            (const uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
+            alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
+        }
+        alpi_gather_put(&without_sky, receiver, &sums);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
+                                 const alpi_task_progress *progress)
+{
+    kept_job k = {job, kept};
+    return run(&k, gather_range, progress);
+}
