@@ -42,10 +42,8 @@ static void put_lamp(alp_scene *scene, vec3 position)
 /// Floor or ceiling of the rectangle from (x0, z0) to (x1, z1).
 static void put_level(alpi_builder *b, const float r[4], float height, bool up)
 {
-    const vec3 c[4] = {{r[0], height, r[1]},
-                       {r[2], height, r[1]},
-                       {r[2], height, r[3]},
-                       {r[0], height, r[3]}};
+    const vec3 c[4] = {
+        {r[0], height, r[1]}, {r[2], height, r[1]}, {r[2], height, r[3]}, {r[0], height, r[3]}};
     alpi_builder_quad(b, up ? (const vec3[4]){c[3], c[2], c[1], c[0]} : c);
 }
 
@@ -53,8 +51,7 @@ static void put_level(alpi_builder *b, const float r[4], float height, bool up)
 static alp_scene *make_corner_room(void)
 {
     static const float outline[6][2] = {{0, 0}, {2, 0}, {2, 0.8f}, {0.8f, 0.8f}, {0.8f, 2}, {0, 2}};
-    static const float levels[3][4] = {
-        {0, 0, 0.8f, 0.8f}, {0.8f, 0, 2, 0.8f}, {0, 0.8f, 0.8f, 2}};
+    static const float levels[3][4] = {{0, 0, 0.8f, 0.8f}, {0.8f, 0, 2, 0.8f}, {0, 0.8f, 0.8f, 2}};
     alpi_builder b;
     alp_scene *scene = NULL;
     alpi_builder_start(&b, context, "corner");
@@ -136,6 +133,7 @@ static void the_mean_over_closed_rooms(void **state)
         test_radiant_options o = test_radiant_default();
         test_radiant r;
         o.size = 80;
+        o.rays = 1024; // 64 leave 1 % where a lamp stands near a wall
         o.max_angle = 1.0f;
         test_radiant_open(scene, &o, &r);
         test_radiant_gather(&r, 128);
@@ -179,6 +177,7 @@ static void energy_is_accounted_for(void **state)
             sky.sky.kind = i == 1 ? ALP_SKY_CONSTANT : ALP_SKY_NONE;
             o.lighting = &sky;
             o.bounces = bounces;
+            o.rays = i == 2 ? 256 : 1024;
             o.direct_samples = 64;
             o.size = i == 2 ? 128 : 64;
             o.max_angle = 0.8f;
@@ -192,8 +191,10 @@ static void energy_is_accounted_for(void **state)
                    e->lost_behind / e->emitted, e->unshot / e->emitted, sum / e->emitted - 1.0);
             assert_true(e->known && e->emitted > 0.0 && e->absorbed > 0.0);
             assert_true(e->escaped >= 0.0 && e->unshot >= 0.0);
-            // Hundreds of blocks with 64 rays each, of which a third of the light comes.
-            ASSERT_NEAR(sum, e->emitted, 5e-3 * e->emitted);
+            // What escapes of a lamp's own light is told by the rays of its few blocks. Smooth
+            // normals tilt hemispheres, and what one texel loses by that no other finds.
+            ASSERT_NEAR(sum, e->emitted, (i == 2 ? 1e-2 : 5e-3) * e->emitted);
+            assert_true(e->escaped > (i == 2 ? 0.0 : 0.2 * e->emitted));
             test_radiant_close(&r);
         }
     }
