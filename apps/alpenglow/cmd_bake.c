@@ -4,6 +4,7 @@
 #include "lighting.h"
 #include "output.h"
 #include "report.h"
+#include "report_page.h"
 #include "session.h"
 
 #include <math.h>
@@ -87,15 +88,10 @@ static int check_light(const option_value *values, bool light, bool occlusion)
                                             {OPTION_SUN_SIZE, "--sun-size"},
                                             {OPTION_LAMP, "--lamp"},
                                             {OPTION_SPOT, "--spot"}};
-    static const named_option of_occlusion[] = {{OPTION_AO_SAMPLES, "--ao-samples"},
-                                                {OPTION_AO_DISTANCE, "--ao-distance"},
-                                                {OPTION_AO_FALLOFF, "--ao-falloff"},
-                                                {OPTION_AO_CONE, "--ao-cone"},
-                                                {OPTION_AO_DISTRIBUTION, "--ao-distribution"},
-                                                {OPTION_QUALITY, "--quality"},
-                                                {OPTION_ERROR, "--error"},
-                                                {OPTION_ADAPTIVE, "--adaptive"},
-                                                {OPTION_AO_INTO, "--ao-into"}};
+    static const named_option of_occlusion[] = {
+        {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
+        {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
+        {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
     static const named_option not_of_light[] = {{OPTION_TIME_LIMIT, "--time-limit"},
                                                 {OPTION_KEEP_PARTIAL, "--keep-partial"},
                                                 {OPTION_AO_SELF, "--ao-self"},
@@ -171,6 +167,9 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
         s->error = quality_errors[values[OPTION_QUALITY].choice];
     } else if (values[OPTION_ERROR].given) {
         s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    }
+    if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS) {
+        o->light.error = s->error > 0.0f ? s->error : 0.01f;
     }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
     if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
@@ -359,6 +358,10 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     } else {
         printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
     }
+    if (r->light_interpolated > 0) {
+        printf("; %.0f %% of the texels gathered, the rest interpolated",
+               100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
+    }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
     if (isfinite(r->light_relative_error)) {
         printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);
@@ -429,6 +432,9 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
         code = write_report(s, lightmap, &report, a);
     }
+    if (code == EXIT_DONE && a->values[OPTION_REPORT].text != NULL) {
+        code = report_page_write(s, lightmap, &report, a);
+    }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
         print_summary(s, a, o, &report);
@@ -462,6 +468,9 @@ int command_bake(const command_line *a)
     int code = read_options(a, &options, &lamps);
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
+    }
+    if (code == EXIT_DONE) {
+        code = report_page_check(a);
     }
     if (code != EXIT_DONE) {
         return code;

@@ -93,6 +93,9 @@ typedef struct alp_light_options {
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
+    /// more and more samples until it is stated. 0 (default): `samples` in one round.
+    float error;
     uint32_t samples;  ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
                        ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
                        ///< each light, to a multiple of 8. HEMICUBE: not read
@@ -197,7 +200,8 @@ typedef struct alp_bake_report {
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_mean; NaN if dark, and of hemicubes, which do not tell.
     double light_relative_error, light_p99_error;
-    uint32_t light_passes; ///< of radiosity, one a bounce; else 0
+    uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
+    uint32_t light_passes;                     ///< of radiosity, one a bounce; else 0
     /// Of each of the first 64 passes, the mean change of the light over its mean.
     float light_changes[64];
     alp_light_energy light_energy;

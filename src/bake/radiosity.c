@@ -2,20 +2,15 @@
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
 #include "bake/light.h"
 
-#include "base/memory.h"
-#include "base/random.h"
-#include "base/tasks.h"
 #include "maps/radiosity.h"
 #include "transport/cosine_rays.h"
 #include "transport/hemicube.h"
 
-#include <math.h>
+enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16 };
 
-enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16, REPLICATES = 4, DIRECT_SAMPLES = 64 };
-
-/// How blocks gather, and how texels do.
+/// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
-    alpi_cosine_rays block_rays, texel_rays;
+    alpi_cosine_rays block_rays;
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
@@ -46,12 +41,7 @@ static alp_result make_gatherers(const alpi_bake_job *job, light_gatherers *g)
     }
     g->block_rays = (alpi_cosine_rays){
         .context = job->context, .samples = BLOCK_RAYS, .replicates = 1, .seed = seed};
-    g->texel_rays = (alpi_cosine_rays){.context = job->context,
-                                       .samples = alpi_cosine_rays_samples(o->samples, REPLICATES),
-                                       .replicates = REPLICATES,
-                                       .seed = alpi_hash64(seed)};
     g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
-    g->texels = alpi_cosine_rays_gatherer(&g->texel_rays);
     return ALP_OK;
 }
 
@@ -66,47 +56,6 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
                                          e->escaped, e->lost_behind, e->unshot};
     for (uint32_t i = 0; i < solution->passes && i < most; i++) {
         r->light_changes[i] = solution->changes[i];
-    }
-}
-
-/// The last bounce, and a soft sky, gathered from the texels themselves.
-/// @param skies [texels] out: what of it is the sky's
-static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
-                                const alpi_gatherer *gatherer, const alpi_radiosity *solution,
-                                float (*skies)[3])
-{
-    const alpi_gather_scene from = alpi_radiosity_scene(solution);
-    const alpi_gather_job gather = {.context = job->context,
-                                    .from = &from,
-                                    .gatherer = gatherer,
-                                    .receivers = t->receivers,
-                                    .list = t->order,
-                                    .count = t->count,
-                                    .values = t->values,
-                                    .skies = skies};
-    job->report.light_samples = gatherer->packet_count * ALPI_PACKET;
-    job->report.rays += (uint64_t)t->count * job->report.light_samples;
-    return alpi_gather_irradiance(&gather, &t->progress);
-}
-
-/// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static void add_direct(const alpi_bake_job *job, const alpi_light_task *t,
-                       const alpi_radiosity *solution, const float (*skies)[3])
-{
-    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < t->count; i++) {
-        const uint32_t texel = t->order[i];
-        const alpi_reference_value *direct = &solution->direct[texel];
-        alpi_reference_value *value = &t->values[texel];
-        for (int k = 0; k < 3; k++) {
-            const float sky = skies[texel][k], bounced = value->mean[k] - sky;
-            if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k] + sky;
-                job->bounced[texel][k] = bounced;
-            }
-            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
-            value->variance[k] += on ? direct->variance[k] : 0.0f;
-        }
     }
 }
 
@@ -125,7 +74,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
         .bounces = o->light.bounces,
         .tolerance = 5e-4,
         .spacing = SPACING,
-        .direct_samples = DIRECT_SAMPLES,
+        .direct_samples = alpi_light_first_direct(job),
         .kept_limit = 1ull << 30,
         .seed = o->occlusion.seed,
     };
@@ -133,13 +82,8 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
-    float(*skies)[3] = alpi_allocate(job->context, t->receivers->count, sizeof *skies);
-    alp_result result = skies != NULL ? gather_texels(job, t, &g->texels, &solution, skies)
-                                      : ALP_ERROR_OUT_OF_MEMORY;
-    if (result == ALP_OK) {
-        add_direct(job, t, &solution, (const float(*)[3])skies);
-    }
-    alpi_release(job->context, skies);
+    const alp_result result =
+        alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
     alpi_radiosity_destroy(&solution);
     return result;
 }

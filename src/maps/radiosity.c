@@ -38,25 +38,35 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
 
 // --- direct light --------------------------------------------------------------------------------
 
-static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays)
 {
-    const alpi_radiosity_options *o = &s->r->options;
+    const alpi_radiosity_options *o = &radiosity->options;
     const alpi_direct_options options = {.context = o->context,
                                          .scene = o->scene,
                                          .tracer = o->tracer,
                                          .lighting = o->direct,
                                          .filter = o->filter,
-                                         .samples = o->direct_samples,
-                                         .seed = o->seed};
+                                         .samples = samples,
+                                         .seed = seed};
     alpi_direct *direct = NULL;
-    alpi_direct_output output = {.values = s->r->direct};
-    const alpi_receivers texels = alpi_patches_texel_receivers(&s->r->patches);
+    alpi_direct_output output = {.values = values};
+    const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
-        alpi_direct_irradiance(direct, &texels, list, count, &s->progress, &output);
-    s->r->rays += output.rays;
+        alpi_direct_irradiance(direct, &texels, list, count, progress, &output);
+    *rays += output.rays;
     alpi_direct_destroy(direct);
     return result;
+}
+
+static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+{
+    const alpi_radiosity_options *o = &s->r->options;
+    return alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress,
+                                 s->r->direct, &s->r->rays);
 }
 
 /// Direct light on the backs of some blocks, the listed receivers.

@@ -73,6 +73,14 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity);
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
 
+/// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples.
+/// @param values [sides × texels] out, of those listed   @param rays added to
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays);
+
 /// What gatherers look at to find the light of the last bounce at other receivers.
 alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity);
 

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
+// larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
+// their own; what they find is averaged by their numbers of samples.
+#include "bake/light.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "maps/bounced_map.h"
+#include "transport/cosine_rays.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    REPLICATES = 4,
+    FIRST_RAYS = 64,   // of a bake that goes for an error
+    FIRST_DIRECT = 16, // the same
+    MOST_SAMPLES = 65536,
+    ROUND_LIMIT = 12
+};
+
+typedef struct rounds {
+    alpi_bake_job *job;
+    const alpi_light_task *task;
+    const alpi_gatherer *fixed;
+    alpi_radiosity *solution;
+    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;        // [texels] of a later round
+    float (*fresh_skies)[3];            // [texels]
+    uint8_t *states;                    // [texels]
+    uint32_t rays, direct;              // samples so far
+    uint32_t number;                    // of the round
+    double mean;                        // of all light, over texels and channels
+    double direct_error, bounced_error; // root mean squares over the mean
+} rounds;
+
+static bool wants_error(const alpi_bake_job *job)
+{
+    return job->options.light.error > 0.0f && job->options.light.gather == ALP_GATHER_RAYS;
+}
+
+uint32_t alpi_light_first_direct(const alpi_bake_job *job)
+{
+    enum { DIRECT_SAMPLES = 64 };
+    return wants_error(job) ? FIRST_DIRECT : DIRECT_SAMPLES;
+}
+
+// --- one round -----------------------------------------------------------------------------------
+
+/// Bounced light by `rays` more of each texel.
+static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value *values,
+                                 float (*skies)[3])
+{
+    alpi_bake_job *job = r->job;
+    const alpi_light_task *t = r->task;
+    const alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    const alpi_cosine_rays cosine = {
+        .context = job->context,
+        .samples = rays,
+        .replicates = REPLICATES,
+        .seed = alpi_hash64(job->options.occlusion.seed + r->number),
+    };
+    const alpi_gatherer own = alpi_cosine_rays_gatherer(&cosine);
+    const alpi_gather_job gather = {.context = job->context,
+                                    .from = &from,
+                                    .gatherer = r->fixed != NULL ? r->fixed : &own,
+                                    .receivers = t->receivers,
+                                    .values = values,
+                                    .skies = skies};
+    const alpi_bounced_options options = {
+        .gather = &gather,
+        .order = t->order,
+        .count = t->count,
+        .near = job->validity.near,
+        .adaptive = r->fixed == NULL && job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+    };
+    alpi_bounced_report report = {0};
+    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, r->states, &report));
+    job->report.light_samples = r->rays + gather.gatherer->packet_count * ALPI_PACKET;
+    job->report.light_traced = report.traced;
+    job->report.light_interpolated = report.interpolated;
+    job->report.rays += report.rays;
+    return ALP_OK;
+}
+
+/// Means of two estimates by their numbers of samples.
+static void merge(const rounds *r, alpi_reference_value *values, double had, double more)
+{
+    const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        alpi_reference_value *v = &values[t];
+        const alpi_reference_value *f = &r->fresh[t];
+        for (int k = 0; k < 3; k++) {
+            v->mean[k] = a * v->mean[k] + b * f->mean[k];
+            v->variance[k] = a * a * v->variance[k] + b * b * f->variance[k];
+        }
+    }
+}
+
+static alp_result add_bounced(rounds *r, uint32_t rays)
+{
+    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies));
+    merge(r, r->task->values, r->rays, rays);
+    const float b = (float)((double)rays / ((double)r->rays + rays));
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        for (int k = 0; k < 3; k++) {
+            r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
+        }
+    }
+    r->rays += rays;
+    return ALP_OK;
+}
+
+static alp_result add_direct(rounds *r, uint32_t samples)
+{
+    const alpi_light_task *t = r->task;
+    const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    ALP_TRY(alpi_radiosity_direct(r->solution, t->order, t->count, samples, seed, &t->progress,
+                                  r->fresh, &r->job->report.rays));
+    merge(r, r->solution->direct, r->direct, samples);
+    r->direct += samples;
+    return ALP_OK;
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+static void sum_errors(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const rounds *r = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = r->task->order[i];
+        const alpi_reference_value *d = &r->solution->direct[t], *b = &r->task->values[t];
+        for (int k = 0; k < 3; k++) {
+            sums[0] += (double)d->mean[k] + (double)b->mean[k];
+            sums[1] += (double)d->variance[k];
+            sums[2] += (double)b->variance[k];
+        }
+    }
+}
+
+static alp_result measure(rounds *r)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    const double count = 3.0 * fmax((double)r->task->count, 1.0);
+    ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_errors, r, NULL, sums));
+    r->mean = sums[0] / count;
+    r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
+    r->bounced_error = r->mean > 0.0 ? sqrt(sums[2] / count) / r->mean : 0.0;
+    return ALP_OK;
+}
+
+/// How many samples more bring an error down to what is wanted: it falls with the root of their
+/// number. At least as many as there were, at most 15 times.
+static uint32_t more_samples(uint32_t had, double error, double wanted)
+{
+    const double factor = fmin(fmax(1.1 * error * error / (wanted * wanted) - 1.0, 1.0), 15.0);
+    const double more = fmin(factor * had, (double)(MOST_SAMPLES - had));
+    return alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), REPLICATES);
+}
+
+/// One more round of what is too noisy. Each may have its share of the squared error: half of it,
+/// or what the other leaves. @param done out: nothing is, or nothing helps
+static alp_result improve(rounds *r, double wanted, bool *done)
+{
+    const double half = sqrt(0.5) * wanted;
+    const double d = r->direct_error, b = r->bounced_error;
+    const double for_direct = sqrt(fmax(wanted * wanted - b * b, half * half));
+    const double for_bounced = sqrt(fmax(wanted * wanted - d * d, half * half));
+    const bool more_direct = d > for_direct && r->direct < MOST_SAMPLES;
+    const bool more_bounced = b > for_bounced && r->rays < MOST_SAMPLES;
+    *done = hypot(d, b) <= wanted || (!more_direct && !more_bounced);
+    r->number++;
+    if (!*done && more_direct) {
+        ALP_TRY(add_direct(r, more_samples(r->direct, d, for_direct)));
+    }
+    if (!*done && more_bounced) {
+        ALP_TRY(add_bounced(r, more_samples(r->rays, b, for_bounced)));
+    }
+    return *done ? ALP_OK : measure(r);
+}
+
+// --- all of them ---------------------------------------------------------------------------------
+
+static alp_result run_rounds(rounds *r)
+{
+    alp_context *context = r->job->context;
+    const uint32_t texels = r->task->receivers->count;
+    const double wanted = (double)r->job->options.light.error;
+    const uint32_t first =
+        wants_error(r->job) ? FIRST_RAYS
+                            : alpi_cosine_rays_samples(r->job->options.light.samples, REPLICATES);
+    ALPI_TRY_NEW(context, r->skies, texels);
+    ALPI_TRY_NEW(context, r->states, texels);
+    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies));
+    r->rays = first;
+    r->direct = r->solution->options.direct_samples;
+    ALP_TRY(measure(r));
+    if (!wants_error(r->job)) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(context, r->fresh, texels);
+    ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    for (bool done = false; !done && r->number < ROUND_LIMIT;) {
+        ALP_TRY(improve(r, wanted, &done));
+    }
+    if (hypot(r->direct_error, r->bounced_error) > wanted) {
+        alpi_warn(context, "error-not-reached", r->job->scene->name,
+                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
+                  "of each light, wanted %.2g %%",
+                  100.0 * hypot(r->direct_error, r->bounced_error), r->rays, r->direct,
+                  100.0 * wanted);
+    }
+    return ALP_OK;
+}
+
+/// Adds direct light to bounced light, and keeps them apart where that is asked for.
+static void put_together(const rounds *r)
+{
+    const alpi_bake_job *job = r->job;
+    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t texel = r->task->order[i];
+        const alpi_reference_value *direct = &r->solution->direct[texel];
+        alpi_reference_value *value = &r->task->values[texel];
+        for (int k = 0; k < 3; k++) {
+            const float sky = r->skies[texel][k], bounced = value->mean[k] - sky;
+            if (job->direct != NULL) {
+                job->direct[texel][k] = direct->mean[k] + sky;
+                job->bounced[texel][k] = bounced;
+            }
+            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
+            value->variance[k] += on ? direct->variance[k] : 0.0f;
+        }
+    }
+}
+
+alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
+                             const alpi_gatherer *fixed, alpi_radiosity *solution)
+{
+    rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
+    const alp_result result = run_rounds(&r);
+    if (result == ALP_OK) {
+        put_together(&r);
+    }
+    alpi_release(job->context, r.skies);
+    alpi_release(job->context, r.states);
+    alpi_release(job->context, r.fresh);
+    alpi_release(job->context, r.fresh_skies);
+    return result;
+}
