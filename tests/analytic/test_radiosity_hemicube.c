@@ -105,7 +105,7 @@ static void hemicubes_find_what_rays_find(void **state)
                   {"teapot-room", false, {0.01, 0.005}},
                   {"windows", true, {0.025, 0.0125}},
                   {"atrium,triangles=20000", true, {0.02, 0.012}},
-                  {"terrain,triangles=20000", true, {0.01, 0.0075}}};
+                  {"terrain,triangles=20000", true, {0.01, 0.005}}};
     static points p;
     static alpi_reference_value truth[POINTS];
     for (int i = 0; i < 6; i++) {
