@@ -136,6 +136,41 @@ static void lookups_stay_in_their_charts(void **state)
     }
 }
 
+/// Two squares whose kept charts share a column of texels, which belongs to one of them: the other
+/// looks beside it.
+static void charts_that_share_a_texel(void **state)
+{
+    (void)state;
+    static const float uvs[2][4][2] = {{{0, 0}, {0, 1}, {0.46f, 1}, {0.46f, 0}},
+                                       {{0.465f, 0}, {0.465f, 1}, {1, 1}, {1, 0}}};
+    static const float squares[2][4][3] = {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}},
+                                           {{3, 0, 0}, {3, 0, 1}, {4, 0, 1}, {4, 0, 0}}};
+    static const uint32_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    alp_mesh meshes[2];
+    for (int i = 0; i < 2; i++) {
+        meshes[i] = (alp_mesh){.positions = squares[i][0],
+                               .uvs = uvs[i][0],
+                               .indices = triangles[0],
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+    }
+    setting s;
+    uint32_t black, shared = 0;
+    alp_scene *scene = NULL;
+    alp_context *context = test_context(1);
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    open_setting(&s, scene, 16, 0.5f, 4, 1);
+    assert_int_equal(alp_atlas_get_info(s.atlas).mode, ALP_ATLAS_KEEP);
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        shared += s.texels.pixels[t][0] == 7;
+    }
+    assert_int_equal(shared, 16);
+    hold_lookups(&s, 2.5, &black);
+    assert_int_equal(black, 0);
+    close_setting(&s);
+}
+
 /// A third of the texels has no light of its own, as where they are inside other geometry: the
 /// nearest of the chart stands in; of a chart without any there is none.
 static void texels_without_light_have_stand_ins(void **state)
@@ -328,6 +363,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lookups_stay_in_their_charts),
+        cmocka_unit_test(charts_that_share_a_texel),
         cmocka_unit_test(texels_without_light_have_stand_ins),
         cmocka_unit_test(blocks_hold_every_texel_once),
         cmocka_unit_test(blocks_are_placed_by_area),
