@@ -52,7 +52,8 @@ typedef struct alp_render_options {
     const char *occluders; ///< which surfaces occlude, as in alp_bake_options; NULL (default) = all
     const alp_lightmap *lightmap; ///< AO: NULL, or maps of this scene that are read instead of its
                                   ///< textures; LIGHTMAP: maps of this scene with ALP_MAP_LIGHT
-    alp_atlas_options atlas;       ///< RADIOSITY: where it is solved; its progress is ignored
+    alp_atlas_options atlas; ///< RADIOSITY: where it is solved; default of size 512, what it lights
+                             ///< is smooth; its progress is ignored
     alp_lighting_options lighting; ///< for HEMISPHERE, whose sky is always of two colours (default
                                    ///< there: up 1, down 0), REFERENCE, RADIOSITY, and what stands
                                    ///< behind a LIGHTMAP

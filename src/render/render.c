@@ -42,14 +42,16 @@ typedef struct render_job {
 
 alp_render_options alp_render_options_default(void)
 {
-    return (alp_render_options){.struct_size = sizeof(alp_render_options),
-                                .width = 960,
-                                .height = 540,
-                                .samples = 16,
-                                .bounces = ALP_BOUNCES_CONVERGE,
-                                .atlas = alp_atlas_options_default(),
-                                .lighting = alp_lighting_options_default(),
-                                .occlusion = alp_occlusion_options_default()};
+    alp_render_options options = {.struct_size = sizeof(alp_render_options),
+                                  .width = 960,
+                                  .height = 540,
+                                  .samples = 16,
+                                  .bounces = ALP_BOUNCES_CONVERGE,
+                                  .atlas = alp_atlas_options_default(),
+                                  .lighting = alp_lighting_options_default(),
+                                  .occlusion = alp_occlusion_options_default()};
+    options.atlas.size = 512;
+    return options;
 }
 
 static alp_result check_options(const alp_scene *scene, const alp_render_options *o)
