@@ -211,18 +211,26 @@ static void print(const char *scene, const char *what, difference d)
            100.0 * d.bias, 100.0 * d.bias_error, 100.0 * d.rmse);
 }
 
+/// The lower two thirds of the room, without the lamp, whose edge is noise of the camera's rays.
 static void cornell_is_like_the_reference(void **state)
 {
     (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = load("builtin:cornell");
-    draw(scene, options_of(ALP_RENDER_REFERENCE, 2048), truth, truth_error);
-    draw(scene, options_of(ALP_RENDER_RADIOSITY, 1024), pixels, error);
+    alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
+    o.camera = alp_scene_get_camera(scene, 0);
+    o.camera.target[1] -= 0.18f;
+    o.camera.vertical_fov *= 0.6f;
+    draw(scene, o, truth, truth_error);
+    o.method = ALP_RENDER_RADIOSITY;
+    o.samples = 1024;
+    draw(scene, o, pixels, error);
     const difference radiosity = compare(pixels, error, truth, truth_error);
     print("cornell", "radiosity", radiosity);
-    assert_true(fabs(radiosity.bias) < 0.003 + 4.0 * radiosity.bias_error);
+    assert_true(fabs(radiosity.bias) < 0.003 + 4.0 * radiosity.bias_error); // issue 5: .3 %
     assert_true(radiosity.rmse < 0.01);
-    draw_lightmap(scene, 128, options_of(ALP_RENDER_LIGHTMAP, 64), pixels);
+    o.samples = 256;
+    draw_lightmap(scene, 128, o, pixels);
     const difference lightmap = compare(pixels, NULL, truth, truth_error);
     print("cornell", "lightmap", lightmap);
     assert_true(fabs(lightmap.bias) < 0.01);
