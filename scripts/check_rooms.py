@@ -35,7 +35,7 @@ PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
     "occlusion": "transport",
-    "bake": "maps", "render": "render", "alpenglow": "bake",
+    "bake": "maps", "render": "render", "report": "bake", "alpenglow": "bake",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)
@@ -46,6 +46,7 @@ THIRD_PARTY = {
     r"jpeglib\.h|jerror\.h": ["src/formats"],
     r"(OpenEXR/)?openexr.*\.h": ["src/formats"],
     r"zlib\.h": ["src/formats"],
+    r"zstd\.h": ["src/formats"],
     r"pthread\.h": ["src/base"],
 }
 

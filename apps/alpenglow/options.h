@@ -55,6 +55,9 @@ typedef enum option_id {
     OPTION_AO_BLEED,
     OPTION_EXISTING_AO,
     OPTION_AO_INTO,
+    OPTION_LIGHTMAP_AS,
+    OPTION_UNITS,
+    OPTION_LIGHTMAP_FORMAT,
     OPTION_BOUNCES,
     OPTION_GATHER,
     OPTION_HEMICUBE,
@@ -90,6 +93,7 @@ typedef enum option_id {
     OPTION_THREADS,
     OPTION_PROGRESS,
     OPTION_JSON,
+    OPTION_REPORT,
     OPTION_WARNINGS_AS_ERRORS,
     OPTION_QUIET,
     OPTION_FORCE,
@@ -151,6 +155,8 @@ enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
 /// A command line that was understood.
 typedef struct command_line {
     command_id command;
+    char **words; // [word_count] as they were given, after the command's name
+    int word_count;
     const char *operands[2]; // SCENE, or A and B
     option_value values[OPTION_COUNT];
     struct {

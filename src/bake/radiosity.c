@@ -2,19 +2,15 @@
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
 #include "bake/light.h"
 
-#include "base/random.h"
-#include "base/tasks.h"
 #include "maps/radiosity.h"
 #include "transport/cosine_rays.h"
 #include "transport/hemicube.h"
 
-#include <math.h>
+enum { BLOCK_CUBE = 16 };
 
-enum { BLOCK_CUBE = 16, REPLICATES = 4 };
-
-/// How blocks gather, and how texels do.
+/// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
-    alpi_cosine_rays block_rays, texel_rays;
+    alpi_cosine_rays block_rays;
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
@@ -47,12 +43,7 @@ static alp_result make_gatherers(const alpi_bake_job *job, light_gatherers *g)
                                        .samples = ALPI_RADIOSITY_BLOCK_RAYS,
                                        .replicates = 1,
                                        .seed = seed};
-    g->texel_rays = (alpi_cosine_rays){.context = job->context,
-                                       .samples = alpi_cosine_rays_samples(o->samples, REPLICATES),
-                                       .replicates = REPLICATES,
-                                       .seed = alpi_hash64(seed)};
     g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
-    g->texels = alpi_cosine_rays_gatherer(&g->texel_rays);
     return ALP_OK;
 }
 
@@ -70,45 +61,8 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-/// The last bounce, gathered from the texels themselves.
-static alp_result gather_texels(alpi_bake_job *job, const alpi_light_task *t,
-                                const alpi_gatherer *gatherer, const alpi_radiosity *solution)
-{
-    const alpi_gather_scene from = alpi_radiosity_scene(solution);
-    const alpi_gather_job gather = {.context = job->context,
-                                    .from = &from,
-                                    .gatherer = gatherer,
-                                    .receivers = t->receivers,
-                                    .list = t->order,
-                                    .count = t->count,
-                                    .values = t->values};
-    job->report.light_samples = gatherer->packet_count * ALPI_PACKET;
-    job->report.rays += (uint64_t)t->count * job->report.light_samples;
-    return alpi_gather_irradiance(&gather, &t->progress);
-}
-
-/// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static void add_direct(const alpi_bake_job *job, const alpi_light_task *t,
-                       const alpi_radiosity *solution)
-{
-    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < t->count; i++) {
-        const uint32_t texel = t->order[i];
-        const alpi_reference_value *direct = &solution->direct[texel];
-        alpi_reference_value *value = &t->values[texel];
-        for (int k = 0; k < 3; k++) {
-            if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k];
-                job->bounced[texel][k] = value->mean[k];
-            }
-            value->mean[k] += on ? direct->mean[k] : 0.0f;
-            value->variance[k] += on ? direct->variance[k] : 0.0f;
-        }
-    }
-}
-
 static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g)
+                               const light_gatherers *g, const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
     alpi_radiosity_options options = alpi_radiosity_options_default();
@@ -116,19 +70,44 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.scene = job->scene;
     options.tracer = t->tracer;
     options.lighting = t->lighting;
+    options.direct = direct;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
+    options.direct_samples = alpi_light_first_direct(job);
     options.seed = o->occlusion.seed;
     alpi_radiosity solution;
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
-    const alp_result result = gather_texels(job, t, &g->texels, &solution);
-    if (result == ALP_OK) {
-        add_direct(job, t, &solution);
-    }
+    const alp_result result =
+        alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
     alpi_radiosity_destroy(&solution);
+    return result;
+}
+
+/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
+/// mix the two.
+static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
+{
+    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
+    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
+           !alpi_tracer_has_panes(tracer);
+}
+
+/// The light that is looked for directly: all, or all but a soft sky.
+static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
+                                  const light_gatherers *g)
+{
+    if (!has_soft_sky(job, t->tracer)) {
+        return gather_light(job, t, g, t->lighting);
+    }
+    alp_lighting_options options = job->options.light.lighting;
+    alpi_lighting *direct = NULL;
+    options.sky.kind = ALP_SKY_NONE;
+    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
+    const alp_result result = gather_light(job, t, g, direct);
+    alpi_lighting_destroy(job->context, direct);
     return result;
 }
 
@@ -137,7 +116,7 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, &gatherers);
     if (result == ALP_OK) {
-        result = gather_light(job, task, &gatherers);
+        result = gather_with_sky(job, task, &gatherers);
     }
     alpi_hemicube_destroy(gatherers.block_cube);
     alpi_hemicube_destroy(gatherers.texel_cube);

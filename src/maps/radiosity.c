@@ -7,6 +7,7 @@
 #include "transport/kept_rays.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
 
@@ -40,30 +41,41 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
                                .tracer = o->tracer,
                                .lighting = o->lighting,
                                .filter = o->filter,
-                               .light = alpi_patches_light(&radiosity->patches)};
+                               .light = alpi_patches_light(&radiosity->patches),
+                               .sky = o->direct != o->lighting};
 }
 
 // --- direct light --------------------------------------------------------------------------------
 
-static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays)
 {
-    const alpi_radiosity_options *o = &s->r->options;
+    const alpi_radiosity_options *o = &radiosity->options;
     const alpi_direct_options options = {.context = o->context,
                                          .scene = o->scene,
                                          .tracer = o->tracer,
-                                         .lighting = o->lighting,
+                                         .lighting = o->direct,
                                          .filter = o->filter,
-                                         .samples = o->direct_samples,
-                                         .seed = o->seed};
+                                         .samples = samples,
+                                         .seed = seed};
     alpi_direct *direct = NULL;
-    alpi_direct_output output = {.values = s->r->direct};
-    const alpi_receivers texels = alpi_patches_texel_receivers(&s->r->patches);
+    alpi_direct_output output = {.values = values};
+    const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
-        alpi_direct_irradiance(direct, &texels, list, count, &s->progress, &output);
-    s->r->rays += output.rays;
+        alpi_direct_irradiance(direct, &texels, list, count, progress, &output);
+    *rays += output.rays;
     alpi_direct_destroy(direct);
     return result;
+}
+
+static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+{
+    const alpi_radiosity_options *o = &s->r->options;
+    return alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress,
+                                 s->r->direct, &s->r->rays);
 }
 
 /// Direct light on the backs of some blocks, the listed receivers.
@@ -97,15 +109,16 @@ static alpi_gather_job job_of(const solver *s, const uint32_t *list, uint32_t co
                              .list = list,
                              .count = count,
                              .values = s->r->bounced,
+                             .skies = s->r->skies,
                              .lost = s->r->lost};
 }
 
-/// The first look around of the listed receivers: rays are kept, or at least tell which backs are
-/// seen.
+/// The first look around of the listed receivers: what the sky brings, which backs are seen, and
+/// the rays themselves where they are kept.
 static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
 {
     const alpi_gather_job job = job_of(s, list, count);
-    if (!s->r->kept && !s->r->patches.two_sided) {
+    if (!s->r->kept && !s->r->patches.two_sided && !s->from.sky) {
         return ALP_OK;
     }
     s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
@@ -172,6 +185,8 @@ static alp_result find_receivers(solver *s)
         }
         ALP_TRY(look_around(s, s->new_receivers, count));
     }
+    s->from.sky = false; // its light is known now
+    memset(r->bounced, 0, (size_t)p->block_count * sides_of(p) * sizeof *r->bounced);
     return ALP_OK;
 }
 
@@ -182,10 +197,12 @@ static void light_cell(const alpi_radiosity *r, uint32_t texel, alpi_side side)
     const alpi_patches *p = &r->patches;
     const size_t back = side == ALPI_BACK ? 1 : 0;
     const float *bounced = r->bounced[back * p->block_count + p->blocks[texel]].mean;
+    const float *sky = r->skies[back * p->block_count + p->blocks[texel]];
     const float *direct = r->direct[back * p->texels->count + texel].mean;
     float *cell = p->cells[alpi_patches_cell(p, texel, side)];
     for (int k = 0; k < 3; k++) {
-        cell[k] = p->reflectances[texel][k] * (float)(1.0 / ALPI_PI) * (direct[k] + bounced[k]);
+        cell[k] =
+            p->reflectances[texel][k] * (float)(1.0 / ALPI_PI) * (direct[k] + sky[k] + bounced[k]);
     }
 }
 
@@ -225,7 +242,8 @@ static double light_of(const alpi_radiosity *r, uint32_t receiver)
     const alpi_patches *p = &r->patches;
     size_t back;
     const uint32_t b = block_of(p, receiver, &back);
-    double sum = p->block_areas[b] * sum_of(r->bounced[receiver].mean);
+    double sum =
+        p->block_areas[b] * (sum_of(r->bounced[receiver].mean) + sum_of(r->skies[receiver]));
     for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
         const uint32_t t = p->block_texels[k];
         sum += (double)p->texels->areas[t] * sum_of(r->direct[back * p->texels->count + t].mean);
@@ -263,7 +281,8 @@ static alp_result pass(solver *s, double *change)
             r->before[receiver][k] = r->bounced[receiver].mean[k];
         }
     }
-    const alpi_gather_job job = job_of(s, r->receivers, r->receiver_count);
+    alpi_gather_job job = job_of(s, r->receivers, r->receiver_count);
+    job.skies = NULL; // known
     if (r->kept) {
         ALP_TRY(alpi_kept_rays_gather(&job, &s->kept, &s->progress));
     } else {
@@ -319,9 +338,10 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
         const double emitted = back ? 0.0 : ALPI_PI * (double)p->emissions[t][k];
-        const double shot = albedo * ((double)direct[k] + (double)before[k]) + emitted;
-        e->received += share * (double)direct[k];
-        e->absorbed += share * (1.0 - albedo) * ((double)direct[k] + (double)now[k]);
+        const double first = (double)direct[k] + (double)r->skies[receiver][k];
+        const double shot = albedo * (first + (double)before[k]) + emitted;
+        e->received += share * first;
+        e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
         e->escaped += share * escaped * shot;
         e->lost_behind += share * behind * shot;
         e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
@@ -360,6 +380,7 @@ static alp_result allocate(solver *s)
     ALPI_TRY_NEW(context, r->direct, sides_of(p) * p->texels->count);
     ALPI_TRY_NEW(context, r->bounced, blocks);
     ALPI_TRY_NEW(context, r->before, blocks);
+    ALPI_TRY_NEW(context, r->skies, blocks);
     ALPI_TRY_NEW(context, r->lost, blocks);
     ALPI_TRY_NEW(context, r->receivers, blocks);
     ALPI_TRY_NEW(context, s->new_receivers, blocks);
@@ -406,6 +427,7 @@ void alpi_radiosity_destroy(alpi_radiosity *radiosity)
     alpi_release(context, radiosity->direct);
     alpi_release(context, radiosity->bounced);
     alpi_release(context, radiosity->before);
+    alpi_release(context, radiosity->skies);
     alpi_release(context, radiosity->lost);
     alpi_release(context, radiosity->receivers);
     *radiosity = (alpi_radiosity){0};

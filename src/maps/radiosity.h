@@ -6,7 +6,8 @@
 //     Eₖ(x) = ∫ ρ/π (E₀ + Eₖ₋₁) cosθ dω    over the surfaces that x sees, E at pass 0 = 0
 //
 // so that E₀ + Eₖ is the light after k bounces. Direct light is apart: it has edges, and better
-// ways to find it (alpi_direct).
+// ways to find it (alpi_direct). Only a soft sky's is left to the rays that leave the scene, which
+// are many, and miss no light of a sky without bright spots.
 // Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 //           Light Between Diffuse Surfaces. SIGGRAPH 1984; H. Elias. Radiosity.
 #ifndef ALPI_MAPS_RADIOSITY_H
@@ -20,7 +21,9 @@ typedef struct alpi_radiosity_options {
     alp_context *context;
     const alp_scene *scene;
     const alpi_tracer *tracer;
-    const alpi_lighting *lighting;
+    const alpi_lighting *lighting; // all light
+    const alpi_lighting *direct;   // that alpi_direct looks for: all of it, or all but a soft sky
+                                   // (then no panes)
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left
@@ -54,7 +57,8 @@ typedef struct alpi_energy {
 typedef struct alpi_radiosity {
     alpi_radiosity_options options;
     alpi_patches patches;          // cells hold what the last bounce wanted brings
-    alpi_reference_value *direct;  // [sides × texels] E₀ with its variance
+    alpi_reference_value *direct;  // [sides × texels] E₀ with its variance, a soft sky apart
+    float (*skies)[3];             // [sides × blocks] E of a soft sky
     alpi_reference_value *bounced; // [sides × blocks] E of the last pass
     float (*before)[3];            // [sides × blocks] of the one before
     float (*lost)[2];              // [sides × blocks] see alpi_gather_job
@@ -75,6 +79,14 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alp_atlas *atlas, const uint32_t *order, uint32_t count,
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity);
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
+
+/// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples.
+/// @param values [sides × texels] out, of those listed   @param rays added to
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
+                                 uint32_t count, uint32_t samples, uint64_t seed,
+                                 const alpi_task_progress *progress, alpi_reference_value *values,
+                                 uint64_t *rays);
 
 /// What gatherers look at to find the light of the last bounce at other receivers.
 alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity);

@@ -54,6 +54,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.scene = o->scene;
     options.tracer = o->tracer;
     options.lighting = o->lighting;
+    options.direct = o->lighting;
     options.filter = (alpi_trace_filter){.one_sided = o->one_sided};
     options.gatherer = &s->gatherer;
     options.bounces = o->bounces;

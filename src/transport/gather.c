@@ -148,6 +148,26 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
     }
 }
 
+void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
+                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+                         alpi_gather_sums *sums)
+{
+    double *sum = sums->light[packet % gatherer->replicates];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if (cells[i] == ALPI_CELL_ESCAPED) {
+            const vec3 sky = sky_radiance(
+                from, (vec3){rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]});
+            const double weight = weight_of(gatherer, packet, i);
+            const double added[3] = {weight * (double)sky.x, weight * (double)sky.y,
+                                     weight * (double)sky.z};
+            for (int k = 0; k < 3; k++) {
+                sum[k] += added[k];
+                sums->sky[k] += added[k];
+            }
+        }
+    }
+}
+
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value)
 {
@@ -171,8 +191,7 @@ void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *s
 
 bool alpi_gather_meets_cells(const alpi_gather_scene *from)
 {
-    return from->light.cell != NULL && !from->emitters && !from->sky &&
-           !alpi_tracer_has_panes(from->tracer);
+    return from->light.cell != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
 }
 
 void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
@@ -205,6 +224,17 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
     }
 }
 
+void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
+{
+    alpi_gather_finish(job->gatherer, sums, &job->values[receiver]);
+    for (int k = 0; k < 3 && job->skies != NULL; k++) {
+        job->skies[receiver][k] = (float)(ALPI_PI * sums->sky[k]);
+    }
+    for (int k = 0; k < 2 && job->lost != NULL; k++) {
+        job->lost[receiver][k] = (float)sums->lost[k];
+    }
+}
+
 // --- receivers -----------------------------------------------------------------------------------
 
 /// Packets [first, first + count) of one receiver.
@@ -219,6 +249,9 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
             uint32_t met[ALPI_PACKET];
             alpi_gather_cells(job->from, &packets[k], g->coherent, met);
             alpi_gather_add_cells(g, first + k, met, job->from->light.cells, sums);
+            if (job->from->sky) {
+                alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met, sums);
+            }
         } else {
             vec3 radiance[ALPI_PACKET];
             alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
@@ -236,7 +269,7 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
     const uint32_t packets = job->gatherer->packet_count;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = job->list != NULL ? job->list[i] : i;
-        alpi_gather_sums sums = {{{0.0}}, {0.0}};
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
         for (uint32_t first = 0; first < packets; first += ALPI_GATHER_BATCH) {
             const uint32_t left = packets - first;
             gather_batch(job, receiver, first, left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH,
@@ -245,11 +278,7 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
                 return ALP_ERROR_CANCELLED;
             }
         }
-        alpi_gather_finish(job->gatherer, &sums, &job->values[receiver]);
-        if (job->lost != NULL) {
-            job->lost[receiver][0] = (float)sums.lost[0];
-            job->lost[receiver][1] = (float)sums.lost[1];
-        }
+        alpi_gather_put(job, receiver, &sums);
     }
     return ALP_OK;
 }

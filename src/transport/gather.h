@@ -65,15 +65,16 @@ typedef struct alpi_gather_job {
     uint32_t count;
     // Out, of the receivers listed.
     alpi_reference_value *values; // [receivers] E [W·m⁻²]; variance 0 with one replicate
-    float (*lost)[2];             // [receivers] or NULL: weights of the rays that left the scene,
-                                  // and of those that met a surface's black back. Of surface light
+    float (*skies)[3];            // [receivers] or NULL: what of E is the sky's. Of surface light
                                   // in cells without panes; else 0
+    float (*lost)[2];             // [receivers] or NULL: weights of the rays that left the scene,
+                                  // and of those that met a surface's black back; the same
 } alpi_gather_job;
 
 /// @return ALP_OK; CANCELLED. The same bits for any number of workers.
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress);
 
-/// Whether rays meet nothing but surface light that is kept in cells.
+/// Whether rays meet nothing but surface light that is kept in cells, and the sky.
 bool alpi_gather_meets_cells(const alpi_gather_scene *from);
 /// The cells that the rays of a packet meet. Needs alpi_gather_meets_cells.
 /// @param cells out: CELL_BLACK of lanes that are not active
@@ -83,14 +84,21 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
 /// Sums over the rays of one receiver, in their order.
 typedef struct alpi_gather_sums {
     double light[ALPI_GATHER_REPLICATE_LIMIT][3]; // Σ weight · L
+    double sky[3];                                // of it
     double lost[2];
 } alpi_gather_sums;
 void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
                      const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
+/// Adds the sky along the rays that met nothing.
+void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
+                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+                         alpi_gather_sums *sums);
 void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            const uint32_t cells[ALPI_PACKET], const float (*light)[4],
                            alpi_gather_sums *sums);
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value);
+/// Writes what a receiver gathered to the job's outputs.
+void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums);
 
 #endif

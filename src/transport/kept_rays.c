@@ -59,16 +59,24 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
         const uint32_t receiver = receiver_at(job, i);
         uint32_t(*cells)[ALPI_PACKET] =
             (uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
             g->aim(g->user, job->receivers, receiver, first, count, packets);
             for (uint32_t p = 0; p < count; p++) {
                 alpi_gather_cells(job->from, &packets[p], g->coherent, cells[first + p]);
+                if (job->from->sky) {
+                    alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
+                                        &sums);
+                }
             }
             if (!alpi_loop_goes_on(job->context)) {
                 return ALP_ERROR_CANCELLED;
             }
+        }
+        for (int c = 0; c < 3 && job->skies != NULL; c++) {
+            job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
         }
     }
     return ALP_OK;
@@ -97,19 +105,17 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     (void)worker;
     const kept_job *k = user;
     const alpi_gather_job *job = k->job;
+    alpi_gather_job without_sky = *job;
+    without_sky.skies = NULL;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
         const uint32_t(*cells)[ALPI_PACKET] =
             (const uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
-        alpi_gather_sums sums = {{{0.0}}, {0.0}};
+        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
             alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
         }
-        alpi_gather_finish(job->gatherer, &sums, &job->values[receiver]);
-        if (job->lost != NULL) {
-            job->lost[receiver][0] = (float)sums.lost[0];
-            job->lost[receiver][1] = (float)sums.lost[1];
-        }
+        alpi_gather_put(&without_sky, receiver, &sums);
     }
     return ALP_OK;
 }

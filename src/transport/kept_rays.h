@@ -22,13 +22,14 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
                                   uint32_t count, alpi_kept_rays *kept);
 void alpi_kept_rays_destroy(alpi_kept_rays *kept);
 
-/// Traces the rays of the listed receivers. Needs alpi_gather_meets_cells.
+/// Traces the rays of the listed receivers, and writes to job->skies what those that meet nothing
+/// bring. Needs alpi_gather_meets_cells.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
                                 alpi_kept_rays *kept);
 
-/// What alpi_gather_irradiance would find for the listed receivers, bit for bit, with the light
-/// that is in the cells now.
+/// What alpi_gather_irradiance would find for the listed receivers without a sky, bit for bit, with
+/// the light that is in the cells now. Leaves job->skies alone.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
                                  const alpi_task_progress *progress);

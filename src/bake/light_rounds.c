@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
+// larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
+// their own; what they find is averaged by their numbers of samples.
+#include "bake/light.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "maps/bounced_map.h"
+#include "transport/cosine_rays.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    REPLICATES = 4,
+    FIRST_RAYS = 64,   // of a bake that goes for an error
+    FIRST_DIRECT = 16, // the same
+    MOST_SAMPLES = 65536,
+    ROUND_LIMIT = 12
+};
+
+typedef struct rounds {
+    alpi_bake_job *job;
+    const alpi_light_task *task;
+    const alpi_gatherer *fixed;
+    alpi_radiosity *solution;
+    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;        // [texels] of a later round
+    float (*fresh_skies)[3];            // [texels]
+    uint8_t *states;                    // [texels]
+    uint32_t rays, direct;              // samples so far; direct: of the texels that have the most
+    uint32_t *counts;                   // [texels] samples of direct light so far
+    uint32_t *list;                     // [texels]
+    uint8_t *noisy;                     // [texels]
+    uint32_t number;                    // of the round
+    double mean;                        // of all light, over texels and channels
+    double direct_error, bounced_error; // root mean squares over the mean
+} rounds;
+
+static bool wants_error(const alpi_bake_job *job)
+{
+    return job->options.light.error > 0.0f && job->options.light.gather == ALP_GATHER_RAYS;
+}
+
+uint32_t alpi_light_first_direct(const alpi_bake_job *job)
+{
+    enum { DIRECT_SAMPLES = 64 };
+    return wants_error(job) ? FIRST_DIRECT : DIRECT_SAMPLES;
+}
+
+// --- one round -----------------------------------------------------------------------------------
+
+/// Bounced light by `rays` more of each texel.
+static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value *values,
+                                 float (*skies)[3])
+{
+    alpi_bake_job *job = r->job;
+    const alpi_light_task *t = r->task;
+    const alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    const alpi_cosine_rays cosine = {
+        .context = job->context,
+        .samples = rays,
+        .replicates = REPLICATES,
+        .seed = alpi_hash64(job->options.occlusion.seed + r->number),
+    };
+    const alpi_gatherer own = alpi_cosine_rays_gatherer(&cosine);
+    const alpi_gather_job gather = {.context = job->context,
+                                    .from = &from,
+                                    .gatherer = r->fixed != NULL ? r->fixed : &own,
+                                    .receivers = t->receivers,
+                                    .values = values,
+                                    .skies = skies};
+    const alpi_bounced_options options = {
+        .gather = &gather,
+        .order = t->order,
+        .count = t->count,
+        .near = job->validity.near,
+        .adaptive = r->fixed == NULL && job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+    };
+    alpi_bounced_report report = {0};
+    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, r->states, &report));
+    job->report.light_samples = r->rays + gather.gatherer->packet_count * ALPI_PACKET;
+    job->report.light_traced = report.traced;
+    job->report.light_interpolated = report.interpolated;
+    job->report.rays += report.rays;
+    return ALP_OK;
+}
+
+/// Mean of two estimates by their numbers of samples.
+static void merge_one(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
+                      double more)
+{
+    const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
+    for (int k = 0; k < 3; k++) {
+        v->mean[k] = a * v->mean[k] + b * fresh->mean[k];
+        v->variance[k] = a * a * v->variance[k] + b * b * fresh->variance[k];
+    }
+}
+
+static alp_result add_bounced(rounds *r, uint32_t rays)
+{
+    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies));
+    const float b = (float)((double)rays / ((double)r->rays + rays));
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
+        for (int k = 0; k < 3; k++) {
+            r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
+        }
+    }
+    r->rays += rays;
+    return ALP_OK;
+}
+
+/// Lists the texels whose direct light is noisy, and those around them: a shadow's edge may hide
+/// from the few samples of a texel, and not from all of its neighbours'.
+/// @param variance of a channel, above which it is noisy
+static uint32_t list_noisy(const rounds *r, double variance)
+{
+    const alpi_lattice *l = r->task->lattice;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        const float *v = r->solution->direct[t].variance;
+        r->noisy[t] = fmax(v[0], fmax(v[1], v[2])) > variance;
+    }
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        const uint16_t *p = l->texels->pixels[t];
+        bool any = false;
+        for (int k = 0; k < 9 && !any; k++) {
+            const uint32_t n = alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + k % 3 - 1,
+                                                  (int64_t)p[1] + k / 3 - 1);
+            any = n != ALPI_NONE && r->noisy[n] != 0;
+        }
+        if (any) {
+            r->list[count++] = t;
+        }
+    }
+    return count;
+}
+
+/// Direct light by `factor` times the samples they have for the texels that are noisy, with
+/// `wanted` the root mean square that would do.
+static alp_result add_direct(rounds *r, double factor, double wanted)
+{
+    const alpi_light_task *t = r->task;
+    const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
+    const double most = fmin(factor * r->direct, (double)(MOST_SAMPLES - r->direct));
+    const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), 1);
+    ALP_TRY(alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress,
+                                  r->fresh, &r->job->report.rays));
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t texel = r->list[i];
+        merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
+        r->counts[texel] += samples;
+    }
+    r->direct += samples;
+    return ALP_OK;
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+static void sum_errors(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const rounds *r = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = r->task->order[i];
+        const alpi_reference_value *d = &r->solution->direct[t], *b = &r->task->values[t];
+        for (int k = 0; k < 3; k++) {
+            sums[0] += (double)d->mean[k] + (double)b->mean[k];
+            sums[1] += (double)d->variance[k];
+            sums[2] += (double)b->variance[k];
+        }
+    }
+}
+
+static alp_result measure(rounds *r)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    const double count = 3.0 * fmax((double)r->task->count, 1.0);
+    ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_errors, r, NULL, sums));
+    r->mean = sums[0] / count;
+    r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
+    r->bounced_error = r->mean > 0.0 ? sqrt(sums[2] / count) / r->mean : 0.0;
+    return ALP_OK;
+}
+
+/// How many times the samples there are bring an error down to what is wanted, added to them: it
+/// falls with the root of their number. At least once, at most 15 times.
+static double more_samples(double error, double wanted)
+{
+    return fmin(fmax(1.1 * error * error / (wanted * wanted) - 1.0, 1.0), 15.0);
+}
+
+/// One more round of what is too noisy. Each may have its share of the squared error: half of it,
+/// or what the other leaves. @param done out: nothing is, or nothing helps
+static alp_result improve(rounds *r, double wanted, bool *done)
+{
+    const double half = sqrt(0.5) * wanted;
+    const double d = r->direct_error, b = r->bounced_error;
+    const double for_direct = sqrt(fmax(wanted * wanted - b * b, half * half));
+    const double for_bounced = sqrt(fmax(wanted * wanted - d * d, half * half));
+    const bool more_direct = d > for_direct && r->direct < MOST_SAMPLES;
+    const bool more_bounced = b > for_bounced && r->rays < MOST_SAMPLES;
+    *done = hypot(d, b) <= wanted || (!more_direct && !more_bounced);
+    r->number++;
+    if (!*done && more_direct) {
+        ALP_TRY(add_direct(r, more_samples(d, for_direct), for_direct * r->mean));
+    }
+    if (!*done && more_bounced) {
+        const double most = fmin(more_samples(b, for_bounced) * r->rays, MOST_SAMPLES - r->rays);
+        ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), REPLICATES)));
+    }
+    return *done ? ALP_OK : measure(r);
+}
+
+// --- all of them ---------------------------------------------------------------------------------
+
+static alp_result run_rounds(rounds *r)
+{
+    alp_context *context = r->job->context;
+    const uint32_t texels = r->task->receivers->count;
+    const double wanted = (double)r->job->options.light.error;
+    const uint32_t first =
+        wants_error(r->job) ? FIRST_RAYS
+                            : alpi_cosine_rays_samples(r->job->options.light.samples, REPLICATES);
+    ALPI_TRY_NEW(context, r->skies, texels);
+    ALPI_TRY_NEW(context, r->states, texels);
+    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies));
+    r->rays = first;
+    r->direct = r->solution->options.direct_samples;
+    ALP_TRY(measure(r));
+    if (!wants_error(r->job)) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(context, r->fresh, texels);
+    ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    ALPI_TRY_NEW(context, r->counts, texels);
+    ALPI_TRY_NEW(context, r->list, texels);
+    ALPI_TRY_NEW(context, r->noisy, texels);
+    for (uint32_t t = 0; t < texels; t++) {
+        r->counts[t] = r->direct;
+    }
+    for (bool done = false; !done && r->number < ROUND_LIMIT;) {
+        ALP_TRY(improve(r, wanted, &done));
+    }
+    if (hypot(r->direct_error, r->bounced_error) > wanted) {
+        alpi_warn(context, "error-not-reached", r->job->scene->name,
+                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
+                  "of each light, wanted %.2g %%",
+                  100.0 * hypot(r->direct_error, r->bounced_error), r->rays, r->direct,
+                  100.0 * wanted);
+    }
+    return ALP_OK;
+}
+
+/// Adds direct light to bounced light, and keeps them apart where that is asked for.
+static void put_together(const rounds *r)
+{
+    const alpi_bake_job *job = r->job;
+    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t texel = r->task->order[i];
+        const alpi_reference_value *direct = &r->solution->direct[texel];
+        alpi_reference_value *value = &r->task->values[texel];
+        for (int k = 0; k < 3; k++) {
+            const float sky = r->skies[texel][k], bounced = value->mean[k] - sky;
+            if (job->direct != NULL) {
+                job->direct[texel][k] = direct->mean[k] + sky;
+                job->bounced[texel][k] = bounced;
+            }
+            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
+            value->variance[k] += on ? direct->variance[k] : 0.0f;
+        }
+    }
+}
+
+alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
+                             const alpi_gatherer *fixed, alpi_radiosity *solution)
+{
+    rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
+    const alp_result result = run_rounds(&r);
+    if (result == ALP_OK) {
+        put_together(&r);
+    }
+    alpi_release(job->context, r.skies);
+    alpi_release(job->context, r.states);
+    alpi_release(job->context, r.fresh);
+    alpi_release(job->context, r.fresh_skies);
+    alpi_release(job->context, r.counts);
+    alpi_release(job->context, r.list);
+    alpi_release(job->context, r.noisy);
+    return result;
+}

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+#include "maps/bounced_map.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "maps/validity.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, HELD_OUT = 1024 };
+
+// In standard deviations of the noise, as of occlusion (occlusion_map.c).
+static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
+static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
+
+typedef struct bounced_job {
+    const alpi_bounced_options *options;
+    alpi_lattice lattice; // states and values are of this map
+    alpi_task_progress progress;
+    alpi_bounced_report *report;
+    uint8_t *wanted;  // [texels] to be traced next
+    uint32_t *list;   // [count]
+    float *variances; // [texels] pooled
+    float noise; // standard deviation of the mean of the channels, over the root mean square light
+    float level; // mean light
+    uint32_t pass;
+    bool flood;
+} bounced_job;
+
+static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
+{
+    alpi_task_progress told = job->progress;
+    told.units_total = 0.0;
+    return alpi_parallel_for(job->lattice.context, job->options->count, TEXELS_PER_RANGE, body, job,
+                             &told);
+}
+
+// --- rays ----------------------------------------------------------------------------------------
+
+static float level_of(const alpi_reference_value *v)
+{
+    return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
+}
+
+/// Traces `count` texels of the list.
+static alp_result gather_list(bounced_job *job, uint32_t count, alpi_reference_value *values,
+                              float (*skies)[3])
+{
+    alpi_gather_job gather = *job->options->gather;
+    gather.list = job->list;
+    gather.count = count;
+    gather.values = values;
+    gather.skies = skies;
+    job->report->rays += (uint64_t)count * gather.gatherer->packet_count * ALPI_PACKET;
+    return alpi_gather_irradiance(&gather, &job->progress);
+}
+
+/// Traces the texels that are wanted.
+static alp_result trace_wanted(bounced_job *job)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        const uint32_t t = job->options->order[i];
+        if (job->wanted[t] != 0) {
+            job->wanted[t] = 0;
+            job->list[count++] = t;
+        }
+    }
+    const alpi_gather_job *g = job->options->gather;
+    ALP_TRY(gather_list(job, count, g->values, g->skies));
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t t = job->list[i];
+        job->lattice.states[t] = ALPI_TEXEL_TRACED;
+        job->lattice.values[t] = level_of(&g->values[t]);
+    }
+    return ALP_OK;
+}
+
+// --- the lattice ---------------------------------------------------------------------------------
+
+/// What differences of light may be called noise about a texel of this light. In part of the mean
+/// over the map: in the dark it takes less to be good enough.
+static float noise_at(const bounced_job *job, float level)
+{
+    return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
+}
+
+static bool is_smooth(const bounced_job *job, uint32_t texel, const alpi_stencil *s)
+{
+    const bool near = job->options->near != NULL && job->options->near[texel] != ALPI_FAR;
+    const float noise = noise_at(job, alpi_lattice_interpolate(&job->lattice, s));
+    return s->spread <= (near ? NEAR_SPREAD : 1.0f) * SPREAD_LIMIT * noise &&
+           s->bend <= (near ? NEAR_BEND : 1.0f) * BEND_LIMIT * noise;
+}
+
+static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    bounced_job *job = user;
+    alpi_lattice *l = &job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->options->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_TRACED) {
+            continue;
+        }
+        if (job->flood) {
+            job->wanted[t] = alpi_lattice_kink(l, t) > KINK_LIMIT * noise_at(job, l->values[t]);
+        } else if (alpi_lattice_pass(l->texels->pixels[t]) != job->pass || job->wanted[t]) {
+            continue;
+        } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(job, t, &stencil)) {
+            l->states[t] = ALPI_TEXEL_INTERPOLATED;
+            l->values[t] = alpi_lattice_interpolate(l, &stencil);
+        } else {
+            job->wanted[t] = 1;
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result judge(bounced_job *job, uint32_t pass, bool flood)
+{
+    job->pass = pass;
+    job->flood = flood;
+    ALP_TRY(for_texels(job, judge_range));
+    return trace_wanted(job);
+}
+
+/// Wants texels near other surfaces traced; see occlusion_map.c.
+static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const bounced_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->options->order[i];
+        const uint32_t pass = alpi_lattice_pass(job->lattice.texels->pixels[t]);
+        const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
+        job->wanted[t] = !job->options->adaptive || near == ALPI_TOUCHING ||
+                         (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
+    }
+    return ALP_OK;
+}
+
+static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const bounced_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->options->order[i];
+        const alpi_reference_value *v = &job->options->gather->values[t];
+        if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
+            const double level = (double)level_of(v);
+            // Channels go up and down together.
+            sums[0] +=
+                ((double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2]) / 3.0;
+            sums[1] += level;
+            sums[2] += level * level;
+        }
+    }
+}
+
+static alp_result measure_noise(bounced_job *job, uint32_t traced)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    ALP_TRY(
+        alpi_parallel_sum(job->lattice.context, job->options->count, sum_noise, job, NULL, sums));
+    job->noise = sums[2] > 0.0 ? (float)sqrt(sums[0] / sums[2]) : 0.0f;
+    job->level = traced > 0 ? (float)(sums[1] / traced) : 0.0f;
+    return ALP_OK;
+}
+
+static uint32_t count_traced(const bounced_job *job)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        count += job->lattice.states[job->options->order[i]] == ALPI_TEXEL_TRACED;
+    }
+    return count;
+}
+
+// --- what is interpolated ------------------------------------------------------------------------
+
+static void interpolate(const bounced_job *job, uint32_t t, const alpi_stencil *s)
+{
+    const alpi_gather_job *g = job->options->gather;
+    float light[3] = {0.0f, 0.0f, 0.0f}, sky[3] = {0.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < s->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            light[k] += s->weights[i] * g->values[s->texels[i]].mean[k];
+            sky[k] += g->skies != NULL ? s->weights[i] * g->skies[s->texels[i]][k] : 0.0f;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        g->values[t].mean[k] = fmaxf(light[k], 0.0f); // a cubic may overshoot
+        if (g->skies != NULL) {
+            g->skies[t][k] = fminf(fmaxf(sky[k], 0.0f), g->values[t].mean[k]);
+        }
+    }
+}
+
+/// Interpolates the channels, and the level anew: what was traced since may be in its stencil.
+static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const bounced_job *job = user;
+    const alpi_lattice *l = &job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->options->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
+            alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
+            alpi_lattice_stencil(l, t, &stencil)) {
+            l->values[t] = alpi_lattice_interpolate(l, &stencil);
+            interpolate(job, t, &stencil);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result run_lattice(bounced_job *job)
+{
+    ALP_TRY(for_texels(job, want_range));
+    ALP_TRY(judge(job, 0, false)); // what is wanted, and the lattice: no stencil ends at it
+    ALP_TRY(measure_noise(job, count_traced(job)));
+    if (!job->options->adaptive) {
+        return ALP_OK;
+    }
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
+        ALP_TRY(judge(job, pass, false));
+    }
+    for (int round = 0; round < FLOOD_ROUNDS; round++) {
+        ALP_TRY(judge(job, 0, true));
+    }
+    for (job->pass = 1; job->pass < ALPI_LATTICE_PASSES; job->pass++) {
+        ALP_TRY(for_texels(job, interpolate_range));
+    }
+    return ALP_OK;
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+/// Mean variance of the traced texels of a chart in the three by three about each: of four
+/// replicates alone it would be anything, and by chance nothing.
+static alp_result pool_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const bounced_job *job = user;
+    const alpi_lattice *l = &job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->options->order[i];
+        if (l->states[t] != ALPI_TEXEL_TRACED) {
+            continue;
+        }
+        uint32_t around[ALPI_NEIGHBOUR_LIMIT + 1];
+        uint32_t count = alpi_lattice_traced_around(l, t, around);
+        around[count++] = t;
+        for (int k = 0; k < 3; k++) {
+            float sum = 0.0f;
+            for (uint32_t n = 0; n < count; n++) {
+                sum += job->options->gather->values[around[n]].variance[k];
+            }
+            job->variances[3 * (size_t)t + (size_t)k] = sum / (float)count;
+        }
+    }
+    return ALP_OK;
+}
+
+/// Some interpolated texels, evenly and at random.
+static uint32_t hold_out(const bounced_job *job, uint32_t interpolated)
+{
+    uint32_t count = 0, seen = 0;
+    const double step = fmax((double)interpolated / HELD_OUT, 1.0);
+    const float offset = alpi_unit_float(alpi_random_key(interpolated, 0, STREAM_HELD_OUT));
+    double next = (double)offset * step;
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        const uint32_t t = job->options->order[i];
+        if (job->lattice.states[t] == ALPI_TEXEL_INTERPOLATED && (double)seen++ >= next) {
+            job->list[count++] = t;
+            next += step;
+        }
+    }
+    return count;
+}
+
+/// Mean square error of what was interpolated, by channel: rays of their own from some of it.
+static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, float variance[3])
+{
+    alp_context *context = job->lattice.context;
+    const uint32_t count = hold_out(job, interpolated);
+    alpi_reference_value *traced =
+        ALPI_NEW(context, alpi_reference_value, job->lattice.texels->count);
+    if (traced == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = gather_list(job, count, traced, NULL);
+    for (int k = 0; k < 3; k++) {
+        double sum = 0.0;
+        for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
+            const alpi_reference_value *y = &traced[job->list[i]];
+            const double apart =
+                (double)job->options->gather->values[job->list[i]].mean[k] - (double)y->mean[k];
+            sum += apart * apart - (double)y->variance[k];
+        }
+        variance[k] = (float)fmax(sum / count, 0.0);
+    }
+    alpi_release(context, traced);
+    return result;
+}
+
+static alp_result state_errors(bounced_job *job)
+{
+    const uint32_t traced = count_traced(job), interpolated = job->options->count - traced;
+    float variance[3] = {0.0f, 0.0f, 0.0f};
+    job->report->traced = traced;
+    job->report->interpolated = interpolated;
+    ALP_TRY(for_texels(job, pool_range));
+    if (interpolated > 0) {
+        ALP_TRY(measure_interpolated(job, interpolated, variance));
+    }
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        const uint32_t t = job->options->order[i];
+        const bool own = job->lattice.states[t] == ALPI_TEXEL_TRACED;
+        for (size_t k = 0; k < 3; k++) {
+            job->options->gather->values[t].variance[k] =
+                own ? job->variances[3 * (size_t)t + k] : variance[k];
+        }
+    }
+    return ALP_OK;
+}
+
+// --- the map -------------------------------------------------------------------------------------
+
+static alp_result run(bounced_job *job)
+{
+    alp_context *context = job->lattice.context;
+    const uint32_t texels = job->lattice.texels->count;
+    ALPI_TRY_NEW(context, job->wanted, texels);
+    ALPI_TRY_NEW(context, job->list, job->options->count);
+    ALPI_TRY_NEW(context, job->lattice.values, texels);
+    ALPI_TRY_NEW(context, job->variances, 3 * (size_t)texels);
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        job->lattice.states[job->options->order[i]] = ALPI_TEXEL_OPEN;
+    }
+    ALP_TRY(run_lattice(job));
+    return state_errors(job);
+}
+
+alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
+                            const alpi_task_progress *progress, uint8_t *states,
+                            alpi_bounced_report *report)
+{
+    *report = (alpi_bounced_report){0};
+    bounced_job job = {.options = options, .lattice = *lattice, .report = report};
+    job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
+    job.lattice.states = states;
+    job.lattice.values = NULL;
+    const alp_result result = run(&job);
+    alpi_release(lattice->context, job.wanted);
+    alpi_release(lattice->context, job.list);
+    alpi_release(lattice->context, job.lattice.values);
+    alpi_release(lattice->context, job.variances);
+    return result;
+}

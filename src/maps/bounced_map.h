@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Bounced light at the texels of an atlas, over the adaptive lattice: it changes slowly but where
+// surfaces meet, so that most texels can be interpolated.
+//
+// Passes, stencils and flood are those of occlusion (lattice.h); what is smooth is judged by the
+// noise of the rays, in proportion to the light that is there. Bounced light is judged by the mean
+// of its channels; its channels, and a sky's part of them, are interpolated by the same stencils.
+// Based on: H. Elias. Radiosity (the adaptive light map).
+#ifndef ALPI_MAPS_BOUNCED_MAP_H
+#define ALPI_MAPS_BOUNCED_MAP_H
+
+#include "maps/lattice.h"
+#include "transport/gather.h"
+
+typedef struct alpi_bounced_options {
+    const alpi_gather_job *gather; // its list and count are not read; its gatherer knows its error
+    const uint32_t *order;         // [count] texels, neighbours together
+    uint32_t count;
+    const uint8_t *near; // [texels] alpi_nearness, or NULL
+    bool adaptive;       // false: all texels are traced
+} alpi_bounced_options;
+
+typedef struct alpi_bounced_report {
+    uint64_t traced, interpolated; // texels
+    uint64_t rays;
+} alpi_bounced_report;
+
+/// Writes the values (with variances) and skies of the gather job for the texels of the order.
+/// Variances are pooled over a texel and its neighbours. Those of interpolated texels are the mean
+/// square difference to independent rays from some of them, chosen at random, less the variance of
+/// those rays: it holds what interpolation misses, as a mean over all of them.
+/// @param states [texels] out: alpi_texel_state of those in the order
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
+                            const alpi_task_progress *progress, uint8_t *states,
+                            alpi_bounced_report *report);
+
+#endif
