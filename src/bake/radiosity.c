@@ -70,6 +70,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.scene = job->scene;
     options.tracer = t->tracer;
     options.lighting = t->lighting;
+    options.blocks.near = job->validity.near;
     options.direct = direct;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;

@@ -237,18 +237,44 @@ static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
     s->count = left;
 }
 
+/// The nearest that another surface is to any texel of a square.
+static uint8_t nearest_in(const alpi_patches *p, const page_square *s)
+{
+    uint8_t nearest = ALPI_FAR;
+    for (uint32_t i = 0; i < s->count && p->near != NULL; i++) {
+        nearest = p->near[s->texels[i]] > nearest ? p->near[s->texels[i]] : nearest;
+    }
+    return nearest;
+}
+
+/// Blocks of one square of the page, or of its quarters, and theirs, where light changes fast: half
+/// the size near another surface, single texels where one touches.
+static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
+                         uint32_t spacing, uint32_t *placed)
+{
+    page_square s;
+    list_square(p, page, x0, y0, spacing, &s);
+    const uint8_t nearest = nearest_in(p, &s);
+    const bool halves = nearest == ALPI_NEAR && spacing % 2 == 0;
+    const uint32_t part = nearest == ALPI_FAR ? spacing : halves ? spacing / 2 : 1;
+    for (uint32_t y = y0; y < y0 + spacing; y += part) {
+        for (uint32_t x = x0; x < x0 + spacing; x += part) {
+            list_square(p, page, x, y, part, &s);
+            while (s.count > 0) {
+                take_block(p, &s, placed);
+            }
+        }
+    }
+}
+
 static alp_result make_blocks(alpi_patches *p, uint32_t spacing)
 {
     const alpi_lattice *l = p->lattice;
     uint32_t placed = 0;
-    page_square s;
     for (uint32_t page = 0; page < l->page_count; page++) {
         for (uint32_t y = 0; y < l->height; y += spacing) {
             for (uint32_t x = 0; x < l->width; x += spacing) {
-                list_square(p, page, x, y, spacing, &s);
-                while (s.count > 0) {
-                    take_block(p, &s, &placed);
-                }
+                split_square(p, page, x, y, spacing, &placed);
             }
             ALP_TRY(alpi_tick(p->context, "light", 0, 1));
         }
@@ -412,16 +438,18 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
 }
 
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count, uint32_t spacing,
-                               alpi_patches *patches)
+                               const uint32_t *order, uint32_t count,
+                               const alpi_block_rule *rule, alpi_patches *patches)
 {
     *patches = (alpi_patches){.context = lattice->context,
                               .scene = atlas->scene,
                               .atlas = atlas,
                               .texels = lattice->texels,
                               .lattice = lattice,
+                              .near = rule->near,
                               .two_sided = has_double_sided(atlas->scene)};
-    const alp_result result = create(patches, order, count, spacing);
+    const alp_result result = create(patches, order, count, rule->spacing);
+    patches->near = NULL; // borrowed for this call
     if (result != ALP_OK) {
         alpi_patches_destroy(patches);
     }

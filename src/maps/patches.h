@@ -10,6 +10,7 @@
 #define ALPI_MAPS_PATCHES_H
 
 #include "maps/lattice.h"
+#include "maps/validity.h"
 #include "transport/gather.h"
 
 /// Sides of a patch. Backs are those of double-sided materials.
@@ -24,6 +25,7 @@ typedef struct alpi_patches {
     const alp_atlas *atlas;
     const alpi_texels *texels;
     const alpi_lattice *lattice;
+    const uint8_t *near; // of the block rule, while blocks are made
     uint32_t *stand_ins; // [texels] the texel whose light a texel shows: itself, or the nearest of
                          // its chart where it has none of its own
     uint32_t *chart_texels;   // [charts] a texel of each, ALPI_NONE where it has none
@@ -41,11 +43,17 @@ typedef struct alpi_patches {
 } alpi_patches;
 
 /// @param order   [count] texels with light of their own, neighbours together
-/// @param spacing side of a block in texels, [1, 16]; 1: each texel is one
+/// How texels are put together.
+typedef struct alpi_block_rule {
+    uint32_t spacing;    // side of a block in texels, [1, 16]; 1: each texel is one
+    const uint8_t *near; // [texels] alpi_nearness, or NULL: near another surface, where bounced
+                         // light changes fast, blocks are half as long, where one touches, texels
+} alpi_block_rule;
+
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count, uint32_t spacing,
-                               alpi_patches *patches);
+                               const uint32_t *order, uint32_t count,
+                               const alpi_block_rule *rule, alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
 
 /// Texel, ALPI_NONE where there is none, that shows the light at a point.

@@ -24,7 +24,7 @@ alpi_radiosity_options alpi_radiosity_options_default(void)
 {
     return (alpi_radiosity_options){.bounces = UINT32_MAX,
                                     .tolerance = 5e-4,
-                                    .spacing = 4,
+                                    .blocks = {.spacing = 4},
                                     .direct_samples = 16,
                                     .kept_limit = 1ull << 30};
 }
@@ -407,7 +407,7 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
     solver s = {.r = radiosity};
     s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
-        alpi_patches_create(lattice, atlas, order, count, options->spacing, &radiosity->patches));
+        alpi_patches_create(lattice, atlas, order, count, &options->blocks, &radiosity->patches));
     const alp_result result = solve(&s, order, count);
     alpi_kept_rays_destroy(&s.kept);
     alpi_release(options->context, s.new_receivers);

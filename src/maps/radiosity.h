@@ -28,7 +28,7 @@ typedef struct alpi_radiosity_options {
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left
     double tolerance; // then: light that is not yet gathered, over all, that is called nothing
-    uint32_t spacing; // texels along a block
+    alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
@@ -39,7 +39,7 @@ typedef struct alpi_radiosity_options {
 /// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
 /// filter, gatherer and seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
-enum { ALPI_RADIOSITY_BLOCK_RAYS = 64 }; // of cosine rays that gather for blocks
+enum { ALPI_RADIOSITY_BLOCK_RAYS = 512 }; // of cosine rays that gather for blocks
 
 /// Where the light goes: fluxes in W, means of the three channels, area integrals over the patches
 /// that were gathered for. They close to the noise of the rays:

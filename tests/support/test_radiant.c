@@ -57,7 +57,7 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
                                       .gatherer = &r->gatherer,
                                       .bounces = options->bounces,
                                       .tolerance = 1e-5,
-                                      .spacing = options->spacing,
+                                      .blocks = {.spacing = options->spacing},
                                       .direct_samples = options->direct_samples,
                                       .kept_limit = options->kept_limit,
                                       .seed = options->seed};
