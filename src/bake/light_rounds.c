@@ -26,14 +26,15 @@ typedef struct rounds {
     const alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
-    alpi_reference_value *fresh;        // [texels] of a later round
-    float (*fresh_skies)[3];            // [texels]
-    uint8_t *states;                    // [texels]
-    uint32_t rays, direct;              // samples so far
-    uint32_t number;                    // of the round
-    double mean;                        // of all light, over texels and channels
-    double direct_error, bounced_error; // root mean squares over the mean
+    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;         // [texels] of a later round
+    float (*fresh_skies)[3];             // [texels]
+    alpi_directional *fresh_directional; // [texels]; NULL: not wanted
+    uint8_t *states;                     // [texels]
+    uint32_t rays, direct;               // samples so far
+    uint32_t number;                     // of the round
+    double mean;                         // of all light, over texels and channels
+    double direct_error, bounced_error;  // root mean squares over the mean
 } rounds;
 
 static bool wants_error(const alpi_bake_job *job)
@@ -51,7 +52,7 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job)
 
 /// Bounced light by `rays` more of each texel.
 static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value *values,
-                                 float (*skies)[3])
+                                 float (*skies)[3], alpi_directional *directional)
 {
     alpi_bake_job *job = r->job;
     const alpi_light_task *t = r->task;
@@ -68,7 +69,10 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
                                     .gatherer = r->fixed != NULL ? r->fixed : &own,
                                     .receivers = t->receivers,
                                     .values = values,
-                                    .skies = skies};
+                                    .skies = skies,
+                                    .directional = directional,
+                                    .directional_without_sky =
+                                        job->options.light.direct == ALP_DIRECT_OFF};
     const alpi_bounced_options options = {
         .gather = &gather,
         .order = t->order,
@@ -86,7 +90,9 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
 }
 
 /// Means of two estimates by their numbers of samples.
-static void merge(const rounds *r, alpi_reference_value *values, double had, double more)
+/// @param directional NULL, or what is merged with that of the round
+static void merge(const rounds *r, alpi_reference_value *values, alpi_directional *directional,
+                  double had, double more)
 {
     const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
     for (uint32_t i = 0; i < r->task->count; i++) {
@@ -97,13 +103,16 @@ static void merge(const rounds *r, alpi_reference_value *values, double had, dou
             v->mean[k] = a * v->mean[k] + b * f->mean[k];
             v->variance[k] = a * a * v->variance[k] + b * b * f->variance[k];
         }
+        if (directional != NULL) {
+            alpi_directional_mix(&directional[t], a, &r->fresh_directional[t], b);
+        }
     }
 }
 
 static alp_result add_bounced(rounds *r, uint32_t rays)
 {
-    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies));
-    merge(r, r->task->values, r->rays, rays);
+    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
+    merge(r, r->task->values, r->task->directional, r->rays, rays);
     const float b = (float)((double)rays / ((double)r->rays + rays));
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
@@ -119,9 +128,11 @@ static alp_result add_direct(rounds *r, uint32_t samples)
 {
     const alpi_light_task *t = r->task;
     const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
     ALP_TRY(alpi_radiosity_direct(r->solution, t->order, t->count, samples, seed, &t->progress,
-                                  r->fresh, &r->job->report.rays));
-    merge(r, r->solution->direct, r->direct, samples);
+                                  &output));
+    r->job->report.rays += output.rays;
+    merge(r, r->solution->direct, r->solution->directional, r->direct, samples);
     r->direct += samples;
     return ALP_OK;
 }
@@ -195,7 +206,7 @@ static alp_result run_rounds(rounds *r)
                             : alpi_cosine_rays_samples(r->job->options.light.samples, REPLICATES);
     ALPI_TRY_NEW(context, r->skies, texels);
     ALPI_TRY_NEW(context, r->states, texels);
-    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies));
+    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies, r->task->directional));
     r->rays = first;
     r->direct = r->solution->options.direct_samples;
     ALP_TRY(measure(r));
@@ -204,6 +215,9 @@ static alp_result run_rounds(rounds *r)
     }
     ALPI_TRY_NEW(context, r->fresh, texels);
     ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    if (r->task->directional != NULL) {
+        ALPI_TRY_NEW(context, r->fresh_directional, texels);
+    }
     for (bool done = false; !done && r->number < ROUND_LIMIT;) {
         ALP_TRY(improve(r, wanted, &done));
     }
@@ -235,6 +249,10 @@ static void put_together(const rounds *r)
             value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
             value->variance[k] += on ? direct->variance[k] : 0.0f;
         }
+        if (on && r->task->directional != NULL) {
+            alpi_directional_mix(&r->task->directional[texel], 1.0f,
+                                 &r->solution->directional[texel], 1.0f);
+        }
     }
 }
 
@@ -250,5 +268,6 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
     alpi_release(job->context, r.states);
     alpi_release(job->context, r.fresh);
     alpi_release(job->context, r.fresh_skies);
+    alpi_release(job->context, r.fresh_directional);
     return result;
 }

@@ -75,6 +75,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
         .tolerance = 5e-4,
         .spacing = SPACING,
         .direct_samples = alpi_light_first_direct(job),
+        .directional = t->directional != NULL,
         .kept_limit = 1ull << 30,
         .seed = o->occlusion.seed,
     };

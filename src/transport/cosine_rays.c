@@ -57,6 +57,7 @@ static void fill_packet(const alpi_path_wave *w, uint32_t first, alpi_gather_pac
     memcpy(rays->direction_z, w->direction.z + first, size);
     for (int i = 0; i < ALPI_PACKET; i++) {
         rays->maximum[i] = INFINITY;
+        packet->cosines[i] = (float)ALPI_PI * w->density[first + (uint32_t)i];
     }
     packet->active = 0xffu;
 }

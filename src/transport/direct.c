@@ -36,6 +36,9 @@ typedef struct direct_job {
 typedef struct arrival {
     float light[3];
     uint16_t part, replicate;
+    bool horizon; // of a cosine-distributed ray: see directional.h
+    float cosine;
+    vec3 direction;
 } arrival;
 
 /// The samples of one receiver, by one worker.
@@ -47,6 +50,8 @@ typedef struct gather {
     uint32_t first, count; // samples of the chunk
     uint64_t rays;
     double sums[ALPI_DIRECT_PART_LIMIT][R][3];
+    double horizon_width; // 0: light is not wanted by its direction
+    alpi_directional_sums directional;
     uint32_t queued;
     arrival givens[RAY_LIMIT];
     alpi_rays packets[ALPI_TRACE_BATCH];
@@ -74,6 +79,13 @@ static vec3 ray_start(const alpi_receiver_point *p)
 static void add(gather *g, const arrival *given)
 {
     const uint32_t each = g->direct->samples / R;
+    if (g->horizon_width > 0.0 && given->cosine > 0.0f) {
+        const double times = given->replicate == EVERY ? (double)g->direct->samples : 1.0;
+        const double light[3] = {times * (double)given->light[0], times * (double)given->light[1],
+                                 times * (double)given->light[2]};
+        alpi_directional_add(&g->directional, light, given->direction, (double)given->cosine,
+                             given->horizon);
+    }
     for (int k = 0; k < 3; k++) {
         if (given->replicate != EVERY) {
             g->sums[given->part][given->replicate][k] += (double)given->light[k];
@@ -143,6 +155,7 @@ static void send(gather *g, const ray_way *way, vec3 light, float factor, arriva
     given.light[0] = light.x * factor;
     given.light[1] = light.y * factor;
     given.light[2] = light.z * factor;
+    given.direction = way->direction;
     if (!isfinite(factor) || !(given.light[0] + given.light[1] + given.light[2] > 0.0f)) {
         return;
     }
@@ -184,7 +197,8 @@ static void ask_lamp(gather *g, uint32_t light, uint32_t i, uint32_t replicate, 
         const ray_way way = {origin, at.direction, reach_to(at.distance, p), false};
         send(g, &way, at.light, cosine * factor,
              (arrival){.part = (uint16_t)g->direct->light_parts[light],
-                       .replicate = (uint16_t)replicate});
+                       .replicate = (uint16_t)replicate,
+                       .cosine = cosine});
     }
 }
 
@@ -221,7 +235,8 @@ static void ask_sun(gather *g, const alpi_sun *sun, uint32_t i, uint32_t use, fl
     if (cosine > 0.0f) {
         send(g, &way, sun->radiance, cosine * factor / (float)alpi_sun_density(sun),
              (arrival){.part = (uint16_t)g->direct->light_parts[sun->light],
-                       .replicate = (uint16_t)replicate_of(i)});
+                       .replicate = (uint16_t)replicate_of(i),
+                       .cosine = cosine});
     }
 }
 
@@ -292,7 +307,8 @@ static void ask_surface(gather *g, const alpi_emitter_view *view, uint32_t i)
         const ray_way way = {view->point, s.direction, reach_to(s.distance, p), false};
         send(g, &way, s.light, cosine / (s.density + met),
              (arrival){.part = part_of_triangle(g->direct, s.triangle),
-                       .replicate = (uint16_t)replicate_of(i)});
+                       .replicate = (uint16_t)replicate_of(i),
+                       .cosine = cosine});
     }
 }
 
@@ -308,7 +324,9 @@ static void add_sky(gather *g)
         if (cosine > 0.0f) {
             send(g, &way, alpi_sky_radiance(d->sky, way.direction),
                  cosine / (density + cosine_density(cosine)),
-                 (arrival){.part = (uint16_t)d->sky_part, .replicate = (uint16_t)replicate_of(i)});
+                 (arrival){.part = (uint16_t)d->sky_part,
+                           .replicate = (uint16_t)replicate_of(i),
+                           .cosine = cosine});
         }
     }
     flush(g, true);
@@ -332,7 +350,7 @@ typedef struct met_packet {
     alpi_rays rays;
     uint32_t count;
     const alpi_emitter_view *views[ALPI_PACKET];
-    float densities[ALPI_PACKET];
+    float densities[ALPI_PACKET], cosines[ALPI_PACKET];
     uint32_t samples[ALPI_PACKET];
 } met_packet;
 
@@ -343,7 +361,10 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
     const vec3 direction = {m->rays.direction_x[lane], m->rays.direction_y[lane],
                             m->rays.direction_z[lane]};
     const uint32_t triangle = hits->triangle[lane];
-    arrival given = {.replicate = (uint16_t)replicate_of(m->samples[lane])};
+    arrival given = {.replicate = (uint16_t)replicate_of(m->samples[lane]),
+                     .horizon = m->cosines[lane] < (float)g->horizon_width,
+                     .cosine = m->cosines[lane],
+                     .direction = direction};
     vec3 light = {0.0f, 0.0f, 0.0f};
     float factor = 0.0f;
     if (triangle != ALPI_NONE) {
@@ -406,10 +427,17 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     const vec3 along = vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, n);
     ray_way way = {view->point, vec3_normalize_or(along, n), INFINITY, true};
     const float density = cosine_density(local.z);
+    const bool horizon = local.z < (float)g->horizon_width;
+    if (horizon) {
+        alpi_directional_count(&g->directional, ALPI_PI, (double)local.z);
+    }
     if (!near) {
         send(g, &way, alpi_sky_radiance(d->sky, way.direction),
              sky_factor(d, way.direction, density),
-             (arrival){.part = (uint16_t)d->sky_part, .replicate = (uint16_t)replicate_of(i)});
+             (arrival){.part = (uint16_t)d->sky_part,
+                       .replicate = (uint16_t)replicate_of(i),
+                       .horizon = horizon,
+                       .cosine = local.z});
         return;
     }
     if (m->count == 0) {
@@ -418,6 +446,7 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     alpi_rays_set(&m->rays, (int)m->count, way.origin, way.direction, way.reach);
     m->views[m->count] = view;
     m->densities[m->count] = density;
+    m->cosines[m->count] = local.z;
     m->samples[m->count++] = i;
     if (m->count == ALPI_PACKET) {
         trace_met(g, m);
@@ -475,6 +504,10 @@ static void finish(gather *g, uint32_t receiver)
     for (int k = 0; k < 3; k++) {
         value->mean[k] = mean[k];
     }
+    if (g->job->output->directional != NULL) {
+        alpi_directional_finish(&g->directional, g->horizon_width, 1.0 / d->samples,
+                                &g->job->output->directional[receiver]);
+    }
 }
 
 // --- receivers -----------------------------------------------------------------------------------
@@ -499,6 +532,7 @@ static alp_result gather_receiver(gather *g, uint32_t receiver)
         g->keys[r] = alpi_hash32(key ^ alpi_hash32(r + 1u));
     }
     memset(g->sums, 0, d->part_count * sizeof *g->sums);
+    memset(&g->directional, 0, sizeof g->directional);
     for (g->first = 0; g->first < d->samples; g->first += CHUNK) {
         const uint32_t left = d->samples - g->first;
         g->count = left < CHUNK ? left : CHUNK;
@@ -524,6 +558,8 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     (void)worker;
     g.rays = 0;
     g.queued = 0;
+    g.horizon_width =
+        job->output->directional != NULL ? alpi_horizon_width(job->direct->samples) : 0.0;
     alp_result result = ALP_OK;
     for (uint32_t i = begin; i < end && result == ALP_OK; i++) {
         result = gather_receiver(&g, job->list != NULL ? job->list[i] : i);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "transport/directional.h"
+
+#include <math.h>
+
+double alpi_horizon_width(uint32_t rays)
+{
+    return fmin(fmax(0.25, 2.0 / sqrt((double)rays)), 1.0);
+}
+
+void alpi_directional_count(alpi_directional_sums *sums, double weight, double cosine)
+{
+    sums->horizon_weight += weight / cosine;
+}
+
+void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3], vec3 direction,
+                          double cosine, bool horizon)
+{
+    double(*sh)[3] = horizon ? sums->horizon : sums->sh;
+    double basis[ALPI_SH1_COUNT];
+    alpi_sh1_basis(direction, basis);
+    for (int i = 0; i < ALPI_SH1_COUNT; i++) {
+        for (int k = 0; k < 3; k++) {
+            sh[i][k] += basis[i] * irradiance[k] / cosine;
+        }
+    }
+    // Of linear Rec. 709.
+    const double luminance =
+        0.2126 * irradiance[0] + 0.7152 * irradiance[1] + 0.0722 * irradiance[2];
+    sums->toward[0] += luminance * (double)direction.x;
+    sums->toward[1] += luminance * (double)direction.y;
+    sums->toward[2] += luminance * (double)direction.z;
+}
+
+void alpi_directional_finish(const alpi_directional_sums *sums, double width, double scale,
+                             alpi_directional *directional)
+{
+    const double weight = sums->horizon_weight;
+    const double band = weight > 0.0 ? 2.0 * ALPI_PI * width / weight : 0.0;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < ALPI_SH1_COUNT; i++) {
+            directional->sh[i][k] = (float)(scale * sums->sh[i][k] + band * sums->horizon[i][k]);
+        }
+        directional->toward[k] = (float)(scale * sums->toward[k]);
+    }
+}
+
+void alpi_directional_mix(alpi_directional *had, float a, const alpi_directional *more, float b)
+{
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < ALPI_SH1_COUNT; i++) {
+            had->sh[i][k] = a * had->sh[i][k] + b * more->sh[i][k];
+        }
+        had->toward[k] = a * had->toward[k] + b * more->toward[k];
+    }
+}

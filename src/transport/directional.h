@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Light at a receiver by the directions that it comes from.
+//
+// Cosine-distributed rays bring irradiance, of which each stands for 1 / cosθ times as much light
+// for a projection: near the horizon without limit, a few of them for much of the hemisphere. So
+// what they bring from the band cosθ < width is apart: its mean, weighed by 1 / cosθ, counts for
+// the band's known solid angle 2π · width, and one ray is worth all of the band at most. A ratio of
+// means: exact where light is the same all over the band, else its bias falls as 1 / rays.
+#ifndef ALPI_TRANSPORT_DIRECTIONAL_H
+#define ALPI_TRANSPORT_DIRECTIONAL_H
+
+#include "sh/basis.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/// Of light from the hemisphere about the shading normal, world space.
+typedef struct alpi_directional {
+    float sh[ALPI_SH1_COUNT][3]; // ∫ L Y_lm dω, W·m⁻²
+    float toward[3]; // ∫ luminance cosθ ω dω, W·m⁻²: points to the mean direction
+} alpi_directional;
+
+typedef struct alpi_directional_sums {
+    double sh[ALPI_SH1_COUNT][3], toward[3];
+    double horizon[ALPI_SH1_COUNT][3], horizon_weight; // of the band
+} alpi_directional_sums;
+
+/// Of the band, as a cosine: a quarter of the hemisphere, or as much as four of few rays fill.
+double alpi_horizon_width(uint32_t rays);
+/// Counts a ray of the band. @param weight as that of light, of radiance 1
+void alpi_directional_count(alpi_directional_sums *sums, double weight, double cosine);
+/// @param irradiance L cosθ dω [W·m⁻²], any weight, the same in all calls   @param cosine > 0
+/// @param horizon of a ray that was counted
+void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3], vec3 direction,
+                          double cosine, bool horizon);
+/// @param scale 1 / the weight of all
+void alpi_directional_finish(const alpi_directional_sums *sums, double width, double scale,
+                             alpi_directional *directional);
+
+/// Means of two estimates: a · had + b · more, in `had`.
+void alpi_directional_mix(alpi_directional *had, float a, const alpi_directional *more, float b);
+
+#endif
