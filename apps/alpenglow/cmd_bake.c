@@ -4,6 +4,7 @@
 #include "lighting.h"
 #include "output.h"
 #include "report.h"
+#include "report_page.h"
 #include "session.h"
 
 #include <math.h>
@@ -456,6 +457,9 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
         code = write_report(s, lightmap, &report, a);
     }
+    if (code == EXIT_DONE && a->values[OPTION_REPORT].text != NULL) {
+        code = report_page_write(s, lightmap, &report, a);
+    }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
         print_summary(s, a, o, &report);
@@ -489,6 +493,9 @@ int command_bake(const command_line *a)
     int code = read_options(a, &options, &lamps);
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
+    }
+    if (code == EXIT_DONE) {
+        code = report_page_check(a);
     }
     if (code != EXIT_DONE) {
         return code;

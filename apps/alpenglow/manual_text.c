@@ -18,7 +18,9 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
               {"Small corners only, darkest where surfaces touch:",
                "alpenglow bake scene.glb -o corners.glb --ao-distance 0.2 --ao-falloff exp"},
               {"The map and a report of the bake, no scene:",
-               "alpenglow bake scene.glb --maps-dir only-maps --json report.json"}}},
+               "alpenglow bake scene.glb --maps-dir only-maps --json report.json"},
+              {"A page that shows the bake, its errors and what it warned of:",
+               "alpenglow bake scene.glb -o baked.glb --report bake.html"}}},
     [COMMAND_RENDER] = {.failed = "A file could not be read or written, or a warning came under "
                                   "--warnings-as-errors. Nothing was written.",
                         .files = {{"IMAGE.png", "The picture as a screen shows it."},

@@ -114,6 +114,15 @@ static const option options[] = {
      .help = "Write a report: scene, atlas, seconds, rays (of --maps light with bounces paths, of "
              "several rays each), memory, objects with their rectangles, warnings. - is standard "
              "output, instead of the summary."},
+    {.id = OPTION_REPORT,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--report",
+     .value = "OUT.html",
+     .help = "Write a page to read: figures, warnings, pictures of the maps and of their errors, "
+             "time per stage, where the objects lie. One file, which loads nothing and runs no "
+             "script; the first 16 pages of an atlas."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,
@@ -724,7 +733,6 @@ static const option options[] = {
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
-    LATER(IN_BAKE, "--report", "OUT.html", "--json writes a report"),
     LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
 };
 

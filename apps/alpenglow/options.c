@@ -420,7 +420,7 @@ static const char *operand_names(command_id command)
 
 int arguments_parse(command_id command, int count, char **words, command_line *parsed)
 {
-    *parsed = (command_line){.command = command};
+    *parsed = (command_line){.command = command, .words = words, .word_count = count};
     set_defaults(command, parsed);
     int operands = 0, wanted = command_operand_limit(command);
     bool options_ended = false;

@@ -89,6 +89,7 @@ typedef enum option_id {
     OPTION_THREADS,
     OPTION_PROGRESS,
     OPTION_JSON,
+    OPTION_REPORT,
     OPTION_WARNINGS_AS_ERRORS,
     OPTION_QUIET,
     OPTION_FORCE,
@@ -150,6 +151,8 @@ enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
 /// A command line that was understood.
 typedef struct command_line {
     command_id command;
+    char **words; // [word_count] as they were given, after the command's name
+    int word_count;
     const char *operands[2]; // SCENE, or A and B
     option_value values[OPTION_COUNT];
     struct {

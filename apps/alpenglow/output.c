@@ -80,14 +80,32 @@ int output_check_json(const char *path, bool overwrite)
     return output_is_stdout(path) ? EXIT_DONE : output_check(path, overwrite);
 }
 
-bool output_is_same(const char *a, const char *b)
+static bool is_one_file(const char *a, const char *b)
 {
     struct stat first, second;
-    if (strcmp(a, b) == 0) {
-        return true;
-    }
     return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
            first.st_ino == second.st_ino;
+}
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? path : slash + 1;
+}
+
+bool output_is_same(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0 || is_one_file(a, b)) {
+        return true;
+    }
+    if (strcmp(name_of(a), name_of(b)) != 0) {
+        return false;
+    }
+    char *first = folder_of(a), *second = folder_of(b);
+    const bool same = is_one_file(first, second);
+    free(first);
+    free(second);
+    return same;
 }
 
 static bool write_all(FILE *file, const char *text)

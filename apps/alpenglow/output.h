@@ -14,7 +14,8 @@ int output_check(const char *path, bool overwrite);
 int output_check_json(const char *path, bool overwrite);
 bool output_is_stdout(const char *path); ///< also of NULL: false
 
-/// Whether two paths name one file, by their text or because both are there and are the same.
+/// Whether two paths name one file: by their text, because both are there and are the same, or by
+/// name and folder.
 bool output_is_same(const char *a, const char *b);
 
 /// Writes a JSON document: to standard output, or to a temporary file that is renamed when

@@ -12,6 +12,7 @@
 #include <alpenglow/light.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/render.h>
+#include <alpenglow/report.h>
 #include <alpenglow/result.h>
 #include <alpenglow/scene.h>
 #include <alpenglow/version.h>

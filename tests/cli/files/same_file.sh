@@ -7,4 +7,7 @@ alpenglow bake scene.glb $quick -o out.glb --json out.glb; echo $?
 alpenglow bake scene.glb $quick -o out.glb --json scene.glb; echo $?
 alpenglow bake scene.glb $quick -o out.glb --json ./scene.glb; echo $?
 cmp scene.glb before.glb && ls
+alpenglow bake scene.glb $quick -o out.glb --json page.html --report ./page.html; echo $?
+: >page.html
+alpenglow bake scene.glb $quick -o out.glb --json page.html --report ./page.html; echo $?
 alpenglow compare a.exr b.exr --heatmap x.png --json x.png; echo $?

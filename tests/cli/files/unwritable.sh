@@ -15,6 +15,8 @@ check $bake -o folder.glb
 check $bake --maps-dir file
 check $bake -o out.glb --json missing/report.json
 check $bake -o out.glb --json folder
+check $bake -o out.glb --report missing/page.html
+check $bake -o out.glb --report file/page.html
 check $render -o missing/out.png
 check $render -o folder.png
 check alpenglow compare a b --heatmap missing/heat.png

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The --report page of a bake.
+#ifndef COMMAND_REPORT_PAGE_H
+#define COMMAND_REPORT_PAGE_H
+
+#include "session.h"
+
+/// Whether the page can be written, before long work; it must not take the place of the scene.
+/// @return EXIT_DONE, or EXIT_USAGE or EXIT_FAILED after a message
+int report_page_check(const command_line *arguments);
+
+/// Writes the page. @return EXIT_DONE, or EXIT_FAILED after a message
+int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_report *report,
+                      const command_line *arguments);
+
+#endif
