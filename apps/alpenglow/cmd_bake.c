@@ -138,7 +138,7 @@ static int read_maps(const option_value *values, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "--maps %s: is of light; add it: --maps light,%s",
                            sh ? "sh" : "direction", sh ? "sh" : "direction");
     }
-    if ((sh || direction) && o->light.gather == ALP_GATHER_PATHS) {
+    if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
         return usage_error(COMMAND_BAKE,
                            "--maps %s: --gather paths does not tell where light comes from; "
                            "--gather rays or hemicube does",

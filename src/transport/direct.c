@@ -36,9 +36,7 @@ typedef struct direct_job {
 typedef struct arrival {
     float light[3];
     uint16_t part, replicate;
-    bool horizon; // of a cosine-distributed ray: see directional.h
-    float cosine;
-    vec3 direction;
+    alpi_directional_way way; // its direction is that of the ray that is sent
 } arrival;
 
 /// The samples of one receiver, by one worker.
@@ -79,12 +77,11 @@ static vec3 ray_start(const alpi_receiver_point *p)
 static void add(gather *g, const arrival *given)
 {
     const uint32_t each = g->direct->samples / R;
-    if (g->horizon_width > 0.0 && given->cosine > 0.0f) {
+    if (g->horizon_width > 0.0 && given->way.cosine > 0.0f) {
         const double times = given->replicate == EVERY ? (double)g->direct->samples : 1.0;
         const double light[3] = {times * (double)given->light[0], times * (double)given->light[1],
                                  times * (double)given->light[2]};
-        alpi_directional_add(&g->directional, light, given->direction, (double)given->cosine,
-                             given->horizon);
+        alpi_directional_add(&g->directional, light, &given->way);
     }
     for (int k = 0; k < 3; k++) {
         if (given->replicate != EVERY) {
@@ -155,7 +152,7 @@ static void send(gather *g, const ray_way *way, vec3 light, float factor, arriva
     given.light[0] = light.x * factor;
     given.light[1] = light.y * factor;
     given.light[2] = light.z * factor;
-    given.direction = way->direction;
+    given.way.direction = way->direction;
     if (!isfinite(factor) || !(given.light[0] + given.light[1] + given.light[2] > 0.0f)) {
         return;
     }
@@ -198,7 +195,7 @@ static void ask_lamp(gather *g, uint32_t light, uint32_t i, uint32_t replicate, 
         send(g, &way, at.light, cosine * factor,
              (arrival){.part = (uint16_t)g->direct->light_parts[light],
                        .replicate = (uint16_t)replicate,
-                       .cosine = cosine});
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -236,7 +233,7 @@ static void ask_sun(gather *g, const alpi_sun *sun, uint32_t i, uint32_t use, fl
         send(g, &way, sun->radiance, cosine * factor / (float)alpi_sun_density(sun),
              (arrival){.part = (uint16_t)g->direct->light_parts[sun->light],
                        .replicate = (uint16_t)replicate_of(i),
-                       .cosine = cosine});
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -308,7 +305,7 @@ static void ask_surface(gather *g, const alpi_emitter_view *view, uint32_t i)
         send(g, &way, s.light, cosine / (s.density + met),
              (arrival){.part = part_of_triangle(g->direct, s.triangle),
                        .replicate = (uint16_t)replicate_of(i),
-                       .cosine = cosine});
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -326,7 +323,7 @@ static void add_sky(gather *g)
                  cosine / (density + cosine_density(cosine)),
                  (arrival){.part = (uint16_t)d->sky_part,
                            .replicate = (uint16_t)replicate_of(i),
-                           .cosine = cosine});
+                           .way = {.normal = p->shading_normal, .cosine = cosine}});
         }
     }
     flush(g, true);
@@ -343,6 +340,12 @@ static float met_factor(float density, double asked)
 static float sky_factor(const alpi_direct *d, vec3 direction, float density)
 {
     return met_factor(density, d->sky_drawn ? (double)alpi_sky_density(d->sky, direction) : 0.0);
+}
+
+/// Of rays that nothing but an even sky counts for: what is asked too has no 1 / cosθ.
+static bool is_horizon(const gather *g, float cosine)
+{
+    return g->direct->sky != NULL && !g->direct->sky_drawn && cosine < (float)g->horizon_width;
 }
 
 /// Eight cosine-distributed rays that may meet emitters.
@@ -362,9 +365,9 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
                             m->rays.direction_z[lane]};
     const uint32_t triangle = hits->triangle[lane];
     arrival given = {.replicate = (uint16_t)replicate_of(m->samples[lane]),
-                     .horizon = m->cosines[lane] < (float)g->horizon_width,
-                     .cosine = m->cosines[lane],
-                     .direction = direction};
+                     .way = {.direction = direction,
+                             .normal = m->views[lane]->normal,
+                             .cosine = m->cosines[lane]}};
     vec3 light = {0.0f, 0.0f, 0.0f};
     float factor = 0.0f;
     if (triangle != ALPI_NONE) {
@@ -380,6 +383,7 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
         given.part = (uint16_t)d->sky_part;
         light = alpi_sky_radiance(d->sky, direction);
         factor = sky_factor(d, direction, m->densities[lane]);
+        given.way.horizon = is_horizon(g, m->cosines[lane]);
     }
     given.light[0] = light.x * factor * left.x;
     given.light[1] = light.y * factor * left.y;
@@ -427,8 +431,7 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     const vec3 along = vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, n);
     ray_way way = {view->point, vec3_normalize_or(along, n), INFINITY, true};
     const float density = cosine_density(local.z);
-    const bool horizon = local.z < (float)g->horizon_width;
-    if (horizon) {
+    if (is_horizon(g, local.z)) {
         alpi_directional_count(&g->directional, ALPI_PI, (double)local.z);
     }
     if (!near) {
@@ -436,8 +439,7 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
              sky_factor(d, way.direction, density),
              (arrival){.part = (uint16_t)d->sky_part,
                        .replicate = (uint16_t)replicate_of(i),
-                       .horizon = horizon,
-                       .cosine = local.z});
+                       .way = {.normal = n, .cosine = local.z, .horizon = is_horizon(g, local.z)}});
         return;
     }
     if (m->count == 0) {

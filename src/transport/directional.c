@@ -13,23 +13,28 @@ void alpi_directional_count(alpi_directional_sums *sums, double weight, double c
     sums->horizon_weight += weight / cosine;
 }
 
-void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3], vec3 direction,
-                          double cosine, bool horizon)
+void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3],
+                          const alpi_directional_way *way)
 {
-    double(*sh)[3] = horizon ? sums->horizon : sums->sh;
-    double basis[ALPI_SH1_COUNT];
-    alpi_sh1_basis(direction, basis);
-    for (int i = 0; i < ALPI_SH1_COUNT; i++) {
-        for (int k = 0; k < 3; k++) {
-            sh[i][k] += basis[i] * irradiance[k] / cosine;
+    const double cosine = (double)way->cosine;
+    double(*sh)[3] = way->horizon ? sums->horizon : sums->sh;
+    double along[ALPI_SH1_COUNT], basis[ALPI_SH1_COUNT];
+    alpi_sh1_basis(way->normal, along);
+    alpi_sh1_basis(way->direction, basis);
+    for (int k = 0; k < 3; k++) {
+        const double light = irradiance[k] / cosine;
+        sh[0][k] += basis[0] * light;
+        for (int i = 1; i < ALPI_SH1_COUNT; i++) {
+            sums->sh[i][k] += along[i] * irradiance[k];
+            sh[i][k] += (basis[i] - cosine * along[i]) * light;
         }
     }
     // Of linear Rec. 709.
     const double luminance =
         0.2126 * irradiance[0] + 0.7152 * irradiance[1] + 0.0722 * irradiance[2];
-    sums->toward[0] += luminance * (double)direction.x;
-    sums->toward[1] += luminance * (double)direction.y;
-    sums->toward[2] += luminance * (double)direction.z;
+    sums->toward[0] += luminance * (double)way->direction.x;
+    sums->toward[1] += luminance * (double)way->direction.y;
+    sums->toward[2] += luminance * (double)way->direction.z;
 }
 
 void alpi_directional_finish(const alpi_directional_sums *sums, double width, double scale,

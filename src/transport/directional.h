@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Light at a receiver by the directions that it comes from.
 //
-// Cosine-distributed rays bring irradiance, of which each stands for 1 / cosθ times as much light
-// for a projection: near the horizon without limit, a few of them for much of the hemisphere. So
-// what they bring from the band cosθ < width is apart: its mean, weighed by 1 / cosθ, counts for
-// the band's known solid angle 2π · width, and one ray is worth all of the band at most. A ratio of
-// means: exact where light is the same all over the band, else its bias falls as 1 / rays.
+// Cosine-distributed rays bring irradiance. Of the first band what lies along the normal is just
+// that. For the rest each stands for 1 / cosθ times as much light: near the horizon without limit,
+// a few of them for much of the hemisphere. So what they bring from the band cosθ < width is apart:
+// its mean, weighed by 1 / cosθ, counts for the band's known solid angle 2π · width, and one ray is
+// worth all of the band at most. A ratio of means: exact where light is the same all over the band,
+// else its bias falls as 1 / rays.
 #ifndef ALPI_TRANSPORT_DIRECTIONAL_H
 #define ALPI_TRANSPORT_DIRECTIONAL_H
 
@@ -29,10 +30,16 @@ typedef struct alpi_directional_sums {
 double alpi_horizon_width(uint32_t rays);
 /// Counts a ray of the band. @param weight as that of light, of radiance 1
 void alpi_directional_count(alpi_directional_sums *sums, double weight, double cosine);
-/// @param irradiance L cosθ dω [W·m⁻²], any weight, the same in all calls   @param cosine > 0
-/// @param horizon of a ray that was counted
-void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3], vec3 direction,
-                          double cosine, bool horizon);
+
+/// How light arrives.
+typedef struct alpi_directional_way {
+    vec3 direction, normal; // unit
+    float cosine;           // between them, > 0
+    bool horizon;           // of a ray that was counted
+} alpi_directional_way;
+/// @param irradiance L cosθ dω [W·m⁻²], any weight, the same in all calls
+void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3],
+                          const alpi_directional_way *way);
 /// @param scale 1 / the weight of all
 void alpi_directional_finish(const alpi_directional_sums *sums, double width, double scale,
                              alpi_directional *directional);

@@ -163,24 +163,26 @@ void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
                                  const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
                                  alpi_gather_sums *sums)
 {
-    const bool alike = gatherer->weights == NULL;
     const double width = alpi_horizon_width(gatherer->packet_count * ALPI_PACKET);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const double cosine = (double)aimed->cosines[i];
-        if ((aimed->active >> i & 1u) == 0 || !(cosine > 0.0)) {
+        const double weight = ALPI_PI * weight_of(gatherer, packet, i);
+        const alpi_directional_way way = {
+            .direction = {aimed->rays.direction_x[i], aimed->rays.direction_y[i],
+                          aimed->rays.direction_z[i]},
+            .normal = aimed->normals[i],
+            .cosine = aimed->cosines[i],
+            .horizon = gatherer->weights == NULL && (double)aimed->cosines[i] < width,
+        };
+        if ((aimed->active >> i & 1u) == 0 || !(way.cosine > 0.0f)) {
             continue;
         }
-        const vec3 direction = {aimed->rays.direction_x[i], aimed->rays.direction_y[i],
-                                aimed->rays.direction_z[i]};
-        const double weight = ALPI_PI * weight_of(gatherer, packet, i);
+        if (way.horizon) {
+            alpi_directional_count(&sums->directional, weight, (double)way.cosine);
+        }
         const double irradiance[3] = {weight * (double)radiance[i].x,
                                       weight * (double)radiance[i].y,
                                       weight * (double)radiance[i].z};
-        const bool horizon = alike && cosine < width;
-        if (horizon) {
-            alpi_directional_count(&sums->directional, weight, cosine);
-        }
-        alpi_directional_add(&sums->directional, irradiance, direction, cosine, horizon);
+        alpi_directional_add(&sums->directional, irradiance, &way);
     }
 }
 

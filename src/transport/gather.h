@@ -35,7 +35,8 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
 typedef struct alpi_gather_packet {
     alpi_rays rays; // unit directions
     uint32_t active;
-    float cosines[ALPI_PACKET]; // to the shading normal
+    vec3 normals[ALPI_PACKET];  // shading normals where they start
+    float cosines[ALPI_PACKET]; // to them
 } alpi_gather_packet;
 
 /// Aims packets [first, first + count) of a receiver, at most ALPI_GATHER_BATCH. Called by many

@@ -318,6 +318,9 @@ static void aim_receiver(const void *user, const alpi_receivers *receivers, uint
         const alpi_hemicube_packet *pixels = &o->cube->packets[first + k];
         packets[k].active = aim(pixels, &point, &frame, &packets[k].rays);
         memcpy(packets[k].cosines, pixels->z, sizeof pixels->z);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            packets[k].normals[i] = frame.forward;
+        }
     }
 }
 
