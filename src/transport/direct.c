@@ -507,7 +507,7 @@ static void finish(gather *g, uint32_t receiver)
         value->mean[k] = mean[k];
     }
     if (g->job->output->directional != NULL) {
-        alpi_directional_finish(&g->directional, g->horizon_width, 1.0 / d->samples,
+        alpi_directional_finish(&g->directional, 1.0 / d->samples,
                                 &g->job->output->directional[receiver]);
     }
 }
@@ -534,7 +534,7 @@ static alp_result gather_receiver(gather *g, uint32_t receiver)
         g->keys[r] = alpi_hash32(key ^ alpi_hash32(r + 1u));
     }
     memset(g->sums, 0, d->part_count * sizeof *g->sums);
-    memset(&g->directional, 0, sizeof g->directional);
+    g->directional = (alpi_directional_sums){.width = g->horizon_width};
     for (g->first = 0; g->first < d->samples; g->first += CHUNK) {
         const uint32_t left = d->samples - g->first;
         g->count = left < CHUNK ? left : CHUNK;

@@ -4,9 +4,9 @@
 // Cosine-distributed rays bring irradiance. Of the first band what lies along the normal is just
 // that. For the rest each stands for 1 / cosθ times as much light: near the horizon without limit,
 // a few of them for much of the hemisphere. So what they bring from the band cosθ < width is apart:
-// its mean, weighed by 1 / cosθ, counts for the band's known solid angle 2π · width, and one ray is
-// worth all of the band at most. A ratio of means: exact where light is the same all over the band,
-// else its bias falls as 1 / rays.
+// its mean counts for the band's known solid angle 2π · width, weighed by 1 / cosθ above a quarter
+// of the width, and below, where a ray in sixteen of the band lies, by the mean of that. A ratio of
+// means: exact where light is the same all over the band, else its bias falls as 1 / rays.
 #ifndef ALPI_TRANSPORT_DIRECTIONAL_H
 #define ALPI_TRANSPORT_DIRECTIONAL_H
 
@@ -23,6 +23,7 @@ typedef struct alpi_directional {
 
 typedef struct alpi_directional_sums {
     double sh[ALPI_SH1_COUNT][3], toward[3];
+    double width;                                      // of the band; where to begin
     double horizon[ALPI_SH1_COUNT][3], horizon_weight; // of the band
 } alpi_directional_sums;
 
@@ -41,7 +42,7 @@ typedef struct alpi_directional_way {
 void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3],
                           const alpi_directional_way *way);
 /// @param scale 1 / the weight of all
-void alpi_directional_finish(const alpi_directional_sums *sums, double width, double scale,
+void alpi_directional_finish(const alpi_directional_sums *sums, double scale,
                              alpi_directional *directional);
 
 /// Means of two estimates: a · had + b · more, in `had`.

@@ -163,7 +163,6 @@ void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
                                  const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
                                  alpi_gather_sums *sums)
 {
-    const double width = alpi_horizon_width(gatherer->packet_count * ALPI_PACKET);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const double weight = ALPI_PI * weight_of(gatherer, packet, i);
         const alpi_directional_way way = {
@@ -171,7 +170,8 @@ void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
                           aimed->rays.direction_z[i]},
             .normal = aimed->normals[i],
             .cosine = aimed->cosines[i],
-            .horizon = gatherer->weights == NULL && (double)aimed->cosines[i] < width,
+            .horizon =
+                gatherer->weights == NULL && (double)aimed->cosines[i] < sums->directional.width,
         };
         if ((aimed->active >> i & 1u) == 0 || !(way.cosine > 0.0f)) {
             continue;
@@ -252,9 +252,7 @@ void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_g
         job->lost[receiver][k] = (float)sums->lost[k];
     }
     if (job->directional != NULL) {
-        alpi_directional_finish(&sums->directional,
-                                alpi_horizon_width(job->gatherer->packet_count * ALPI_PACKET), 1.0,
-                                &job->directional[receiver]);
+        alpi_directional_finish(&sums->directional, 1.0, &job->directional[receiver]);
     }
 }
 
@@ -316,6 +314,7 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = job->list != NULL ? job->list[i] : i;
         alpi_gather_sums sums = {.lost = {0.0}};
+        sums.directional.width = alpi_horizon_width(packets * ALPI_PACKET);
         for (uint32_t first = 0; first < packets; first += ALPI_GATHER_BATCH) {
             const uint32_t left = packets - first;
             gather_batch(job, receiver, first, left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH,

@@ -184,9 +184,9 @@ static void the_furnace(void **state)
 
 static const vec3 LAMP = {3.0f, 2.0f, 1.0f};
 
-/// I/r² Y(ω) where it is seen. Half a texel is h = 0.06 m, the lamp 2.7 m away: the middle is right
-/// to h/r = 2 % of c_1, of which a texel's mean keeps the square. Dark texels point along the
-/// normal.
+/// I/r² Y(ω) where it is seen. Half a texel is h = 0.06 m, the lamp 2.7 m away: its middle is right
+/// to a few squares of h/r, 5e-4, of the coefficients, and to a third of h/r where the lamp is so
+/// low that one side of the texel gets all of the light. Dark texels point along the normal.
 static void a_solid_under_a_lamp(void **state)
 {
     (void)state;
@@ -216,11 +216,11 @@ static void a_solid_under_a_lamp(void **state)
         }
         for (int k = 0; k < ALPI_SH1_COUNT; k++) {
             const double wanted = seen ? 50.0 / (r * r) * y[k] : 0.0;
-            ASSERT_NEAR(t.sh[k], wanted, 2e-3 * largest);
+            ASSERT_NEAR(t.sh[k], wanted, 5e-3 * largest);
             worst = fmax(worst, fabs(t.sh[k] - wanted) / largest);
         }
         ASSERT_NEAR(4.0 * ALPI_PI / 3.0 * first_band(&t, t.normal), t.irradiance, 2e-5 * largest);
-        ASSERT_NEAR(vec3_length(vec3_sub(t.direction, seen ? toward : t.normal)), 0.0, 2e-3);
+        ASSERT_NEAR(vec3_length(vec3_sub(t.direction, seen ? toward : t.normal)), 0.0, 8e-3);
         lit += seen;
         dark += !seen;
     }
@@ -241,9 +241,9 @@ static alp_lightmap *bake_cornell(const alp_bake_options *options, alp_scene **s
     return lightmap;
 }
 
-/// The first band gives E back, as direct light, what is bounced, the sky and all rounds of rays
-/// are in both maps alike. What differs is light from the horizon's band, a sixteenth of an even
-/// one.
+/// The first band gives E back: direct light, what is bounced, the sky and all rounds of rays are
+/// in both maps alike, to floats. A cubic that was kept from going below zero is not, in one of
+/// them.
 static void the_first_band_is_the_irradiance(void **state)
 {
     (void)state;
@@ -267,6 +267,7 @@ static void the_first_band_is_the_irradiance(void **state)
         o.light.bounces = cases[k].bounces;
         o.light.error = cases[k].error;
         o.light.hemicube = 32;
+        const bool cubics = o.light.direct == ALP_DIRECT_OFF; // near nothing is dark otherwise
         o.light.lighting.sky.kind = ALP_SKY_CONSTANT;
         o.light.lighting.sky.up[CHANNEL] = 0.5f;
         alp_lightmap *lightmap = bake_cornell(&o, &scene);
@@ -285,8 +286,8 @@ static void the_first_band_is_the_irradiance(void **state)
                "the normal RMSE %.1e, largest error %.1e of the mean E\n",
                cases[k].name, count, apart / mean, sqrt(squares) / mean, sqrt(bands) / mean,
                worst / mean);
-        ASSERT_NEAR(apart / mean, 0.0, 2e-3);
-        ASSERT_NEAR(sqrt(squares) / mean, 0.0, 0.02);
+        ASSERT_NEAR(apart / mean, 0.0, cubics ? 1e-4 : 1e-6);
+        ASSERT_NEAR(sqrt(squares) / mean, 0.0, cubics ? 1e-3 : 1e-6);
         alp_lightmap_destroy(lightmap);
         alp_scene_destroy(scene);
     }
