@@ -9,7 +9,7 @@ static const struct {
     bench_fn *run;
 } benches[] = {
     {"trace", bench_trace}, {"transport", bench_transport}, {"atlas", bench_atlas},
-    {"maps", bench_maps},   {"accuracy", bench_accuracy},   {"truth", bench_against_truth},
+    {"maps", bench_maps},   {"accuracy", bench_accuracy},   {"truth", bench_against_truth}, {"denoise", bench_denoise},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
@@ -41,7 +41,7 @@ int main(int count, char **words)
         } else {
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
-                    "trace, transport, atlas, maps, accuracy, truth, --quick, --markdown\n",
+                    "trace, transport, atlas, maps, accuracy, truth, denoise, --quick, --markdown\n",
                     words[i]);
             return EXIT_USAGE;
         }

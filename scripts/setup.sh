@@ -4,10 +4,11 @@
 #
 #   scripts/setup.sh build    what the library and the command need
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
+#   scripts/setup.sh browser  that, and a browser (some 500 MB), which opens what is written for it
 #
 # Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
-# comes from npm; without it some tests are skipped. Exit status: 0 all is there, 1 something is
-# missing, 2 wrong usage.
+# and, where there is a browser, what runs in it come from npm; without them some tests are skipped.
+# Exit status: 0 all is there, 1 something is missing, 2 wrong usage.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -24,6 +25,7 @@ build_packages="
     libpng-dev          -
     libjpeg62-turbo-dev -
     libopenexr-dev      -
+    libzstd-dev         -
     zlib1g-dev          -"
 check_packages="
     g++                 g++
@@ -41,7 +43,8 @@ check_packages="
     mandoc              mandoc
     zsh                 zsh
     fish                fish"
-validator=tests/validator
+browser_packages="
+    chromium            chromium"
 
 say() {
     printf 'setup: %s\n' "$*" >&2
@@ -87,27 +90,35 @@ install_packages() {
         refuse "apt-get could not install everything (see above)" "$missing"
 }
 
-install_validator() { # what package-lock.json pins, once per state of that file
-    [ -f $validator/package-lock.json ] || return 0
-    cmp -s $validator/package-lock.json $validator/node_modules/.installed-for && return 0
-    say "installing the npm packages of $validator"
-    if ! npm ci --prefix $validator --no-audit --no-fund >&2; then
-        say "npm ci failed in $validator (see above); the network is needed once. Going on: the"
-        say "tests that validate glTF files will be skipped, and say so"
+install_npm() { # folder, what becomes of its tests without: what package-lock.json pins, once per
+                # state of that file
+    local folder=$1
+    [ -f "$folder/package-lock.json" ] || return 0
+    cmp -s "$folder/package-lock.json" "$folder/node_modules/.installed-for" && return 0
+    say "installing the npm packages of $folder"
+    if ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts >&2; then
+        say "npm ci failed in $folder (see above); the network is needed once. Going on: the"
+        say "tests that $2 will be skipped, and say so"
         return 0
     fi
-    cp $validator/package-lock.json $validator/node_modules/.installed-for
+    cp "$folder/package-lock.json" "$folder/node_modules/.installed-for"
 }
 
 case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
+browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages ;;
 *)
-    say "usage: scripts/setup.sh [build|check]"
+    say "usage: scripts/setup.sh [build|check|browser]"
     exit 2
     ;;
 esac
 
 missing=$(missing_packages "$wanted" | xargs)
 [ -z "$missing" ] || install_packages "$missing"
-[ "${1:-check}" = build ] || install_validator
+if [ "${1:-check}" != build ]; then
+    install_npm tests/validator "validate glTF files"
+    if command -v chromium >/dev/null 2>&1; then
+        install_npm tests/browser "open files in a browser"
+    fi
+fi

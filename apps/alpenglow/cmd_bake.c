@@ -8,11 +8,22 @@
 #include "session.h"
 
 #include <math.h>
+#include <string.h>
 
-static int check_output_name(const char *path)
+static int check_output_name(const char *path, alp_lightmap_as as)
 {
-    if (path == NULL || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
+    const bool viewer = as == ALP_LIGHTMAP_AS_THREE || as == ALP_LIGHTMAP_AS_BABYLON;
+    const char *ending = as == ALP_LIGHTMAP_AS_THREE ? ".json" : ".babylon";
+    if (viewer && path != NULL && !path_ends(path, ending)) {
+        return usage_error(COMMAND_BAKE, "-o %s: with --lightmap-as %s the name must end in %s",
+                           path, as == ALP_LIGHTMAP_AS_THREE ? "three" : "babylon", ending);
+    }
+    if (path == NULL || viewer || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
         return EXIT_DONE;
+    }
+    if (path_ends(path, ".json") || path_ends(path, ".babylon")) {
+        return usage_error(COMMAND_BAKE, "-o %s: needs --maps light --lightmap-as %s", path,
+                           path_ends(path, ".json") ? "three" : "babylon");
     }
     if (path_ends(path, ".dae") || path_ends(path, ".obj")) {
         return usage_error(COMMAND_BAKE, "-o %s: %s is not built yet; write .glb or .gltf", path,
@@ -126,6 +137,62 @@ static unsigned listed_maps(unsigned choices)
     return bits;
 }
 
+/// How light goes into the asset, and what that needs.
+static int read_lightmap(const option_value *values, alp_bake_options *o)
+{
+    const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
+    const option_value *format = &values[OPTION_LIGHTMAP_FORMAT];
+    if (!as->given) {
+        return units->given || format->given
+                   ? usage_error(COMMAND_BAKE, "%s: is of light in -o; needs --lightmap-as",
+                                 units->given ? "--units" : "--lightmap-format")
+                   : EXIT_DONE;
+    }
+    o->lightmap_as = (alp_lightmap_as)(as->choice + 1);
+    o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
+    o->lightmap_format = (alp_lightmap_format)format->choice;
+    if ((values[OPTION_MAPS].whole & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
+        return usage_error(COMMAND_BAKE, "--lightmap-as: puts light into -o; needs %s",
+                           o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
+    }
+    const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
+    if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+        return usage_error(COMMAND_BAKE, "--lightmap-format: is of --lightmap-as extras; %s %s",
+                           as->text, viewer ? "has its own" : "is a PNG inside the asset");
+    }
+    if (units->given && viewer) {
+        return usage_error(COMMAND_BAKE,
+                           "--units: has no meaning with --lightmap-as %s, whose "
+                           "viewer takes one kind",
+                           as->text);
+    }
+    if (viewer && (values[OPTION_MAPS].whole & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps ao: --lightmap-as %s holds light alone; give "
+                           "--maps-dir DIR",
+                           as->text);
+    }
+    if (o->ao_into == ALP_AO_INTO_ORM) {
+        return usage_error(COMMAND_BAKE, "--ao-into orm: light has coordinates of its own, which "
+                                         "occlusion shares; leave it out with --lightmap-as");
+    }
+    const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
+    if (units->given && o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
+        return usage_error(COMMAND_BAKE, "--units %s: what a material emits is radiance",
+                           units->text);
+    }
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
+        strcmp(values[OPTION_DIRECT].text, "off") == 0) {
+        return usage_error(COMMAND_BAKE, "--direct off: the black materials of --lightmap-as "
+                                         "emissive show no direct light; take moz or extras");
+    }
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
+        return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
+                                         "the albedo; give irradiance or irradiance/pi");
+    }
+    return EXIT_DONE;
+}
+
 /// --maps and --ao-bleed, and what cannot stand beside them.
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
@@ -148,17 +215,20 @@ static int read_maps(const option_value *values, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "--maps %s: has no meaning with --atlas vertex",
                            bent ? "bent" : "light");
     }
-    if (o->maps_folder == NULL && (bent || bleed || light)) {
-        return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR",
+    const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
+    if (o->maps_folder == NULL && (bent || bleed || (light && !lit))) {
+        return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR%s",
                            bent    ? "--maps bent"
                            : light ? "--maps light"
-                                   : "--ao-bleed");
+                                   : "--ao-bleed",
+                           light && !bent && o->output != NULL ? " or --lightmap-as" : "");
     }
-    if (o->output != NULL && !ao) {
-        return usage_error(COMMAND_BAKE,
-                           "-o %s: glTF has no place for what is not ao; bake --maps ao,%s, or "
-                           "give --maps-dir alone",
-                           o->output, light ? "light" : "bent");
+    if (o->output != NULL && !ao && !lit) {
+        return usage_error(
+            COMMAND_BAKE,
+            "-o %s: glTF has no place for what is not ao; %s, or give --maps-dir "
+            "alone",
+            o->output, light ? "say --lightmap-as, bake --maps ao,light" : "bake --maps ao,bent");
     }
     if (values[OPTION_EXISTING_AO].given && !ao) {
         return usage_error(COMMAND_BAKE, "--existing-ao: has no meaning without --maps ao");
@@ -286,9 +356,8 @@ static int read_options(const command_line *a, alp_bake_options *o, lamp_list *l
         return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
                                          "--maps-dir DIR");
     }
-    if (code == EXIT_DONE) {
-        code = check_output_name(o->output);
-    }
+    code = code == EXIT_DONE ? read_lightmap(values, o) : code;
+    code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
     code = code == EXIT_DONE ? read_maps(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;

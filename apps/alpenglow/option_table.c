@@ -65,7 +65,8 @@ static const option options[] = {
      .name = "-o",
      .alias = "--output",
      .value = "OUT.glb|OUT.gltf",
-     .help = "The baked scene. A .gltf gets its buffers and images beside it. Without -o, "
+     .help = "The baked scene (OUT.json, OUT.babylon: see --lightmap-as). A .gltf gets its buffers "
+             "and images beside it. Without -o, "
              "--maps-dir must be given. OUT.dae and OUT.obj are not built yet."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
@@ -92,7 +93,8 @@ static const option options[] = {
          "blended and transmissive surfaces let it through in part, in their colour. sh: light "
          "by direction for normal-mapped surfaces, spherical harmonics of two bands; direction: "
          "the mean direction of light in world space; both need light. "
-         "What is not ao goes to --maps-dir alone, and -o needs ao."},
+         "What is not ao goes to --maps-dir alone, and -o needs ao, or light and "
+         "--lightmap-as."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -399,6 +401,54 @@ static const option options[] = {
          "for a renderer that adds its own. only: nothing else, the same as --bounces 0. "
          "apart: in the map, and in irradiance.direct.exr, beside the rest in "
          "irradiance.bounced.exr."},
+    {.id = OPTION_LIGHTMAP_AS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--lightmap-as",
+     .value = "emissive|moz|extras|three|babylon",
+     .choices = "emissive|moz|extras|three|babylon",
+     .help =
+         "How light goes into -o, read with a coordinate set of its own; needs --maps light. The "
+         "light of the file's lamps is in it: switch them off where it is shown, or bake --direct "
+         "off, "
+         "which emissive cannot. emissive: what "
+         "leaves each surface, as emission in 8-bit sRGB (KHR_materials_emissive_strength), base "
+         "colour 0, textures no finer than the map; opens in every glTF viewer, nothing to hook "
+         "up. moz: MOZ_lightmap, 8-bit linear in 255 steps to the brightest of each material; "
+         "opens in Hubs, and in three.js with loader.register(p => new "
+         "GLTFLightMapLoaderExtension(p)), an addon after r187; others ignore it. extras: half "
+         "floats in "
+         "a file beside -o, which the extras of each material name; opens nowhere by itself; in "
+         "three.js: m.lightMap = await new KTX2Loader().detectSupport(renderer).loadAsync(uri), "
+         "m.lightMap.channel = texCoord, m.lightMapIntensity = intensity. three: -o OUT.json, the "
+         "scene as three.js Object JSON with half floats; opens in three.js with new "
+         "ObjectLoader().loadAsync(url), nothing to hook up. babylon: -o OUT.babylon with OUT.hdr "
+         "beside it; opens in Babylon.js with AppendSceneAsync(url, scene). Both have no lamps "
+         "beside the light."},
+    {.id = OPTION_UNITS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--units",
+     .value = "irradiance|irradiance/pi|radiance",
+     .choices = "irradiance|irradiance/pi|radiance",
+     .help =
+         "What --lightmap-as stores; irradiance.exr in --maps-dir is always irradiance. "
+         "irradiance: E, for three.js (default). irradiance/pi: E / pi, for PlayCanvas, Godot, "
+         "Unity and Blender. radiance: albedo x E / pi + emission, what leaves the surface, for "
+         "Babylon.js; emissive is always that, moz never."},
+    {.id = OPTION_LIGHTMAP_FORMAT,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--lightmap-format",
+     .value = "ktx2|exr|hdr",
+     .choices = "ktx2|exr|hdr",
+     .initial = "ktx2",
+     .help = "Of --lightmap-as extras. ktx2: RGBA half floats, Zstandard, A is coverage; the right "
+             "way up in three.js. exr: RGB half floats, ZIP; set flipY in three.js, gammaSpace = "
+             "false and vScale = -1 in Babylon.js. hdr: Radiance RGBE, 8 bits and an exponent."},
     {.id = OPTION_BOUNCES,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,
@@ -725,10 +775,7 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--units", "irradiance|irradiance/pi|radiance", no_light),
     LATER(IN_BAKE, "--layers", NULL, no_light),
-    LATER(IN_BAKE, "--lightmap-as", "emissive|moz|extras|three|babylon",
-          "occlusion is attached as the material's occlusion map"),
     LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),

@@ -32,6 +32,54 @@ typedef enum alp_ao_into {
     ALP_AO_INTO_ORM = 1
 } alp_ao_into;
 
+/// How ALP_MAP_LIGHT goes into a written asset, read with the coordinate set that its occlusion map
+/// has or would have. The asset then brings its direct and bounced light along: lights that the
+/// file holds come on top of it in a viewer, so switch them off there, or bake bounced light alone
+/// (ALP_DIRECT_OFF; not with EMISSIVE, which shows no other light). No occlusion map is attached
+/// unless ALP_MAP_AO is asked for too: viewers multiply it into the light.
+typedef enum alp_lightmap_as {
+    ALP_LIGHTMAP_AS_NONE = 0, ///< not at all (default)
+    /// The light that leaves each surface, as what the material emits: base colour 0,
+    /// emissiveTexture in 8-bit sRGB, KHR_materials_emissive_strength = the brightest texel of the
+    /// material. Every viewer shows it. Materials with transmission stay as they are; where alpha
+    /// counts, it stays.
+    ALP_LIGHTMAP_AS_EMISSIVE,
+    /// The vendor extension MOZ_lightmap, in extensionsUsed and never required: texel × intensity,
+    /// 8-bit linear; intensity = the brightest texel of the material. What is 1/255 of that or
+    /// darker shows steps.
+    ALP_LIGHTMAP_AS_MOZ,
+    /// Files beside the asset (alp_lightmap_format), which the extras of the materials name:
+    /// "lightmap": {"uri", "texCoord", "intensity", "units"}; texel × intensity.
+    ALP_LIGHTMAP_AS_EXTRAS,
+    /// In the place of an asset three.js Object JSON (`output` ends in .json), which ObjectLoader
+    /// opens as it is (r155 or later): surfaces in world space as MeshLambertMaterial, whose colour
+    /// has 8 bits of sRGB, with a lightMap of half floats, lightMap × lightMapIntensity = E. Lights
+    /// of the file are left out, so are textures of metalness (lightmap-metal), and occlusion.
+    ALP_LIGHTMAP_AS_THREE,
+    /// The same as a .babylon file and Radiance pictures beside it, OUT.hdr, OUT.1.hdr …, E/π, of
+    /// at least 8 × 8 texels: PBRMaterial with useLightmapAsShadowmap and white ambient light.
+    ALP_LIGHTMAP_AS_BABYLON
+} alp_lightmap_as;
+
+/// What the numbers of light in an asset are; irradiance.exr is always irradiance.
+typedef enum alp_light_units {
+    ALP_LIGHT_UNITS_AUTO = 0,     ///< RADIANCE with EMISSIVE, else IRRADIANCE (default)
+    ALP_LIGHT_IRRADIANCE,         ///< E [W·m⁻²]; what three.js multiplies by albedo / π
+    ALP_LIGHT_IRRADIANCE_OVER_PI, ///< E/π; what others multiply by albedo
+    /// ρE/π + Lₑ [W·sr⁻¹·m⁻²], what leaves the front of the surface: ρ and Lₑ are means over the
+    /// texel of up to 4 × 4 points. What alpha does to it is left to the viewer; cut parts count
+    /// for nothing. Not with MOZ, whose readers multiply by the albedo again.
+    ALP_LIGHT_RADIANCE
+} alp_light_units;
+
+/// Files of ALP_LIGHTMAP_AS_EXTRAS: OUT.light.ktx2, OUT.light.1.ktx2 … Where half floats would not
+/// hold the values, all are divided by a power of two, which is the "intensity" of the extras.
+typedef enum alp_lightmap_format {
+    ALP_LIGHTMAP_KTX2 = 0, ///< RGBA16F, one level, Zstandard; A is coverage (default)
+    ALP_LIGHTMAP_EXR,      ///< half RGB, scanlines, ZIP
+    ALP_LIGHTMAP_HDR       ///< Radiance RGBE, as bright as it may be
+} alp_lightmap_format;
+
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
@@ -132,15 +180,24 @@ typedef struct alp_bake_options {
     alp_occlusion_options occlusion; ///< its progress is ignored
     alp_light_options light;         ///< for ALP_MAP_LIGHT
     alp_sampling_options sampling;
-    /// Bits of alp_map, at least one; default ALP_MAP_AO. An asset needs ALP_MAP_AO: glTF has no
-    /// place for the others. For BENT and OBSCURANCE occlusion is gathered and reported, and
-    /// without ALP_MAP_AO not written. ALP_ATLAS_VERTEX: ALP_MAP_AO alone. OBSCURANCE and LIGHT
-    /// take no time_limit and no keep_partial; LIGHT no ao_self; existing_ao changes ALP_MAP_AO
-    /// alone.
+    /// Bits of alp_map, at least one; default ALP_MAP_AO. An asset needs ALP_MAP_AO, or
+    /// ALP_MAP_LIGHT and lightmap_as: glTF has no place for the others. For BENT and OBSCURANCE
+    /// occlusion is gathered and reported, and without ALP_MAP_AO not written. ALP_ATLAS_VERTEX:
+    /// ALP_MAP_AO alone. OBSCURANCE and LIGHT take no time_limit and no keep_partial; LIGHT no
+    /// ao_self; existing_ao changes ALP_MAP_AO alone.
     unsigned maps;
-    alp_existing_ao existing_ao;           ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
-    alp_ao_into ao_into;                   ///< ALP_ATLAS_VERTEX: SEPARATE
+    alp_existing_ao existing_ao; ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
+    alp_ao_into ao_into;         ///< ALP_ATLAS_VERTEX: SEPARATE
+    /// Anything but NONE needs ALP_MAP_LIGHT and an output, and excludes ALP_AO_INTO_ORM.
+    alp_lightmap_as lightmap_as;
+    alp_light_units light_units;           ///< of lightmap_as
+    alp_lightmap_format lightmap_format;   ///< of EXTRAS, else KTX2
     alp_vertex_attribute vertex_attribute; ///< of ALP_ATLAS_VERTEX, else COLOR
+    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
+    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
+    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
+    bool ao_self;
+    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
     /// A surface is named like its node (like the mesh of a node without a name, "node N" without
     /// either), so all primitives of a node go together. In a pattern * is any characters, ? is one
@@ -149,10 +206,6 @@ typedef struct alp_bake_options {
     const char *only;
     /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
     const char *occluders;
-    /// Every object (a node with all primitives of its mesh) is baked as if it were alone, and all
-    /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
-    /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
-    bool ao_self;
     const char *output; ///< .glb or .gltf, or NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
@@ -160,7 +213,6 @@ typedef struct alp_bake_options {
     /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_MAP_SH:
     /// sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
-    bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
     /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work

@@ -91,6 +91,9 @@ typedef void alpi_uv_cell_fn(void *user, const alpi_uv_cell *cell);
 /// in any order.
 alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv_cell_fn *each,
                                 void *user);
+/// The same of a page of any atlas.
+alp_result alpi_atlas_visit(const alp_atlas *atlas, uint32_t page, uint32_t parts,
+                            alpi_uv_cell_fn *each, void *user);
 /// A texel's representative point.
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
 

@@ -279,12 +279,18 @@ static alp_result visit_band(void *user, const alpi_band *band)
     return ALP_OK;
 }
 
-alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv_cell_fn *each,
-                                void *user)
+alp_result alpi_atlas_visit(const alp_atlas *atlas, uint32_t page, uint32_t parts,
+                            alpi_uv_cell_fn *each, void *user)
 {
-    alp_atlas finer = *layout; // the same triangles on smaller texels
+    alp_atlas finer = *atlas; // the same triangles on smaller texels
     finer.info.width *= parts;
     finer.info.height *= parts;
     visit v = {.layout = &finer, .each = each, .user = user};
-    return alpi_raster(&finer, 0, 1, visit_band, &v);
+    return alpi_raster(&finer, page, page + 1, visit_band, &v);
+}
+
+alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv_cell_fn *each,
+                                void *user)
+{
+    return alpi_atlas_visit(layout, 0, parts, each, user);
 }

@@ -53,6 +53,7 @@ static alp_result check_options(const alpi_bake_job *job)
     }
     ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_bake_check_maps(job));
+    ALP_TRY(alpi_bake_check_light_asset(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -114,6 +115,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_pack_images(job));
+    ALP_TRY(alpi_bake_make_light_asset(job));
     ALP_TRY(alpi_bake_write_outputs(job));
     job->report.seconds_write = alpi_seconds() - write_started;
     job->report.seconds_total = alpi_seconds() - started;
@@ -143,6 +145,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_release(job.context, job.occluders);
     alpi_release(job.context, job.originals);
     alpi_bake_release_packing(&job);
+    alpi_bake_release_light_asset(&job);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

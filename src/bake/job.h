@@ -25,6 +25,14 @@ typedef struct alpi_packing {
                                 // NULL: all
 } alpi_packing;
 
+/// Light as it goes into the asset: all zero while there is none.
+typedef struct alpi_light_asset {
+    uint8_t **files;    // [pages of the lightmap] encoded
+    size_t *file_sizes; // [pages]
+    float *scales; // [materials + 1] what 1 in them stands for; last: surfaces without material
+    float scale;   // the largest of those that are used
+} alpi_light_asset;
+
 typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
@@ -39,6 +47,7 @@ typedef struct alpi_bake_job {
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
     alpi_packing packing;
+    alpi_light_asset light_asset;
     alp_bake_report report;
 } alpi_bake_job;
 
@@ -97,6 +106,23 @@ void alpi_bake_release_packing(alpi_bake_job *job);
 uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
 /// Whether the occlusion of a triangle is packed into an image.
 bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
+
+/// Refuses choices of light in an asset that have no meaning.
+alp_result alpi_bake_check_light_asset(const alpi_bake_job *job);
+/// Encodes the pages of light as they go into the asset, if they are to.
+alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
+void alpi_bake_release_light_asset(alpi_bake_job *job);
+/// Bytes that making it takes at its peak, besides the encoded ones.
+uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
+/// Whether a viewer's own file is written in the place of an asset (viewer_file.c).
+bool alpi_bake_is_viewer_file(const alp_bake_options *options);
+/// Its ending, and that all its files can be written.
+alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages);
+alp_result alpi_bake_write_viewer_file(const alpi_bake_job *job);
+/// ".png", ".ktx2" …
+const char *alpi_bake_light_ending(const alp_bake_options *options);
+/// "irradiance" …
+const char *alpi_bake_light_units(const alp_bake_options *options);
 
 /// Refuses what has no meaning together with the choice of values at vertices or of maps.
 alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);

@@ -31,7 +31,10 @@ typedef struct rounds {
     float (*fresh_skies)[3];             // [texels]
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
     uint8_t *states;                     // [texels]
-    uint32_t rays, direct;               // samples so far
+    uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
+    uint32_t *counts;                    // [texels] samples of direct light so far
+    uint32_t *list;                      // [texels]
+    uint8_t *noisy;                      // [texels]
     uint32_t number;                     // of the round
     double mean;                         // of all light, over texels and channels
     double direct_error, bounced_error;  // root mean squares over the mean
@@ -89,33 +92,35 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
     return ALP_OK;
 }
 
-/// Means of two estimates by their numbers of samples.
-/// @param directional NULL, or what is merged with that of the round
-static void merge(const rounds *r, alpi_reference_value *values, alpi_directional *directional,
-                  double had, double more)
+/// Mean of two estimates by their numbers of samples.
+static void merge_one(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
+                      double more)
 {
     const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        alpi_reference_value *v = &values[t];
-        const alpi_reference_value *f = &r->fresh[t];
-        for (int k = 0; k < 3; k++) {
-            v->mean[k] = a * v->mean[k] + b * f->mean[k];
-            v->variance[k] = a * a * v->variance[k] + b * b * f->variance[k];
-        }
-        if (directional != NULL) {
-            alpi_directional_mix(&directional[t], a, &r->fresh_directional[t], b);
-        }
+    for (int k = 0; k < 3; k++) {
+        v->mean[k] = a * v->mean[k] + b * fresh->mean[k];
+        v->variance[k] = a * a * v->variance[k] + b * b * fresh->variance[k];
+    }
+}
+
+/// The same of light by direction, where it is wanted.
+static void mix(const rounds *r, alpi_directional *directional, uint32_t texel, double had,
+                double more)
+{
+    if (directional != NULL) {
+        alpi_directional_mix(&directional[texel], (float)(had / (had + more)),
+                             &r->fresh_directional[texel], (float)(more / (had + more)));
     }
 }
 
 static alp_result add_bounced(rounds *r, uint32_t rays)
 {
     ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
-    merge(r, r->task->values, r->task->directional, r->rays, rays);
     const float b = (float)((double)rays / ((double)r->rays + rays));
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
+        merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
+        mix(r, r->task->directional, t, r->rays, rays);
         for (int k = 0; k < 3; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
@@ -124,15 +129,53 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
     return ALP_OK;
 }
 
-static alp_result add_direct(rounds *r, uint32_t samples)
+/// Lists the texels whose direct light is noisy, and those around them: a shadow's edge may hide
+/// from the few samples of a texel, and not from all of its neighbours'.
+/// @param variance of a channel, above which it is noisy
+static uint32_t list_noisy(const rounds *r, double variance)
+{
+    const alpi_lattice *l = r->task->lattice;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        const float *v = r->solution->direct[t].variance;
+        r->noisy[t] = fmax(v[0], fmax(v[1], v[2])) > variance;
+    }
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        const uint16_t *p = l->texels->pixels[t];
+        bool any = false;
+        for (int k = 0; k < 9 && !any; k++) {
+            const uint32_t n = alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + k % 3 - 1,
+                                                  (int64_t)p[1] + k / 3 - 1);
+            any = n != ALPI_NONE && r->noisy[n] != 0;
+        }
+        if (any) {
+            r->list[count++] = t;
+        }
+    }
+    return count;
+}
+
+/// Direct light by `factor` times the samples they have for the texels that are noisy, with
+/// `wanted` the root mean square that would do.
+static alp_result add_direct(rounds *r, double factor, double wanted)
 {
     const alpi_light_task *t = r->task;
     const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
+    const double most = fmin(factor * r->direct, (double)(MOST_SAMPLES - r->direct));
+    const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), 1);
     alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
-    ALP_TRY(alpi_radiosity_direct(r->solution, t->order, t->count, samples, seed, &t->progress,
-                                  &output));
+    ALP_TRY(
+        alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
     r->job->report.rays += output.rays;
-    merge(r, r->solution->direct, r->solution->directional, r->direct, samples);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t texel = r->list[i];
+        merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
+        mix(r, r->solution->directional, texel, r->counts[texel], samples);
+        r->counts[texel] += samples;
+    }
     r->direct += samples;
     return ALP_OK;
 }
@@ -164,13 +207,11 @@ static alp_result measure(rounds *r)
     return ALP_OK;
 }
 
-/// How many samples more bring an error down to what is wanted: it falls with the root of their
-/// number. At least as many as there were, at most 15 times.
-static uint32_t more_samples(uint32_t had, double error, double wanted)
+/// How many times the samples there are bring an error down to what is wanted, added to them: it
+/// falls with the root of their number. At least once, at most 15 times.
+static double more_samples(double error, double wanted)
 {
-    const double factor = fmin(fmax(1.1 * error * error / (wanted * wanted) - 1.0, 1.0), 15.0);
-    const double more = fmin(factor * had, (double)(MOST_SAMPLES - had));
-    return alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), REPLICATES);
+    return fmin(fmax(1.1 * error * error / (wanted * wanted) - 1.0, 1.0), 15.0);
 }
 
 /// One more round of what is too noisy. Each may have its share of the squared error: half of it,
@@ -186,10 +227,11 @@ static alp_result improve(rounds *r, double wanted, bool *done)
     *done = hypot(d, b) <= wanted || (!more_direct && !more_bounced);
     r->number++;
     if (!*done && more_direct) {
-        ALP_TRY(add_direct(r, more_samples(r->direct, d, for_direct)));
+        ALP_TRY(add_direct(r, more_samples(d, for_direct), for_direct * r->mean));
     }
     if (!*done && more_bounced) {
-        ALP_TRY(add_bounced(r, more_samples(r->rays, b, for_bounced)));
+        const double most = fmin(more_samples(b, for_bounced) * r->rays, MOST_SAMPLES - r->rays);
+        ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), REPLICATES)));
     }
     return *done ? ALP_OK : measure(r);
 }
@@ -217,6 +259,12 @@ static alp_result run_rounds(rounds *r)
     ALPI_TRY_NEW(context, r->fresh_skies, texels);
     if (r->task->directional != NULL) {
         ALPI_TRY_NEW(context, r->fresh_directional, texels);
+    }
+    ALPI_TRY_NEW(context, r->counts, texels);
+    ALPI_TRY_NEW(context, r->list, texels);
+    ALPI_TRY_NEW(context, r->noisy, texels);
+    for (uint32_t t = 0; t < texels; t++) {
+        r->counts[t] = r->direct;
     }
     for (bool done = false; !done && r->number < ROUND_LIMIT;) {
         ALP_TRY(improve(r, wanted, &done));
@@ -269,5 +317,8 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
     alpi_release(job->context, r.fresh);
     alpi_release(job->context, r.fresh_skies);
     alpi_release(job->context, r.fresh_directional);
+    alpi_release(job->context, r.counts);
+    alpi_release(job->context, r.list);
+    alpi_release(job->context, r.noisy);
     return result;
 }

@@ -49,7 +49,9 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *o
     const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages +
                            (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
                            BYTES_TO_DILATE * page;
-    return kept + (rays > store ? rays : store) + BYTES_PER_PAGE_TEXEL * pages;
+    const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
+    const uint64_t most = rays > store ? rays : store;
+    return kept + (most > store + light ? most : store + light) + BYTES_PER_PAGE_TEXEL * pages;
 }
 
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)

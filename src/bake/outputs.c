@@ -90,13 +90,21 @@ static alp_result check_map(alp_context *context, const char *folder, uint32_t p
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
-    if (o->output != NULL) {
+    if (o->output != NULL && alpi_bake_is_viewer_file(o)) {
+        ALP_TRY(alpi_bake_check_viewer_file(job, pages));
+    } else if (o->output != NULL) {
         if (!is_gltf_path(o->output)) {
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
                              "%s: only .glb and .gltf are written so far", o->output);
         }
-        ALP_TRY(alpi_gltf_check_packed_output(job->scene, pages, job->packing.count, o->output,
-                                              o->overwrite));
+        const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
+        const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
+                                         .packed = job->packing.count,
+                                         .light = lit ? pages : 0,
+                                         .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
+                                         .light_is_beside =
+                                             o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS};
+        ALP_TRY(alpi_gltf_check_outputs(job->scene, &images, o->output, o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -200,6 +208,38 @@ static void add_sampling(const alpi_bake_job *job, json_t *occlusion)
                         json_string(into[packed ? ALP_AO_INTO_ORM : ALP_AO_INTO_SEPARATE]));
 }
 
+/// Light that the asset carries.
+static json_t *describe_light(const alpi_bake_job *job)
+{
+    static const char *const names[] = {[ALP_LIGHTMAP_AS_EMISSIVE] = "emissive",
+                                        [ALP_LIGHTMAP_AS_MOZ] = "moz",
+                                        [ALP_LIGHTMAP_AS_EXTRAS] = "extras"};
+    static const char *const gatherers[] = {[ALP_GATHER_RAYS] = "rays",
+                                            [ALP_GATHER_HEMICUBE] = "hemicube",
+                                            [ALP_GATHER_PATHS] = "paths"};
+    const alp_bake_options *o = &job->options;
+    const alp_bake_report *r = &job->report;
+    const char *units = alpi_bake_light_units(o);
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:f, s:s, s:s, s:i, s:o, s:b, s:I, s:o, s:s, s:i, s:i, s:i}", "as",
+        names[o->lightmap_as], "units", units, "unit",
+        strcmp(units, "irradiance") == 0 ? "W/m2" : "W/(sr m2)", "largest_scale",
+        (double)job->light_asset.scale, "gather", gatherers[o->light.gather], "direct",
+        o->light.direct == ALP_DIRECT_OFF ? "off" : "on", "samples", (int)r->light_samples,
+        "bounces",
+        o->light.bounces == ALP_BOUNCES_CONVERGE ? json_string("converge")
+                                                 : json_integer((json_int_t)o->light.bounces),
+        "one_sided", (int)o->occlusion.one_sided, "seed", (json_int_t)o->occlusion.seed,
+        "stated_relative_error",
+        isfinite(r->light_relative_error) ? json_real(r->light_relative_error) : json_null(),
+        "atlas", atlas_name(r->atlas.mode), "size", (int)r->atlas.width, "pages",
+        (int)r->atlas.pages, "padding", (int)o->atlas.padding);
+    if (r->light_direct) {
+        json_object_del(object, "gather"); // nothing was
+    }
+    return object;
+}
+
 /// Version, options, quantity, input hash.
 char *alpi_bake_make_extras(const alpi_bake_job *job)
 {
@@ -221,6 +261,12 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
         (int)job->options.atlas.padding);
     add_sampling(job, json_object_get(object, "occlusion"));
     add_choice(job, object); // jansson takes NULL and does nothing
+    if ((job->options.maps & ALP_MAP_AO) == 0) {
+        json_object_del(object, "occlusion");
+    }
+    if (job->options.lightmap_as != ALP_LIGHTMAP_AS_NONE) {
+        json_object_set_new(object, "light", describe_light(job));
+    }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
     }
@@ -290,7 +336,8 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
 static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_page *out)
 {
     for (int kind = 0; kind < MAP_COUNT; kind++) {
-        const bool attached = kind == MAP_AO_PNG && job->options.output != NULL;
+        const bool attached = kind == MAP_AO_PNG && job->options.output != NULL &&
+                              (job->options.maps & ALP_MAP_AO) != 0;
         if (attached || is_written(&job->options, kind)) {
             ALP_TRY(encode_map(job, page, (map_kind)kind, out));
         }
@@ -328,6 +375,13 @@ static alp_result append_maps(const alpi_bake_job *job, const encoded_page *page
     return ALP_OK;
 }
 
+static alpi_light_form light_form(alp_lightmap_as as)
+{
+    return as == ALP_LIGHTMAP_AS_MOZ      ? ALPI_LIGHT_FORM_MOZ
+           : as == ALP_LIGHTMAP_AS_EXTRAS ? ALPI_LIGHT_FORM_EXTRAS
+                                          : ALPI_LIGHT_FORM_EMISSIVE;
+}
+
 static alp_result write_asset(const alpi_bake_job *job, const encoded_page *pages)
 {
     uint32_t count = job->lightmap->page_count;
@@ -346,6 +400,12 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             pngs[p] = pages[p].bytes[MAP_AO_PNG];
             sizes[p] = pages[p].sizes[MAP_AO_PNG];
         }
+        const alpi_light_patch light = {.form = light_form(job->options.lightmap_as),
+                                        .pages = (const uint8_t *const *)job->light_asset.files,
+                                        .page_sizes = job->light_asset.file_sizes,
+                                        .ending = alpi_bake_light_ending(&job->options),
+                                        .scales = job->light_asset.scales,
+                                        .units = alpi_bake_light_units(&job->options)};
         const alp_atlas *atlas = job->lightmap->atlas;
         bool keep = atlas->info.mode == ALP_ATLAS_KEEP;
         alpi_mesh_patch patch = {
@@ -354,8 +414,9 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .kept_uv_set = 1,
             .triangle_pages = atlas->triangle_pages,
             .originals = job->originals,
-            .page_pngs = pngs,
+            .page_pngs = (job->options.maps & ALP_MAP_AO) != 0 ? pngs : NULL,
             .page_png_sizes = sizes,
+            .light = job->light_asset.files != NULL ? &light : NULL,
             .existing_ao = job->options.existing_ao == ALP_EXISTING_AO_KEEP
                                ? ALPI_EXISTING_AO_KEEP
                                : ALPI_EXISTING_AO_REPLACE,
@@ -388,7 +449,8 @@ static alp_result write_files(const alpi_bake_job *job, const encoded_page *page
     }
     alp_result result = count > 0 ? append_maps(job, pages, writers) : ALP_OK;
     if (result == ALP_OK && job->options.output != NULL) {
-        result = write_asset(job, pages);
+        result = alpi_bake_is_viewer_file(&job->options) ? alpi_bake_write_viewer_file(job)
+                                                         : write_asset(job, pages);
     }
     for (uint32_t i = 0; i < count; i++) {
         if (result == ALP_OK && writers[i].path != NULL) { // one that was opened

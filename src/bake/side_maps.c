@@ -62,9 +62,11 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
     if (o->atlas.mode == ALP_ATLAS_VERTEX && o->maps != ALP_MAP_AO) {
         return alpi_fail(job->context, code, "bake: only occlusion is baked at vertices");
     }
-    if (o->output != NULL && (o->maps & ALP_MAP_AO) == 0) {
+    if (o->output != NULL && (o->maps & ALP_MAP_AO) == 0 &&
+        o->lightmap_as == ALP_LIGHTMAP_AS_NONE) {
         return alpi_fail(job->context, code,
-                         "%s: glTF has a place for occlusion alone; bake it too, or give no output",
+                         "%s: glTF has a place for occlusion alone, and for light as lightmap_as "
+                         "says; bake one of them too, or give no output",
                          o->output);
     }
     if ((o->maps & (ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT)) != 0 &&

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // OpenEXR images, by OpenEXRCore over memory: reads one part of scanlines or tiles, half or float;
-// writes scanlines of 32-bit floats, ZIP.
+// writes scanlines of floats or halves, ZIP.
 #include "formats/formats.h"
 
+#include "base/half.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 
@@ -384,9 +385,19 @@ alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t
 
 // --- writing -------------------------------------------------------------------------------------
 
-static exr_result_t write_header(exr_context_t exr, const alp_image *image,
-                                 const char *const *channels)
+/// What is written, and as what.
+typedef struct exr_source {
+    const alp_image *image;
+    const char *const *channels; // [count]
+    uint32_t count;
+    const uint16_t *halves; // [height][width][count], or NULL: the floats of the image
+    float scale;            // stated where it is not 1
+} exr_source;
+
+static exr_result_t write_header(exr_context_t exr, const exr_source *source)
 {
+    const alp_image *image = source->image;
+    const exr_pixel_type_t type = source->halves != NULL ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
     int part = 0;
     exr_result_t code = exr_add_part(exr, NULL, EXR_STORAGE_SCANLINE, &part);
     if (code == EXR_ERR_SUCCESS) {
@@ -394,28 +405,39 @@ static exr_result_t write_header(exr_context_t exr, const alp_image *image,
             exr_initialize_required_attr_simple(exr, part, (int32_t)image->info.width,
                                                 (int32_t)image->info.height, EXR_COMPRESSION_ZIP);
     }
-    for (uint32_t k = 0; code == EXR_ERR_SUCCESS && k < image->info.channels; k++) {
-        code =
-            exr_add_channel(exr, part, channels[k], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    for (uint32_t k = 0; code == EXR_ERR_SUCCESS && k < source->count; k++) {
+        code = exr_add_channel(exr, part, source->channels[k], type, EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    }
+    if (code == EXR_ERR_SUCCESS && source->scale != 1.0f) {
+        code = exr_attr_set_float(exr, part, "alpenglowScale", source->scale);
     }
     return code == EXR_ERR_SUCCESS ? exr_write_header(exr) : code;
 }
 
 /// Points every channel of a chunk at its first value in line y.
-static void aim_encoder(exr_encode_pipeline_t *encode, const alp_image *image,
-                        const char *const *channels, uint32_t y)
+static void aim_encoder(exr_encode_pipeline_t *encode, const exr_source *source, uint32_t y)
 {
-    uint32_t count = image->info.channels, width = image->info.width;
+    const uint32_t count = source->count, width = source->image->info.width;
+    const size_t line = (size_t)y * width * count;
     for (int i = 0; i < encode->channel_count; i++) {
-        int k = channel_index(channels, count, encode->channels[i].channel_name);
-        float *line = (float *)image->pixels + (size_t)y * width * count;
-        aim_channel(&encode->channels[i], line + k, count, width * count);
+        exr_coding_channel_info_t *coded = &encode->channels[i];
+        const int k = channel_index(source->channels, count, coded->channel_name);
+        if (source->halves == NULL) {
+            aim_channel(coded, (float *)source->image->pixels + line + k, count, width * count);
+            continue;
+        }
+        coded->user_bytes_per_element = sizeof(uint16_t);
+        coded->user_data_type = EXR_PIXEL_HALF;
+        coded->user_pixel_stride = (int32_t)(count * sizeof(uint16_t));
+        coded->user_line_stride = (int32_t)(width * count * sizeof(uint16_t));
+        coded->encode_from_ptr = (const uint8_t *)(source->halves + line + k);
     }
 }
 
-static exr_result_t write_chunks(exr_context_t exr, const alp_image *image,
-                                 const char *const *channels, exr_encode_pipeline_t *encode)
+static exr_result_t write_chunks(exr_context_t exr, const exr_source *source,
+                                 exr_encode_pipeline_t *encode)
 {
+    const alp_image *image = source->image;
     exr_stream *stream = stream_of(exr);
     int32_t lines = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(exr, 0, &lines);
@@ -431,7 +453,7 @@ static exr_result_t write_chunks(exr_context_t exr, const alp_image *image,
                           : exr_encoding_update(exr, 0, &chunk, encode);
         }
         if (code == EXR_ERR_SUCCESS) {
-            aim_encoder(encode, image, channels, y);
+            aim_encoder(encode, source, y);
         }
         if (code == EXR_ERR_SUCCESS && y == 0) {
             code = exr_encoding_choose_default_routines(exr, 0, encode);
@@ -443,16 +465,9 @@ static exr_result_t write_chunks(exr_context_t exr, const alp_image *image,
     return code;
 }
 
-alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size)
+static alp_result encode_source(const exr_source *source, uint8_t **bytes, size_t *size)
 {
-    *bytes = NULL;
-    *size = 0;
-    alp_context *context = image->context;
-    if (image->info.component != ALP_COMPONENT_FLOAT) {
-        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "EXR holds float images; save an 8-bit one as PNG");
-    }
-    const char *const *channels = image->info.channels < 3 ? GREY : COLOR;
+    alp_context *context = source->image->context;
     exr_stream stream = {.context = context};
     exr_context_initializer_t options = initializer(&stream);
     options.write_fn = write_bytes;
@@ -460,8 +475,8 @@ alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t code = exr_start_write(&exr, "image.exr", EXR_WRITE_FILE_DIRECTLY, &options);
     if (code == EXR_ERR_SUCCESS) {
-        code = write_header(exr, image, channels);
-        code = code == EXR_ERR_SUCCESS ? write_chunks(exr, image, channels, &encode) : code;
+        code = write_header(exr, source);
+        code = code == EXR_ERR_SUCCESS ? write_chunks(exr, source, &encode) : code;
         exr_encoding_destroy(exr, &encode);
         exr_result_t finished = exr_finish(&exr); // writes the table of chunks
         code = code == EXR_ERR_SUCCESS ? finished : code;
@@ -479,4 +494,41 @@ alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size
     *bytes = stream.output;
     *size = stream.size;
     return ALP_OK;
+}
+
+static alp_result check_floats(const alp_image *image, uint8_t **bytes, size_t *size)
+{
+    *bytes = NULL;
+    *size = 0;
+    return image->info.component == ALP_COMPONENT_FLOAT
+               ? ALP_OK
+               : alpi_fail(image->context, ALP_ERROR_INVALID_ARGUMENT,
+                           "EXR holds float images; save an 8-bit one as PNG");
+}
+
+alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size)
+{
+    ALP_TRY(check_floats(image, bytes, size));
+    const uint32_t count = image->info.channels;
+    const exr_source source = {image, count < 3 ? GREY : COLOR, count, NULL, 1.0f};
+    return encode_source(&source, bytes, size);
+}
+
+alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **bytes, size_t *size)
+{
+    ALP_TRY(check_floats(image, bytes, size));
+    const uint32_t channels = image->info.channels, count = channels < 3 ? 1 : 3;
+    const size_t pixels = (size_t)image->info.width * image->info.height;
+    uint16_t *halves = ALPI_NEW(image->context, uint16_t, count * pixels);
+    if (halves == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const float *floats = image->pixels;
+    for (size_t i = 0; i < count * pixels; i++) {
+        halves[i] = alpi_half_from_float(floats[i / count * channels + i % count]);
+    }
+    const exr_source source = {image, count == 1 ? GREY : COLOR, count, halves, scale};
+    const alp_result result = encode_source(&source, bytes, size);
+    alpi_release(image->context, halves);
+    return result;
 }

@@ -35,13 +35,45 @@ alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch
 /// writable, not there already unless overwrite.
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite);
-/// The same for a patch with packed images.
-alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
-                                         uint32_t packed_count, const char *path, bool overwrite);
+/// Images that a patch brings.
+typedef struct alpi_gltf_images {
+    uint32_t occlusion, packed, light;
+    const char *light_ending; // ".png"; NULL without light
+    bool light_is_beside;     // a .glb too has them as files beside it
+} alpi_gltf_images;
+/// The same for a patch with other images than occlusion.
+alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                   const char *path, bool overwrite);
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
 alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size);
+
+/// Baked light over the pages of an atlas, for formats that hold a scene together with its map.
+typedef struct alpi_light_pages {
+    uint32_t page_count, width, height;
+    const float (*corner_uvs)[3][2]; // [triangle_count] of each corner; v = 0 at row 0
+    const uint32_t *triangle_pages;  // [triangle_count] NULL = all on page 0; ALPI_NONE = no map
+    const float *const *pages;       // [page_count] → [height][width][4]; A is not read
+    float irradiance_per_unit;       // irradiance E = this × value: 1 for E, π for E/π
+} alpi_light_pages;
+
+/// The whole scene as three.js Object JSON, in one file: MeshLambertMaterial with a lightMap of
+/// half floats, T · lightMapIntensity = E, which three.js since r155 shows as albedo · E/π; no
+/// lights. Colours of materials have the 8 bits of sRGB that the format gives them. Surfaces
+/// without a map show their emission alone. Textures of metalness are left out, with a warning
+/// (lightmap-metal). *bytes is released by the caller.
+/// @return ALP_OK; LIMIT; OUT_OF_MEMORY
+alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *light, uint8_t **bytes,
+                             size_t *size);
+/// The same as a .babylon file, whose maps are the Radiance pictures `page_names` beside it:
+/// PBRMaterial with useLightmapAsShadowmap, T = E/π.
+/// @return also UNSUPPORTED (pages of less than 8 × 8 texels)
+alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
+                               const char *const *page_names, uint8_t **bytes, size_t *size);
+/// One of those pictures.
+alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pages *light,
+                                    uint32_t page, uint8_t **bytes, size_t *size);
 
 /// Decodes from memory; `name` is for messages. Limits: ALPI_IMAGE_PIXEL_LIMIT.
 alp_result alpi_png_decode(alp_context *context, const char *name, const uint8_t *bytes,
@@ -60,6 +92,12 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
 /// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR and HDR floats.
 alp_result alpi_png_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
+/// Half floats of red, green and blue (of four channels, without alpha): nearest, ties to even. The
+/// header says "alpenglowScale", what 1 stands for, where that is not 1.
+alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **bytes, size_t *size);
+/// RGBA16F with the first row at the top, one level, Zstandard; halves as above, and so the key
+/// "alpenglowScale", a power of two as text. Takes float images of four channels.
+alp_result alpi_ktx2_encode(const alp_image *image, float scale, uint8_t **bytes, size_t *size);
 /// Without alpha; what the format cannot hold is clamped, with a warning (hdr-range).
 alp_result alpi_hdr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 

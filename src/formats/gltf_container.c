@@ -214,21 +214,6 @@ static alp_result settle_merged(alpi_gltf_patcher *p, alpi_bytes *bin)
 
 // --- a buffer of its own -------------------------------------------------------------------------
 
-static void add_base64(alpi_bytes *text, const uint8_t *bytes, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        size_t left = size - i;
-        uint32_t bits = (uint32_t)bytes[i] << 16;
-        bits |= left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0;
-        bits |= left > 2 ? (uint32_t)bytes[i + 2] : 0;
-        char group[4] = {digits[bits >> 18], digits[bits >> 12 & 63],
-                         left > 1 ? digits[bits >> 6 & 63] : '=',
-                         left > 2 ? digits[bits & 63] : '='};
-        alpi_bytes_add(text, group, sizeof group);
-    }
-}
-
 /// @param uri of the file that gets the data, or NULL: the data goes into the text
 static void add_buffer(alpi_gltf_patcher *p, const char *uri)
 {
@@ -241,7 +226,7 @@ static void add_buffer(alpi_gltf_patcher *p, const char *uri)
         alpi_bytes_quote(&text, uri);
     } else {
         alpi_bytes_print(&text, "\"data:application/octet-stream;base64,");
-        add_base64(&text, p->data.bytes, p->data.size);
+        alpi_bytes_base64(&text, p->data.bytes, p->data.size);
         alpi_bytes_print(&text, "\"");
     }
     alpi_bytes_print(&text, "}");

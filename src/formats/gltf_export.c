@@ -3,6 +3,7 @@
 // world space, and materials, images, cameras and lights as glTF 2.0 names them.
 #include "formats/formats.h"
 #include "formats/gltf_splice.h"
+#include "formats/look.h"
 
 #include "base/memory.h"
 
@@ -326,16 +327,10 @@ static void add_material(exporter *e, const alpi_material *m)
 
 // --- cameras and lights --------------------------------------------------------------------------
 
-/// A node's matrix whose −Z axis is `forward`, as glTF cameras and lights look.
 static void print_matrix(alpi_bytes *text, vec3 position, vec3 forward, vec3 up)
 {
-    vec3 z = vec3_normalize_or(vec3_scale(forward, -1.0f), (vec3){0.0f, 0.0f, 1.0f});
-    vec3 fallback = fabsf(z.y) < 0.9f ? (vec3){0.0f, 1.0f, 0.0f} : (vec3){1.0f, 0.0f, 0.0f};
-    vec3 side = vec3_normalize_or(vec3_cross(fallback, z), (vec3){1.0f, 0.0f, 0.0f});
-    vec3 x = vec3_normalize_or(vec3_cross(up, z), side);
-    vec3 y = vec3_cross(z, x);
-    float m[16] = {x.x, x.y, x.z, 0.0f, y.x,        y.y,        y.z,        0.0f,
-                   z.x, z.y, z.z, 0.0f, position.x, position.y, position.z, 1.0f};
+    float m[16];
+    alpi_look_matrix(position, forward, up, m);
     print_numbers(text, "matrix", m, 16);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names of the files that a written .gltf refers to: OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png,
-// OUT.orm.png, OUT.orm.1.png.
+// OUT.orm.png, OUT.orm.1.png, OUT.light.png (or .ktx2 …), OUT.light.1.png.
 // A file baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
 #include "formats/gltf_patch.h"
 
@@ -59,7 +59,19 @@ static alp_result is_referenced(const alpi_gltf_document *document, const char *
 
 static uint32_t image_count(const alpi_gltf_names *names)
 {
-    return names->page_count + names->packed_count;
+    return names->images.occlusion + names->images.packed + names->images.light;
+}
+
+/// "STEM.KIND.png" and "STEM.KIND.N.png"
+static char *image_path(alp_context *context, const char *stem, const alpi_gltf_images *images,
+                        uint32_t index)
+{
+    const uint32_t packed = images->occlusion, light = packed + images->packed;
+    const char *kind = index >= light ? "light" : index >= packed ? "orm" : "ao";
+    const char *ending = index >= light ? images->light_ending : ".png";
+    const uint32_t number = index - (index >= light ? light : index >= packed ? packed : 0);
+    return number == 0 ? alpi_format(context, "%s.%s%s", stem, kind, ending)
+                       : alpi_format(context, "%s.%s.%u%s", stem, kind, number, ending);
 }
 
 static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *names)
@@ -69,23 +81,20 @@ static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *
                 (names->bin_uri = escape_uri(context, alpi_path_name(names->bin))) != NULL &&
                 (names->data_uri = escape_uri(context, alpi_path_name(names->data))) != NULL;
     for (uint32_t i = 0; good && i < image_count(names); i++) {
-        bool packed = i >= names->page_count;
-        const char *kind = packed ? "orm" : "ao";
-        uint32_t number = packed ? i - names->page_count : i;
-        names->pages[i] = number == 0 ? alpi_format(context, "%s.%s.png", stem, kind)
-                                      : alpi_format(context, "%s.%s.%u.png", stem, kind, number);
+        names->pages[i] = image_path(context, stem, &names->images, i);
         good = names->pages[i] != NULL &&
                (names->page_uris[i] = escape_uri(context, alpi_path_name(names->pages[i]))) != NULL;
     }
     return good;
 }
 
+/// A .glb has no other files beside it than images.
 static alp_result find_clash(const alpi_gltf_document *document, const alpi_gltf_names *names,
-                             bool *clash)
+                             bool to_glb, bool *clash)
 {
     const char *const files[] = {names->bin, names->data};
     *clash = false;
-    for (size_t i = 0; i < 2 + (size_t)image_count(names) && !*clash; i++) {
+    for (size_t i = to_glb ? 2 : 0; i < 2 + (size_t)image_count(names) && !*clash; i++) {
         const char *name = alpi_path_name(i < 2 ? files[i] : names->pages[i - 2]);
         ALP_TRY(is_referenced(document, "buffers", name, clash));
         if (!*clash) {
@@ -98,7 +107,8 @@ static alp_result find_clash(const alpi_gltf_document *document, const alpi_gltf
 static alp_result try_names(alp_context *context, const alpi_gltf_document *document,
                             const char *path, uint32_t attempt, alpi_gltf_names *names, bool *clash)
 {
-    int length = (int)(strlen(path) - strlen(".gltf"));
+    const bool to_glb = alpi_path_has_ending(path, ".glb");
+    int length = (int)(strlen(path) - strlen(to_glb ? ".glb" : ".gltf"));
     ALPI_TRY_NEW(context, names->pages, image_count(names));
     ALPI_TRY_NEW(context, names->page_uris, image_count(names));
     char *stem = attempt == 1 ? alpi_format(context, "%.*s", length, path)
@@ -109,19 +119,18 @@ static alp_result try_names(alp_context *context, const alpi_gltf_document *docu
     if (!good) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    return document != NULL ? find_clash(document, names, clash) : ALP_OK;
+    return document != NULL ? find_clash(document, names, to_glb, clash) : ALP_OK;
 }
 
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
-                                  const char *path, uint32_t page_count, uint32_t packed_count,
+                                  const char *path, const alpi_gltf_images *images,
                                   alpi_gltf_names *names)
 {
     bool clash = true;
     *names = (alpi_gltf_names){0};
     for (uint32_t attempt = 1; clash; attempt++) { // ends: a document refers to finitely many
         alpi_gltf_names_destroy(context, names);
-        names->page_count = page_count;
-        names->packed_count = packed_count;
+        names->images = *images;
         alp_result result = try_names(context, document, path, attempt, names, &clash);
         if (result != ALP_OK) {
             alpi_gltf_names_destroy(context, names);
@@ -129,6 +138,18 @@ alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document
         }
     }
     return ALP_OK;
+}
+
+alpi_gltf_images alpi_gltf_patch_images(const alpi_mesh_patch *patch, bool to_glb)
+{
+    const alpi_light_patch *light = patch->light;
+    const bool beside = light != NULL && light->form == ALPI_LIGHT_FORM_EXTRAS;
+    return (alpi_gltf_images){.occlusion =
+                                  to_glb || patch->page_pngs == NULL ? 0 : patch->page_count,
+                              .packed = to_glb ? 0 : patch->packed_count,
+                              .light = light == NULL || (to_glb && !beside) ? 0 : patch->page_count,
+                              .light_ending = light != NULL ? light->ending : NULL,
+                              .light_is_beside = beside};
 }
 
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names)

@@ -66,8 +66,9 @@ static alp_result fill_patcher(alpi_gltf_patcher *p)
         ALP_TRY(find_elements(p, (alpi_gltf_kind)kind));
     }
     ALPI_TRY_NEW(p->context, p->page_textures, p->patch->page_count);
+    ALPI_TRY_NEW(p->context, p->light_textures, p->patch->page_count);
     for (uint32_t i = 0; i < p->patch->page_count; i++) {
-        p->page_textures[i] = ALPI_GLTF_NONE;
+        p->page_textures[i] = p->light_textures[i] = ALPI_GLTF_NONE;
     }
     ALPI_TRY_NEW(p->context, p->packed_images, p->patch->packed_count);
     memset(p->packed_images, 0xff, p->patch->packed_count * sizeof *p->packed_images); // all NONE
@@ -110,6 +111,7 @@ void alpi_patcher_destroy(alpi_gltf_patcher *p)
     alpi_release(p->context, p->showings);
     alpi_release(p->context, p->pieces);
     alpi_release(p->context, p->page_textures);
+    alpi_release(p->context, p->light_textures);
     alpi_release(p->context, p->packed_images);
     alpi_release(p->context, p->texture_copies);
     alpi_release(p->context, p->image_embedded);
@@ -346,6 +348,7 @@ alp_result alpi_patcher_run(alpi_gltf_patcher *patcher)
     ALP_TRY(alpi_patcher_plan(patcher));
     if (patcher->patch->vertex_values == NULL) {
         ALP_TRY(alpi_patcher_materials(patcher));
+        alpi_patcher_state_extension(patcher);
     } else {
         alpi_patcher_warn_of_former(patcher);
     }

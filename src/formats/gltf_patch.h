@@ -4,6 +4,7 @@
 //   gltf_patch.c           the patcher: root arrays that grow, new binary data, the whole sequence
 //   gltf_patch_plan.c      which primitives get what: coordinate set, pages, in place or in a copy
 //   gltf_patch_material.c  one material per (old material, page, coordinate set)
+//   gltf_patch_light.c     materials that show baked light
 //   gltf_patch_packed.c    materials whose occlusion goes into an image that they have already
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
@@ -56,6 +57,8 @@ typedef struct alpi_gltf_plan {
     size_t material; // in the document, ALPI_GLTF_NONE = none
     uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
     bool packed;     // only its material changes
+    bool occluded;   // gets the occlusion map
+    bool lit;        // gets the light
     bool in_a_copy;  // the mesh is copied for its nodes, because others use it too
     size_t piece_first, piece_count;
     size_t showing_first, showing_end; // of the first plan of a user: its nodes
@@ -96,11 +99,14 @@ typedef struct alpi_gltf_patcher {
     size_t piece_count, piece_capacity;
 
     // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
-    size_t *page_textures;  // [page_count]
-    char *const *page_uris; // [page_count + packed_count], or NULL: embed
-    size_t *packed_images;  // [packed_count] in the written file, ALPI_GLTF_NONE until used
-    size_t *texture_copies; // [textures of the document] the same with the packed image, or NONE
-    bool *image_embedded;   // [images of the document] moved into the new data
+    size_t *page_textures;   // [page_count]
+    size_t *light_textures;  // [page_count] the same of light; EXTRAS: 0 where it is used
+    char *const *page_uris;  // of occlusion, then packed, then light; or NULL: embed
+    char *const *light_uris; // [page_count] of EXTRAS, else NULL
+    const char *extension;   // that materials have come to use, or NULL
+    size_t *packed_images;   // [packed_count] in the written file, ALPI_GLTF_NONE until used
+    size_t *texture_copies;  // [textures of the document] the same with the packed image, or NONE
+    bool *image_embedded;    // [images of the document] moved into the new data
 } alpi_gltf_patcher;
 
 alp_result alpi_patcher_create(const alp_scene *scene, const alpi_mesh_patch *patch,
@@ -142,6 +148,27 @@ alp_result alpi_patcher_materials(alpi_gltf_patcher *patcher);
 /// The image of a PNG that the bake made, at its place `uri` of page_uris; its index.
 size_t alpi_patcher_add_image(alpi_gltf_patcher *patcher, const char *name, uint32_t uri,
                               const uint8_t *png, size_t size);
+/// A texture of an image that the bake made, read between texels and not repeated.
+size_t alpi_patcher_add_texture(alpi_gltf_patcher *patcher, size_t image);
+
+/// A material that shows baked light.
+typedef struct alpi_gltf_light_use {
+    size_t material; // of the document, ALPI_GLTF_NONE = the primitive had none
+    uint32_t page, uv_set;
+    float scale; // what 1 in the image stands for
+} alpi_gltf_light_use;
+/// Edits a material of the document so that it does.
+void alpi_patcher_light_material(alpi_gltf_patcher *patcher, const alpi_gltf_light_use *use,
+                                 alpi_edits *edits);
+/// The members of a new material that does. @param mark a member of its extras, which says that
+/// the primitive had no material; left out where the new one does not look like that any more
+void alpi_patcher_print_light(alpi_gltf_patcher *patcher, const alpi_gltf_light_use *use,
+                              const char *mark, alpi_bytes *text);
+/// Adds the extension that was used to extensionsUsed, after all materials.
+void alpi_patcher_state_extension(alpi_gltf_patcher *patcher);
+/// Whether light goes to a surface's material: not to one that light shines through.
+bool alpi_patcher_is_lit(const alpi_gltf_patcher *patcher, const alpi_surface *surface);
+
 /// Which packed image a material of the document reads its occlusion from; ALPI_NONE = none.
 uint32_t alpi_patcher_packed(const alpi_gltf_patcher *patcher, size_t material);
 /// Edits a material of the document so that it reads the packed image.
@@ -221,14 +248,17 @@ void alpi_gltf_files_destroy(alpi_gltf_files *files);
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {
     char *bin, *data; // paths: what was the BIN chunk, what the bake adds
-    char **pages;     // [page_count + packed_count] paths
+    char **pages;     // paths of occlusion, then packed, then light
     char *bin_uri, *data_uri;
-    char **page_uris; // [page_count + packed_count]
-    uint32_t page_count, packed_count;
+    char **page_uris; // the same as the asset refers to them
+    alpi_gltf_images images;
 } alpi_gltf_names;
+/// Of a .gltf, or of the light beside a .glb.
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
-                                  const char *path, uint32_t page_count, uint32_t packed_count,
+                                  const char *path, const alpi_gltf_images *images,
                                   alpi_gltf_names *names);
+/// The images that a patch brings to a file of this kind.
+alpi_gltf_images alpi_gltf_patch_images(const alpi_mesh_patch *patch, bool to_glb);
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names);
 
 /// Where the data of the written file lives.

@@ -12,6 +12,8 @@
 typedef struct need {
     size_t old;            // ALPI_GLTF_NONE = the primitive had none
     uint32_t page, uv_set; // page ALPI_NONE: packed into an image
+    bool occluded, lit;
+    float light_scale; // what 1 in the light's image stands for
     size_t written;
 } need;
 
@@ -118,21 +120,26 @@ static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
                                   p->patch->page_png_sizes[page]);
 }
 
-/// The texture of a page, made at its first use. Not mipmapped: charts are padded by few texels.
+/// Not mipmapped: charts are padded by few texels.
+size_t alpi_patcher_add_texture(alpi_gltf_patcher *p, size_t image)
+{
+    alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
+    static const char sampler[] = "{\"magFilter\":9729,\"minFilter\":9729," // linear
+                                  "\"wrapS\":33071,\"wrapT\":33071}";       // clamp to edge
+    if (samplers->added == 0) {
+        alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
+    }
+    char texture[96];
+    int length = snprintf(texture, sizeof texture, "{\"sampler\":%zu,\"source\":%zu}",
+                          samplers->count, image);
+    return alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
+}
+
+/// The texture of a page, made at its first use.
 static size_t page_texture(alpi_gltf_patcher *p, uint32_t page)
 {
     if (p->page_textures[page] == ALPI_GLTF_NONE) {
-        alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
-        static const char sampler[] = "{\"magFilter\":9729,\"minFilter\":9729," // linear
-                                      "\"wrapS\":33071,\"wrapT\":33071}";       // clamp to edge
-        if (samplers->added == 0) {
-            alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
-        }
-        char texture[96];
-        int length = snprintf(texture, sizeof texture, "{\"sampler\":%zu,\"source\":%zu}",
-                              samplers->count, add_page_image(p, page));
-        p->page_textures[page] =
-            alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
+        p->page_textures[page] = alpi_patcher_add_texture(p, add_page_image(p, page));
     }
     return p->page_textures[page];
 }
@@ -152,6 +159,11 @@ static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value
     alpi_bytes_print(value, "}");
 }
 
+static alpi_gltf_light_use light_use(const need *n)
+{
+    return (alpi_gltf_light_use){n->old, n->page, n->uv_set, n->light_scale};
+}
+
 /// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
 /// no KHR_texture_transform of the old one remains.
 static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits *edits)
@@ -159,13 +171,39 @@ static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits 
     if (n->page == ALPI_NONE) {
         return alpi_patcher_pack_material(p, n->old, edits);
     }
-    alpi_bytes value = alpi_bytes_create(p->context);
-    print_texture(p, n, &value);
-    p->data.failed |= value.failed;
-    alpi_edits_set(edits, p->lists[ALPI_GLTF_MATERIALS].spans[n->old], "occlusionTexture",
-                   value.bytes, value.size);
-    alpi_bytes_destroy(&value);
+    if (n->occluded) {
+        alpi_bytes value = alpi_bytes_create(p->context);
+        print_texture(p, n, &value);
+        p->data.failed |= value.failed;
+        alpi_edits_set(edits, p->lists[ALPI_GLTF_MATERIALS].spans[n->old], "occlusionTexture",
+                       value.bytes, value.size);
+        alpi_bytes_destroy(&value);
+    }
+    if (n->lit) {
+        const alpi_gltf_light_use use = light_use(n);
+        alpi_patcher_light_material(p, &use, edits);
+    }
     return ALP_OK;
+}
+
+/// A material for a primitive without one. It looks like glTF's default material; the mark tells a
+/// later reading that there was none.
+static void print_new_material(alpi_gltf_patcher *p, const need *n, alpi_bytes *text)
+{
+    static const char mark[] = "\"alpenglow\":\"" ALPI_GLTF_NO_MATERIAL "\"";
+    alpi_bytes_print(text, "{");
+    if (n->occluded) {
+        alpi_bytes_print(text, "\"occlusionTexture\":");
+        print_texture(p, n, text);
+        alpi_bytes_print(text, ",");
+    }
+    if (n->lit) {
+        const alpi_gltf_light_use use = light_use(n);
+        alpi_patcher_print_light(p, &use, mark, text);
+    } else {
+        alpi_bytes_print(text, "\"extras\":{%s}", mark);
+    }
+    alpi_bytes_print(text, "}");
 }
 
 /// Puts the map into a material: the one of the document, a copy of it, or a new one.
@@ -174,10 +212,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
     alpi_bytes text = alpi_bytes_create(p->context);
     alp_result result = ALP_OK;
     if (n->old == ALPI_GLTF_NONE) {
-        // Looks like glTF's default material; the mark tells a later reading that there was none.
-        alpi_bytes_print(&text, "{\"occlusionTexture\":");
-        print_texture(p, n, &text);
-        alpi_bytes_print(&text, ",\"extras\":{\"alpenglow\":\"%s\"}}", ALPI_GLTF_NO_MATERIAL);
+        print_new_material(p, n, &text);
         n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
     } else {
         alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];
@@ -218,6 +253,14 @@ static alp_result find_material(alpi_gltf_patcher *p, needs *all, const need *wa
     return ALP_OK;
 }
 
+static float light_scale(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
+{
+    const uint32_t material = p->scene->surfaces[plan->surface].material;
+    return !plan->lit ? 0.0f
+                      : p->patch->light
+                            ->scales[material == ALPI_NONE ? p->scene->material_count : material];
+}
+
 static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
 {
     size_t count = p->lists[ALPI_GLTF_MATERIALS].count;
@@ -228,7 +271,12 @@ static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
         const alpi_gltf_plan *plan = &p->plans[i];
         for (size_t k = 0; k < plan->piece_count; k++) {
             alpi_gltf_piece *piece = &p->pieces[plan->piece_first + k];
-            need wanted = {.old = plan->material, .page = piece->page, .uv_set = plan->uv_set};
+            need wanted = {.old = plan->material,
+                           .page = piece->page,
+                           .uv_set = plan->uv_set,
+                           .occluded = plan->occluded,
+                           .lit = plan->lit,
+                           .light_scale = light_scale(p, plan)};
             ALP_TRY(find_material(p, all, &wanted, &piece->material));
         }
     }

@@ -85,11 +85,14 @@ static bool choose_uv_set(const alpi_gltf_patcher *p, json_t *primitive, uint32_
     return true;
 }
 
-static bool keeps_its_map(const alpi_gltf_patcher *p, size_t material)
+/// Whether the occlusion map goes to a material, or values at vertices to its primitives.
+static bool gets_occlusion(const alpi_gltf_patcher *p, size_t material)
 {
-    return p->patch->existing_ao == ALPI_EXISTING_AO_KEEP && material != ALPI_GLTF_NONE &&
-           json_object_get(alpi_gltf_item(p->document, "materials", material),
-                           "occlusionTexture") != NULL;
+    const bool keeps =
+        p->patch->existing_ao == ALPI_EXISTING_AO_KEEP && material != ALPI_GLTF_NONE &&
+        json_object_get(alpi_gltf_item(p->document, "materials", material), "occlusionTexture") !=
+            NULL;
+    return (p->patch->page_pngs != NULL || p->patch->vertex_values != NULL) && !keeps;
 }
 
 static size_t node_of(const alpi_gltf_patcher *p, uint32_t surface)
@@ -140,14 +143,16 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     ALP_TRY(
         alpi_gltf_index(p->document, primitive, "material", "materials", owner, &plan->material));
     plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
-    if (plan->packed || keeps_its_map(p, plan->material)) {
+    plan->occluded = gets_occlusion(p, plan->material);
+    plan->lit = alpi_patcher_is_lit(p, surface);
+    if (plan->packed || !(plan->occluded || plan->lit)) {
         *wanted = plan->packed;
         return ALP_OK;
     }
     *wanted = choose_uv_set(p, primitive, &plan->uv_set);
     if (!*wanted) {
-        alpi_warn(p->context, "no-uv-set", surface->name,
-                  "%s has no TEXCOORD_%u: it gets no occlusion map", owner, plan->uv_set);
+        alpi_warn(p->context, "no-uv-set", surface->name, "%s has no TEXCOORD_%u: it gets no map",
+                  owner, plan->uv_set);
     }
     return ALP_OK;
 }

@@ -72,6 +72,31 @@ void alpi_bytes_number(alpi_bytes *bytes, double value, int digits)
     alpi_bytes_add(bytes, text, strlen(text));
 }
 
+void alpi_bytes_float(alpi_bytes *bytes, float value)
+{
+    char text[32];
+    int digits = 5;
+    do { // nine always do
+        snprintf(text, sizeof text, "%.*g", ++digits, (double)value);
+    } while (digits < 9 && strtof(text, NULL) != value);
+    alpi_bytes_number(bytes, (double)value, digits);
+}
+
+void alpi_bytes_base64(alpi_bytes *bytes, const uint8_t *data, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t left = size - i;
+        uint32_t bits = (uint32_t)data[i] << 16;
+        bits |= left > 1 ? (uint32_t)data[i + 1] << 8 : 0;
+        bits |= left > 2 ? (uint32_t)data[i + 2] : 0;
+        char group[4] = {digits[bits >> 18], digits[bits >> 12 & 63],
+                         left > 1 ? digits[bits >> 6 & 63] : '=',
+                         left > 2 ? digits[bits & 63] : '='};
+        alpi_bytes_add(bytes, group, sizeof group);
+    }
+}
+
 void alpi_bytes_quote(alpi_bytes *bytes, const char *text)
 {
     alpi_bytes_add(bytes, "\"", 1);

@@ -27,6 +27,9 @@ void alpi_bytes_add(alpi_bytes *bytes, const void *data, size_t size);
 void alpi_bytes_print(alpi_bytes *bytes, const char *format, ...) ALP_PRINTF(2, 3);
 /// A finite number with a point as decimal sign whatever the locale; `digits` significant.
 void alpi_bytes_number(alpi_bytes *bytes, double value, int digits);
+/// As many digits, 6 to 9, as bring the same float back.
+void alpi_bytes_float(alpi_bytes *bytes, float value);
+void alpi_bytes_base64(alpi_bytes *bytes, const uint8_t *data, size_t size);
 /// A JSON string: quotes and escapes added; bytes that are no ASCII stay as they are (UTF-8).
 void alpi_bytes_quote(alpi_bytes *bytes, const char *text);
 void alpi_bytes_add_u32(alpi_bytes *bytes, uint32_t value); ///< little-endian

@@ -245,7 +245,7 @@ static alp_result add_side_files(writing *w)
     if (w->patcher.data.size > 0) {
         ALP_TRY(add_side_file(w, w->names.data, w->patcher.data.bytes, w->patcher.data.size));
     }
-    for (uint32_t i = 0; i < w->patch->page_count; i++) {
+    for (uint32_t i = 0; i < w->names.images.occlusion; i++) {
         if (w->patcher.page_textures[i] != ALPI_GLTF_NONE) {
             ALP_TRY(add_side_file(w, w->names.pages[i], w->patch->page_pngs[i],
                                   w->patch->page_png_sizes[i]));
@@ -254,8 +254,21 @@ static alp_result add_side_files(writing *w)
     for (uint32_t i = 0; i < w->patch->packed_count; i++) {
         if (w->patcher.packed_images[i] != ALPI_GLTF_NONE) {
             const alpi_packed_image *packed = &w->patch->packed_images[i];
-            ALP_TRY(add_side_file(w, w->names.pages[w->patch->page_count + i], packed->png,
+            ALP_TRY(add_side_file(w, w->names.pages[w->names.images.occlusion + i], packed->png,
                                   packed->png_size));
+        }
+    }
+    return ALP_OK;
+}
+
+/// Light that is not inside the asset.
+static alp_result add_light_files(writing *w)
+{
+    const alpi_gltf_images *images = &w->names.images;
+    for (uint32_t i = 0; i < images->light; i++) {
+        if (w->patcher.light_textures[i] != ALPI_GLTF_NONE) {
+            ALP_TRY(add_side_file(w, w->names.pages[images->occlusion + images->packed + i],
+                                  w->patch->light->pages[i], w->patch->light->page_sizes[i]));
         }
     }
     return ALP_OK;
@@ -263,7 +276,11 @@ static alp_result add_side_files(writing *w)
 
 static alp_result patch_text(writing *w, alpi_gltf_home home)
 {
+    const alpi_gltf_images *images = &w->names.images;
     w->patcher.page_uris = w->to_glb ? NULL : w->names.page_uris;
+    w->patcher.light_uris = images->light > 0 && images->light_is_beside
+                                ? w->names.page_uris + images->occlusion + images->packed
+                                : NULL;
     ALP_TRY(alpi_gltf_prepare_home(&w->patcher, home));
     ALP_TRY(alpi_patcher_run(&w->patcher));
     ALP_TRY(alpi_gltf_settle_home(&w->patcher, home, &w->names, &w->bin));
@@ -277,6 +294,7 @@ static alp_result collect_files(writing *w, alpi_gltf_home home)
     if (!w->to_glb) {
         ALP_TRY(add_side_files(w));
     }
+    ALP_TRY(add_light_files(w));
     ALP_TRY(add_references(&w->files, w->document, w->path, home == ALPI_HOME_MERGED,
                            w->patcher.image_embedded));
     return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
@@ -298,9 +316,9 @@ static alp_result make_folders(const alpi_gltf_files *files)
 
 static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite)
 {
-    if (!w->to_glb) {
-        ALP_TRY(alpi_gltf_names_create(scene->context, w->document, w->path, w->patch->page_count,
-                                       w->patch->packed_count, &w->names));
+    const alpi_gltf_images images = alpi_gltf_patch_images(w->patch, w->to_glb);
+    if (!w->to_glb || images.light > 0) {
+        ALP_TRY(alpi_gltf_names_create(scene->context, w->document, w->path, &images, &w->names));
     }
     ALP_TRY(alpi_patcher_create(scene, w->patch, w->document, &w->patcher));
     alpi_gltf_home home = alpi_gltf_choose_home(w->document, w->to_glb);
@@ -389,11 +407,12 @@ static alp_result check_references(const alpi_gltf_document *document, const cha
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite)
 {
-    return alpi_gltf_check_packed_output(scene, page_count, 0, path, overwrite);
+    const alpi_gltf_images images = {.occlusion = page_count};
+    return alpi_gltf_check_outputs(scene, &images, path, overwrite);
 }
 
-alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_count,
-                                         uint32_t packed_count, const char *path, bool overwrite)
+alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                   const char *path, bool overwrite)
 {
     alp_context *context = scene->context;
     const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
@@ -403,16 +422,22 @@ alp_result alpi_gltf_check_packed_output(const alp_scene *scene, uint32_t page_c
     if (document != NULL) {
         ALP_TRY(check_references(document, path, to_glb && !document->is_glb, overwrite));
     }
-    if (to_glb) {
+    alpi_gltf_images beside = *images;
+    if (to_glb) { // holds all but light that it only names
+        beside.occlusion = beside.packed = 0;
+        beside.light = images->light_is_beside ? images->light : 0;
+    }
+    const uint32_t count = beside.occlusion + beside.packed + beside.light;
+    if (to_glb && count == 0) {
         return ALP_OK;
     }
     alpi_gltf_names names;
-    ALP_TRY(alpi_gltf_names_create(context, document, path, page_count, packed_count, &names));
-    alp_result result = alpi_file_check_writable(context, names.data, overwrite);
-    if (result == ALP_OK && (document == NULL || document->is_glb)) {
+    ALP_TRY(alpi_gltf_names_create(context, document, path, &beside, &names));
+    alp_result result = to_glb ? ALP_OK : alpi_file_check_writable(context, names.data, overwrite);
+    if (result == ALP_OK && !to_glb && (document == NULL || document->is_glb)) {
         result = alpi_file_check_writable(context, names.bin, overwrite);
     }
-    for (uint32_t i = 0; result == ALP_OK && i < page_count + packed_count; i++) {
+    for (uint32_t i = 0; result == ALP_OK && i < count; i++) {
         result = alpi_file_check_writable(context, names.pages[i], overwrite);
     }
     alpi_gltf_names_destroy(context, &names);

@@ -22,6 +22,23 @@ typedef enum alpi_vertex_attribute {
     ALPI_VERTEX_OCCLUSION, // an attribute of its own
 } alpi_vertex_attribute;
 
+/// How a material comes to show baked light.
+typedef enum alpi_light_form {
+    ALPI_LIGHT_FORM_EMISSIVE = 0, // base colour 0, all light as emission
+    ALPI_LIGHT_FORM_MOZ,          // MOZ_lightmap
+    ALPI_LIGHT_FORM_EXTRAS,       // extras.lightmap names a file beside the asset
+} alpi_light_form;
+
+/// Light on the pages, read with the same coordinates as occlusion.
+typedef struct alpi_light_patch {
+    alpi_light_form form;
+    const uint8_t *const *pages; // [page_count] PNGs; EXTRAS: files as they stand
+    const size_t *page_sizes;    // [page_count]
+    const char *ending;          // of their names: ".png", ".ktx2"
+    const float *scales; // [material_count + 1] what 1 in the image stands for; last: no material
+    const char *units;   // of value × scale
+} alpi_light_patch;
+
 typedef struct alpi_mesh_patch {
     /// Accessibility at the scene's vertices, in [0, 1]: then there are no pages, no coordinates
     /// and no change of materials. NULL: maps.
@@ -39,9 +56,10 @@ typedef struct alpi_mesh_patch {
     /// has its own (see alpi_scene_instances); NULL = all their own. Such surfaces go on sharing a
     /// mesh.
     const uint32_t *originals;
-    /// Occlusion map of each page, ready to embed.
+    /// Occlusion map of each page, ready to embed. NULL: none is attached.
     const uint8_t *const *page_pngs; // [page_count]
     const size_t *page_png_sizes;    // [page_count]
+    const alpi_light_patch *light;   // NULL: none; not together with packed images
     alpi_existing_ao existing_ao;
     /// Images that stand for maps: a material with material_packed[m] = i < packed_count reads its
     /// occlusion, and its roughness and metalness if they came from that image, from

@@ -217,7 +217,8 @@ static void clamp_materials(alp_scene *scene)
 }
 
 /// A metal has no diffuse albedo, and glTF's default material is one: a scene of it bounces no
-/// light. Textures count: what is looked at are points spread over the area.
+/// light. What emits all its light on black is no mistake. Textures count: what is looked at are
+/// points spread over the area.
 static void warn_of_metal(const alp_scene *scene)
 {
     enum { POINTS = 1024 };
@@ -226,7 +227,9 @@ static void warn_of_metal(const alp_scene *scene)
     uint32_t metal = 0;
     bool any = false;
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        any = any || scene->materials[i].metallic >= METAL;
+        const float *color = scene->materials[i].base_color; // black is black of any material
+        any = any || (scene->materials[i].metallic >= METAL &&
+                      (color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f));
     }
     if (!any || !alpi_area_points(scene, POINTS, points)) {
         return;

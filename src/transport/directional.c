@@ -37,9 +37,7 @@ void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3
             sh[i][k] += (basis[i] - cosine * along[i]) * light;
         }
     }
-    // Of linear Rec. 709.
-    const double luminance =
-        0.2126 * irradiance[0] + 0.7152 * irradiance[1] + 0.0722 * irradiance[2];
+    const double luminance = alpi_luminance(irradiance);
     sums->toward[0] += luminance * (double)way->direction.x;
     sums->toward[1] += luminance * (double)way->direction.y;
     sums->toward[2] += luminance * (double)way->direction.z;

@@ -27,6 +27,12 @@ typedef struct alpi_directional_sums {
     double horizon[ALPI_SH1_COUNT][3], horizon_weight; // of the band
 } alpi_directional_sums;
 
+/// Of linear Rec. 709.
+static inline double alpi_luminance(const double rgb[3])
+{
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 /// Of the band, as a cosine: a quarter of the hemisphere, or as much as four of few rays fill.
 double alpi_horizon_width(uint32_t rays);
 /// Counts a ray of the band. @param weight as that of light, of radiance 1
