@@ -11,6 +11,7 @@
 #include "test_scenes.h"
 
 #include "maps/lightmap.h"
+#include "scene/mesh_builder.h"
 #include "sh/basis.h"
 
 #include <math.h>
@@ -231,6 +232,78 @@ static void a_solid_under_a_lamp(void **state)
     alp_scene_destroy(scene);
 }
 
+// --- a rectangle ---------------------------------------------------------------------------------
+
+/// Solid angle of a triangle. From: A. van Oosterom, J. Strackee. The Solid Angle of a Plane
+/// Triangle. IEEE Transactions on Biomedical Engineering 1983.
+static double solid_angle(vec3 a, vec3 b, vec3 c)
+{
+    const double x = (double)vec3_length(a), y = (double)vec3_length(b), z = (double)vec3_length(c);
+    const double volume = fabs((double)vec3_dot(a, vec3_cross(b, c)));
+    return 2.0 * atan2(volume, x * y * z + (double)vec3_dot(a, b) * z + (double)vec3_dot(a, c) * y +
+                                   (double)vec3_dot(b, c) * x);
+}
+
+/// ∫ ω dω of a polygon whose front is seen: −½ Σ γ Γ with γ and Γ of oracle 11.
+static vec3 light_vector(const vec3 corners[4])
+{
+    vec3 sum = {0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < 4; i++) {
+        const vec3 a = corners[i], b = corners[(i + 1) % 4];
+        const vec3 across = vec3_cross(a, b);
+        const double sine = (double)vec3_length(across),
+                     angle = atan2(sine, (double)vec3_dot(a, b));
+        sum = vec3_mad(sum, (float)(-0.5 * angle / sine), across);
+    }
+    return sum;
+}
+
+/// A floor of 2 m under a rectangle 1 m above it, of radiance 1. At least 64 points of it tell the
+/// solid angle and what of the light vector lies across the normal, to 1 % or less, as it is
+/// narrow; what lies along is the irradiance, a closed form. Twice that is the limit.
+static void a_floor_under_a_rectangle(void **state)
+{
+    (void)state;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alp_lightmap *lightmap = NULL;
+    const vec3 none = {0, 0, 0}, one = {1, 1, 1};
+    const vec3 floor[4] = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    const vec3 lamp[4] = {{-0.4f, 1, -0.2f}, {0.4f, 1, -0.2f}, {0.4f, 1, 0.3f}, {-0.4f, 1, 0.3f}};
+    double worst[2] = {0.0, 0.0};
+    alpi_builder_start(&b, context, "floor");
+    alpi_builder_surface(&b, "floor", alpi_builder_material(&b, "floor", none, none));
+    alpi_builder_quad(&b, floor);
+    alpi_builder_surface(&b, "lamp", alpi_builder_material(&b, "lamp", none, one));
+    alpi_builder_quad(&b, lamp);
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_bake_options o = light_options(256);
+    o.light.bounces = 0;
+    o.only = "floor";
+    ASSERT_OK(context, alp_bake(scene, &o, &lightmap, NULL));
+    for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+        const texel t = texel_of(lightmap, i);
+        vec3 to[4];
+        for (int k = 0; k < 4; k++) {
+            to[k] = vec3_sub(lamp[k], t.position);
+        }
+        const double angle = solid_angle(to[0], to[1], to[2]) + solid_angle(to[0], to[2], to[3]);
+        const vec3 v = light_vector(to);
+        const double wanted[ALPI_SH1_COUNT] = {
+            0.28209479177387814 * angle, 0.4886025119029199 * (double)v.y,
+            0.4886025119029199 * (double)v.z, 0.4886025119029199 * (double)v.x};
+        for (int k = 0; k < ALPI_SH1_COUNT; k++) {
+            const double off = fabs(t.sh[k] - wanted[k]) / wanted[0];
+            worst[k > 0] = fmax(worst[k > 0], off);
+            ASSERT_NEAR(off, 0.0, 0.02);
+        }
+    }
+    printf("accuracy: a rectangle by direction, %u texels: c_00 to %.1e, c_1 to %.1e of it\n",
+           lightmap->texels.count, worst[0], worst[1]);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+}
+
 // --- rooms ---------------------------------------------------------------------------------------
 
 static alp_lightmap *bake_cornell(const alp_bake_options *options, alp_scene **scene)
@@ -364,6 +437,7 @@ int main(void)
         cmocka_unit_test(a_solid_under_an_even_sky),
         cmocka_unit_test(the_furnace),
         cmocka_unit_test(a_solid_under_a_lamp),
+        cmocka_unit_test(a_floor_under_a_rectangle),
         cmocka_unit_test(the_first_band_is_the_irradiance),
         cmocka_unit_test(interpolation_is_within_the_noise),
         cmocka_unit_test(workers_change_nothing),
