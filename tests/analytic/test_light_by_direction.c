@@ -161,6 +161,41 @@ static void a_solid_under_an_even_sky(void **state)
     }
 }
 
+/// Radiance 2 above and ½ below: of the hemisphere about a normal at an angle a to the vertical,
+/// the lune of solid angle 2a is below. This changes over the horizon's band, whose mean is a ratio
+/// of 16 rays; the mean over the solid shows what bias is left.
+static void a_solid_under_two_half_skies(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        alp_scene *scene = make_solid();
+        alp_lightmap *lightmap = NULL;
+        alp_bake_options o = light_options(256);
+        double mean = 0.0, apart = 0.0, worst = 0.0;
+        o.light.bounces = k == 0 ? 0 : ALP_BOUNCES_CONVERGE;
+        o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+        o.light.lighting.sky.up[CHANNEL] = 2.0f;
+        o.light.lighting.sky.down[CHANNEL] = 0.5f;
+        ASSERT_OK(context, alp_bake(scene, &o, &lightmap, NULL));
+        const uint32_t count = lightmap->texels.count;
+        for (uint32_t i = 0; i < count; i++) {
+            const texel t = texel_of(lightmap, i);
+            const double below = 2.0 * acos(fmax(fmin((double)t.normal.y, 1.0), -1.0));
+            const double all = 2.0 * (2.0 * ALPI_PI - below) + 0.5 * below;
+            const double off = t.sh[0] / 0.28209479177387814 / all - 1.0;
+            ASSERT_NEAR(off, 0.0, 5.0 * NOISE_OF_RAYS);
+            worst = fmax(worst, fabs(off));
+            mean += all / count;
+            apart += off * all / count;
+        }
+        printf("accuracy: two half skies by direction, %s: c_00 to %.1e, mean %+.1e\n",
+               k == 0 ? "direct" : "rays", worst, apart / mean);
+        ASSERT_NEAR(apart / mean, 0.0, 4.0 * NOISE_OF_RAYS / sqrt((double)count) + 1e-3);
+        alp_lightmap_destroy(lightmap);
+        alp_scene_destroy(scene);
+    }
+}
+
 /// Oracle 14: radiance 2 from everywhere, direct and bounced.
 static void the_furnace(void **state)
 {
@@ -435,6 +470,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_solid_under_an_even_sky),
+        cmocka_unit_test(a_solid_under_two_half_skies),
         cmocka_unit_test(the_furnace),
         cmocka_unit_test(a_solid_under_a_lamp),
         cmocka_unit_test(a_floor_under_a_rectangle),
