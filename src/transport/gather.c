@@ -128,15 +128,23 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            alpi_gather_sums *sums)
 {
     double *sum = sums->light[packet % gatherer->replicates];
+    const bool even = gatherer->weights == NULL;
+    float parts[5] = {0.0f};
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const double weight = weight_of(gatherer, packet, i);
+        const float weight = even ? 1.0f : gatherer->weights[packet][i];
         const float *l = light[cells[i]];
-        sum[0] += weight * (double)l[0];
-        sum[1] += weight * (double)l[1];
-        sum[2] += weight * (double)l[2];
-        sums->lost[0] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0;
-        sums->lost[1] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0;
+        parts[0] += weight * l[0];
+        parts[1] += weight * l[1];
+        parts[2] += weight * l[2];
+        parts[3] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0f;
+        parts[4] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0f;
     }
+    const double scale = even ? weight_of(gatherer, packet, 0) : 1.0;
+    for (int k = 0; k < 3; k++) {
+        sum[k] += scale * (double)parts[k];
+    }
+    sums->lost[0] += scale * (double)parts[3];
+    sums->lost[1] += scale * (double)parts[4];
 }
 
 void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
