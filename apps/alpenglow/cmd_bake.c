@@ -91,7 +91,7 @@ static int check_light(const option_value *values, bool light, bool occlusion)
                                             {OPTION_BOUNCES, "--bounces"},
                                             {OPTION_GATHER, "--gather"},
                                             {OPTION_HEMICUBE, "--hemicube"},
-                                            {OPTION_DIRECT, "--direct"},
+                                            {OPTION_DIRECT, "--direct"},     {OPTION_DENOISE, "--denoise"},
                                             {OPTION_SKY, "--sky"},
                                             {OPTION_SKY_TURN, "--sky-turn"},
                                             {OPTION_SUN, "--sun"},
@@ -308,6 +308,10 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
+    o->denoise = values[OPTION_DENOISE].choice == 1;
+    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
+        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
+    }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
                            values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
