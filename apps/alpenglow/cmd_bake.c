@@ -125,6 +125,18 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     return EXIT_DONE;
 }
 
+/// The bits of what --maps lists, whose choices are numbered in their order.
+static unsigned listed_maps(unsigned choices)
+{
+    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
+                                   ALP_MAP_DIRECTION};
+    unsigned bits = 0;
+    for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
+        bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;
+    }
+    return bits;
+}
+
 /// How light goes into the asset, and what that needs.
 static int read_lightmap(const option_value *values, alp_bake_options *o)
 {
@@ -185,9 +197,20 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
     const bool bleed = values[OPTION_AO_BLEED].given;
-    o->maps = (unsigned)values[OPTION_MAPS].whole | (bleed ? ALP_MAP_OBSCURANCE : 0u);
+    o->maps = listed_maps((unsigned)values[OPTION_MAPS].whole) | (bleed ? ALP_MAP_OBSCURANCE : 0u);
     const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
     const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
+    const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
+    if ((sh || direction) && !light) {
+        return usage_error(COMMAND_BAKE, "--maps %s: is of light; add it: --maps light,%s",
+                           sh ? "sh" : "direction", sh ? "sh" : "direction");
+    }
+    if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps %s: --gather paths does not tell where light comes from; "
+                           "--gather rays or hemicube does",
+                           sh ? "sh" : "direction");
+    }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
         return usage_error(COMMAND_BAKE, "--maps %s: has no meaning with --atlas vertex",
                            bent ? "bent" : "light");
@@ -365,6 +388,8 @@ static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
                    {ALP_MAP_LIGHT, "irradiance.exr, irradiance.error.exr"},
                    {ALP_MAP_DIRECT, "irradiance.direct.exr"},
                    {ALP_MAP_BOUNCED, "irradiance.bounced.exr"},
+                   {ALP_MAP_SH, "sh.0.exr to sh.3.exr"},
+                   {ALP_MAP_DIRECTION, "direction.exr"},
                    {ALP_MAP_OBSCURANCE, "obscurance.exr, obscurance.png"}};
     const char *separator = "";
     printf("maps       %s/", o->maps_folder);
@@ -468,7 +493,7 @@ static void print_summary(const session *s, const command_line *a, const alp_bak
     } else {
         print_atlas(&r->atlas);
     }
-    if ((o->maps & ~(unsigned)ALP_MAP_LIGHT) != 0) {
+    if ((o->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0) {
         print_occlusion(a, r);
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0) {

@@ -83,15 +83,18 @@ static const option options[] = {
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
-     .choices = "ao|bent|light",
-     .later_choices = "direction|sh|probes",
+     .choices = "ao|bent|light|sh|direction",
+     .later_choices = "probes",
      .initial = "ao",
-     .help = "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
-             "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
-             "per channel, not divided by pi, without albedo, direct and bounced (--gather); "
-             "blended and transmissive surfaces let it through in part, in their colour. "
-             "What is not ao goes to --maps-dir alone, and -o needs ao, or light and "
-             "--lightmap-as."},
+     .help =
+         "What to bake. ao: the ambient occlusion map (1 open, 0 closed). bent: bent normals, "
+         "the mean open direction in world space, from the same rays. light: irradiance, W/m2 "
+         "per channel, not divided by pi, without albedo, direct and bounced (--gather); "
+         "blended and transmissive surfaces let it through in part, in their colour. sh: light "
+         "by direction for normal-mapped surfaces, spherical harmonics of two bands; direction: "
+         "the mean direction of light in world space; both need light. "
+         "What is not ao goes to --maps-dir alone, and -o needs ao, or light and "
+         "--lightmap-as."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -101,8 +104,9 @@ static const option options[] = {
      .help = "Also write each map there: ao.exr (float RGBA, A is coverage, first row v = 0), "
              "ao.png, ao.error.exr (standard error of each texel), ao.sampling.png (red traced, "
              "green interpolated, blue filled from beside); bent.exr (unit vectors) and bent.png "
-             "(n / 2 + 1/2); irradiance.exr and irradiance.error.exr; obscurance.exr and "
-             "obscurance.png; further pages ao.1.exr and so on. DIR is made if missing."},
+             "(n / 2 + 1/2); irradiance.exr and irradiance.error.exr; sh.0.exr to "
+             "sh.3.exr (of 1, y, z, x); direction.exr; obscurance.exr and obscurance.png; further "
+             "pages ao.1.exr and so on. DIR is made if missing."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

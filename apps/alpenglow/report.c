@@ -162,7 +162,7 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
                                       json_number(r->light_relative_error), "p99",
                                       json_number(r->light_p99_error)));
     }
-    if ((r->maps & ~(unsigned)ALP_MAP_LIGHT) == 0) {
+    if ((r->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) == 0) {
         json_object_del(error, "ao");
     }
     json_object_set_new(document, "sampling", make_sampling(r));

@@ -96,7 +96,10 @@ typedef enum alp_map {
                        ///< without occlusion maps, not divided by π
     ALP_MAP_OBSCURANCE = 8, ///< coloured obscurance, every texel with rays of its own
     ALP_MAP_DIRECT = 16,    ///< irradiance that comes straight from lights: see ALP_DIRECT_APART
-    ALP_MAP_BOUNCED = 32    ///< irradiance that surfaces reflect: see ALP_DIRECT_APART
+    ALP_MAP_BOUNCED = 32,   ///< irradiance that surfaces reflect: see ALP_DIRECT_APART
+    ALP_MAP_SH = 64,        ///< the light of ALP_MAP_LIGHT by direction: spherical harmonics of two
+                            ///< bands, four maps; needs ALP_MAP_LIGHT, not ALP_GATHER_PATHS
+    ALP_MAP_DIRECTION = 128 ///< the mean direction it comes from; the same
 } alp_map;
 
 /// `bounces` of light that goes on as long as it brings anything.
@@ -210,8 +213,8 @@ typedef struct alp_bake_options {
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
-    /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_ATLAS_VERTEX:
-    /// NULL.
+    /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_MAP_SH:
+    /// sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
@@ -308,8 +311,32 @@ ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t pa
 /// ALP_MAP_OBSCURANCE: RGB = (1/π) ∫ [ (1 − w) + w · albedo of the hit ] (n·ω) dω per channel,
 /// linear, 0 to 1. Open is 1; single-sided surfaces are black from behind.
 /// Based on: A. Méndez, M. Sbert, J. Catà. Real-time Obscurances with Color Bleeding. SCCG 2003.
+///
+/// ALP_MAP_DIRECTION: RGB = the mean direction of the light, world space, unit length,
+///
+///     normalised ∫ Y(L) (n·ω) ω dω
+///
+/// with the luminance Y of radiance L; the shading normal where it is dark.
+///
+/// ALP_MAP_SH: that of c_00, see alp_lightmap_sh_page.
 ALP_API const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, uint32_t page,
                                            uint32_t *width, uint32_t *height);
+/// A page of one of the four maps of ALP_MAP_SH, laid out the same, or NULL: RGB = the projection
+/// of the radiance from the hemisphere above a texel,
+///
+///     c_lm = ∫ L(ω) Y_lm(ω) dω    [W·m⁻²]
+///
+/// in real spherical harmonics of world space without the Condon–Shortley sign, index l(l+1)+m:
+/// Y = .282095, .488603 y, .488603 z, .488603 x. Irradiance about a normal n near the texel's is
+///
+///     E(n) ≈ π c_00 Y_00 + (2π/3) (c_1−1 Y_1−1(n) + c_10 Y_10(n) + c_11 Y_11(n))
+///
+/// Bias: docs/conventions.md, "Light by direction".
+/// Based on: R. Ramamoorthi, P. Hanrahan. An Efficient Representation for Irradiance Environment
+/// Maps. SIGGRAPH 2001.
+/// @param index 0 to 3
+ALP_API const float *alp_lightmap_sh_page(const alp_lightmap *lightmap, uint32_t index,
+                                          uint32_t page, uint32_t *width, uint32_t *height);
 /// The atlas the maps are laid out on, NULL with ALP_ATLAS_VERTEX. Owned by the lightmap.
 ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
 

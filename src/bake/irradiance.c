@@ -65,7 +65,7 @@ static alp_result gather_direct(alpi_bake_job *job, const alpi_light_task *t)
         .seed = o->occlusion.seed,
     };
     alpi_direct *direct = NULL;
-    alpi_direct_output output = {.values = t->values};
+    alpi_direct_output output = {.values = t->values, .directional = t->directional};
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
         alpi_direct_irradiance(direct, t->receivers, t->order, t->count, &t->progress, &output);
@@ -138,6 +138,7 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
                             .order = order,
                             .count = count,
                             .lattice = lattice,
+                            .directional = job->directional,
                             .progress = *progress};
     if (result == ALP_OK) {
         result = gather(job, &task);

@@ -5,6 +5,7 @@
 
 #include "maps/lightmap.h"
 #include "maps/validity.h"
+#include "transport/directional.h"
 #include "transport/occlusion.h"
 
 #include <alpenglow/bake.h>
@@ -42,6 +43,7 @@ typedef struct alpi_bake_job {
     float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
     float (*irradiance)[3], (*irradiance_errors)[3]; // the same
     float (*direct)[3], (*bounced)[3];               // [texels] apart, both or none
+    alpi_directional *directional;                   // [texels] while sampling; NULL: not asked for
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
     alpi_packing packing;

@@ -5,6 +5,7 @@
 
 #include "bake/job.h"
 #include "maps/radiosity.h"
+#include "transport/directional.h"
 #include "transport/reference.h"
 
 /// Where light is gathered, and what it becomes.
@@ -16,7 +17,8 @@ typedef struct alpi_light_task {
     uint32_t count;
     const alpi_lattice *lattice;
     alpi_task_progress progress;
-    alpi_reference_value *values; // [receivers] out
+    alpi_reference_value *values;  // [receivers] out
+    alpi_directional *directional; // [receivers] out, or NULL
 } alpi_light_task;
 
 /// Direct light and what surfaces make of it, by rays or hemicubes.

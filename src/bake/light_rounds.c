@@ -27,17 +27,18 @@ typedef struct rounds {
     const alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
-    alpi_reference_value *fresh;        // [texels] of a later round
-    float (*fresh_skies)[3];            // [texels]
-    uint8_t *states;                    // [texels]
-    uint32_t rays, direct;              // samples so far; direct: of the texels that have the most
-    uint32_t *counts;                   // [texels] samples of direct light so far
-    uint32_t *list;                     // [texels]
-    uint8_t *noisy;                     // [texels]
-    uint32_t number;                    // of the round
-    double mean;                        // of all light, over texels and channels
-    double direct_error, bounced_error; // root mean squares over the mean
+    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;         // [texels] of a later round
+    float (*fresh_skies)[3];             // [texels]
+    alpi_directional *fresh_directional; // [texels]; NULL: not wanted
+    uint8_t *states;                     // [texels]
+    uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
+    uint32_t *counts;                    // [texels] samples of direct light so far
+    uint32_t *list;                      // [texels]
+    uint8_t *noisy;                      // [texels]
+    uint32_t number;                     // of the round
+    double mean;                         // of all light, over texels and channels
+    double direct_error, bounced_error;  // root mean squares over the mean
 } rounds;
 
 static bool wants_error(const alpi_bake_job *job)
@@ -55,7 +56,7 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job)
 
 /// Bounced light by `rays` more of each texel.
 static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value *values,
-                                 float (*skies)[3])
+                                 float (*skies)[3], alpi_directional *directional)
 {
     alpi_bake_job *job = r->job;
     const alpi_light_task *t = r->task;
@@ -72,7 +73,10 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
                                     .gatherer = r->fixed != NULL ? r->fixed : &own,
                                     .receivers = t->receivers,
                                     .values = values,
-                                    .skies = skies};
+                                    .skies = skies,
+                                    .directional = directional,
+                                    .directional_without_sky =
+                                        job->options.light.direct == ALP_DIRECT_OFF};
     const alpi_bounced_options options = {
         .gather = &gather,
         .order = t->order,
@@ -101,13 +105,24 @@ static void merge_one(alpi_reference_value *v, const alpi_reference_value *fresh
     }
 }
 
+/// The same of light by direction, where it is wanted.
+static void mix(const rounds *r, alpi_directional *directional, uint32_t texel, double had,
+                double more)
+{
+    if (directional != NULL) {
+        alpi_directional_mix(&directional[texel], (float)(had / (had + more)),
+                             &r->fresh_directional[texel], (float)(more / (had + more)));
+    }
+}
+
 static alp_result add_bounced(rounds *r, uint32_t rays)
 {
-    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies));
+    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
     const float b = (float)((double)rays / ((double)r->rays + rays));
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
         merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
+        mix(r, r->task->directional, t, r->rays, rays);
         for (int k = 0; k < 3; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
@@ -153,11 +168,14 @@ static alp_result add_direct(rounds *r, double factor, double wanted)
     const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
     const double most = fmin(factor * r->direct, (double)(MOST_SAMPLES - r->direct));
     const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), 1);
-    ALP_TRY(alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress,
-                                  r->fresh, &r->job->report.rays));
+    alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
+    ALP_TRY(
+        alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
+    r->job->report.rays += output.rays;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t texel = r->list[i];
         merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
+        mix(r, r->solution->directional, texel, r->counts[texel], samples);
         r->counts[texel] += samples;
     }
     r->direct += samples;
@@ -232,7 +250,7 @@ static alp_result run_rounds(rounds *r)
                             : alpi_cosine_rays_samples(r->job->options.light.samples, REPLICATES);
     ALPI_TRY_NEW(context, r->skies, texels);
     ALPI_TRY_NEW(context, r->states, texels);
-    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies));
+    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies, r->task->directional));
     r->rays = first;
     r->direct = r->solution->options.direct_samples;
     ALP_TRY(measure(r));
@@ -241,6 +259,9 @@ static alp_result run_rounds(rounds *r)
     }
     ALPI_TRY_NEW(context, r->fresh, texels);
     ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    if (r->task->directional != NULL) {
+        ALPI_TRY_NEW(context, r->fresh_directional, texels);
+    }
     ALPI_TRY_NEW(context, r->counts, texels);
     ALPI_TRY_NEW(context, r->list, texels);
     ALPI_TRY_NEW(context, r->noisy, texels);
@@ -348,6 +369,10 @@ static void put_together(const rounds *r)
             value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
             value->variance[k] += on ? direct->variance[k] : 0.0f;
         }
+        if (on && r->task->directional != NULL) {
+            alpi_directional_mix(&r->task->directional[texel], 1.0f,
+                                 &r->solution->directional[texel], 1.0f);
+        }
     }
 }
 
@@ -366,6 +391,7 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
     alpi_release(job->context, r.states);
     alpi_release(job->context, r.fresh);
     alpi_release(job->context, r.fresh_skies);
+    alpi_release(job->context, r.fresh_directional);
     alpi_release(job->context, r.counts);
     alpi_release(job->context, r.list);
     alpi_release(job->context, r.noisy);

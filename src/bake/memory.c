@@ -19,7 +19,10 @@ enum {
     BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
     // Of each map beside occlusion.
     SIDE_BYTES_PER_TEXEL = 12,
-    LIGHT_BYTES_PER_TEXEL = 28,    // while paths are traced: mean and variance, and an error
+    LIGHT_BYTES_PER_TEXEL = 28, // while paths are traced: mean and variance, and an error
+    // Light by direction: kept, and of direct light while that is gathered and in rounds. One map
+    // at a time when it is stored.
+    DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional),
     SIDE_BYTES_PER_PAGE_TEXEL = 16 // its pages are made when it is stored
 };
 
@@ -29,15 +32,23 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *o
     const uint64_t sides = ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
                            ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
                            ((options->maps & ALP_MAP_LIGHT) != 0 ? 2u : 0u); // and its errors
-    const uint64_t kept = (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels;
+    const uint64_t directional = ((options->maps & ALP_MAP_SH) != 0 ? 4u : 0u) +
+                                 ((options->maps & ALP_MAP_DIRECTION) != 0 ? 1u : 0u);
+    uint64_t kept = (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels;
+    kept += directional > 0 ? DIRECTIONAL_BYTES_PER_TEXEL * atlas->texels : 0u;
     uint64_t of_texel = RAY_BYTES_PER_TEXEL;
     of_texel += (options->maps & ALP_MAP_LIGHT) != 0 ? LIGHT_BYTES_PER_TEXEL : 0u;
     const bool vectors = (options->maps & (ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
     of_texel += vectors ? RAY_BYTES_OF_VECTORS : 0u;
+    of_texel += directional > 0 ? (options->light.error > 0.0f ? 2u : 1u) *
+                                      (uint64_t)DIRECTIONAL_BYTES_PER_TEXEL
+                                : 0u;
     of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
     const uint64_t rays = of_texel * atlas->texels + BYTES_OF_PROBES +
                           (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;
-    const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * sides * pages + BYTES_TO_DILATE * page;
+    const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages +
+                           (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
+                           BYTES_TO_DILATE * page;
     const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
     const uint64_t most = rays > store ? rays : store;
     return kept + (most > store + light ? most : store + light) + BYTES_PER_PAGE_TEXEL * pages;

@@ -25,6 +25,11 @@ typedef enum map_kind {
     MAP_IRRADIANCE_ERROR,
     MAP_DIRECT,
     MAP_BOUNCED,
+    MAP_SH_0,
+    MAP_SH_1,
+    MAP_SH_2,
+    MAP_SH_3,
+    MAP_DIRECTION,
     MAP_COUNT
 } map_kind;
 
@@ -42,7 +47,12 @@ static const struct {
                           [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
                           [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"},
                           [MAP_DIRECT] = {ALP_MAP_DIRECT, "irradiance.direct", ".exr"},
-                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", ".exr"}};
+                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", ".exr"},
+                          [MAP_SH_0] = {ALP_MAP_SH, "sh.0", ".exr"},
+                          [MAP_SH_1] = {ALP_MAP_SH, "sh.1", ".exr"},
+                          [MAP_SH_2] = {ALP_MAP_SH, "sh.2", ".exr"},
+                          [MAP_SH_3] = {ALP_MAP_SH, "sh.3", ".exr"},
+                          [MAP_DIRECTION] = {ALP_MAP_DIRECTION, "direction", ".exr"}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -297,6 +307,7 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                              encoded_page *out)
 {
     const alp_lightmap *l = job->lightmap;
+    const bool is_sh = kind >= MAP_SH_0 && kind <= MAP_SH_3;
     float *const *pages = kind == MAP_AO                 ? l->pages
                           : kind == MAP_BENT             ? l->bent_pages
                           : kind == MAP_OBSCURANCE       ? l->obscurance_pages
@@ -304,6 +315,8 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
                           : kind == MAP_IRRADIANCE_ERROR ? l->irradiance_error_pages
                           : kind == MAP_DIRECT           ? l->direct_pages
                           : kind == MAP_BOUNCED          ? l->bounced_pages
+                          : is_sh                        ? l->sh_pages[kind - MAP_SH_0]
+                          : kind == MAP_DIRECTION        ? l->direction_pages
                                                          : NULL;
     if (pages != NULL) { // encoded where it lies: a copy of it may be gigabytes
         const alp_image view = {.context = job->context,

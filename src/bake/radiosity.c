@@ -76,6 +76,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
     options.direct_samples = alpi_light_first_direct(job);
+    options.directional = t->directional != NULL;
     options.seed = o->occlusion.seed;
     alpi_radiosity solution;
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,

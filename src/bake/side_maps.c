@@ -7,7 +7,12 @@
 #include "base/tasks.h"
 #include "transport/obscurance.h"
 
-enum { ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT };
+#include <string.h>
+
+enum {
+    BY_DIRECTION = ALP_MAP_SH | ALP_MAP_DIRECTION,
+    ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT | BY_DIRECTION
+};
 enum { PATH_LIMIT = 65536 };
 
 bool alpi_bake_lights_apart(const alpi_bake_job *job)
@@ -29,6 +34,10 @@ static alp_result check_light(const alpi_bake_job *job)
         return alpi_fail(job->context, code,
                          "bake: paths gather all light together; rays or hemicubes tell direct "
                          "light apart");
+    }
+    if ((job->options.maps & BY_DIRECTION) != 0 && o->gather == ALP_GATHER_PATHS) {
+        return alpi_fail(job->context, code,
+                         "bake: paths do not tell where light comes from; rays or hemicubes do");
     }
     if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
         return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
@@ -78,6 +87,10 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
         return alpi_fail(job->context, code,
                          "bake: light falls on the whole scene, not on each object alone");
     }
+    if ((o->maps & BY_DIRECTION) != 0 && (o->maps & ALP_MAP_LIGHT) == 0) {
+        return alpi_fail(job->context, code,
+                         "bake: light by direction is of the irradiance; bake ALP_MAP_LIGHT too");
+    }
     ALP_TRY(check_light(job));
     if ((o->maps & ALP_MAP_LIGHT) != 0 && (o->light.samples < 1 || o->light.samples > PATH_LIMIT)) {
         return alpi_fail(job->context, code, "bake: %u paths of a texel, need 1 to %d",
@@ -99,6 +112,9 @@ alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
         ALPI_TRY_NEW(job->context, job->irradiance, count);
         ALPI_TRY_NEW(job->context, job->irradiance_errors, count);
     }
+    if ((job->options.maps & BY_DIRECTION) != 0) {
+        ALPI_TRY_NEW(job->context, job->directional, count);
+    }
     if (alpi_bake_lights_apart(job)) {
         ALPI_TRY_NEW(job->context, job->direct, count);
         ALPI_TRY_NEW(job->context, job->bounced, count);
@@ -112,6 +128,8 @@ void alpi_bake_end_side_maps(alpi_bake_job *job)
     alpi_release(job->context, job->irradiance_errors);
     alpi_release(job->context, job->direct);
     alpi_release(job->context, job->bounced);
+    alpi_release(job->context, job->directional);
+    job->directional = NULL;
     job->irradiance = job->irradiance_errors = job->direct = job->bounced = NULL;
     alpi_release(job->context, job->bent);
     alpi_release(job->context, job->obscurance);
@@ -135,6 +153,47 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
                                   &job->scratch.sums, job->obscurance);
 }
 
+/// The mean direction of light, or the shading normal.
+static void direction_of(const alp_lightmap *l, const alpi_directional *directional, uint32_t texel,
+                         float direction[3])
+{
+    const float *n = l->texels.normals[texel], *d = directional->toward;
+    const vec3 unit = vec3_normalize_or((vec3){d[0], d[1], d[2]}, (vec3){n[0], n[1], n[2]});
+    direction[0] = unit.x;
+    direction[1] = unit.y;
+    direction[2] = unit.z;
+}
+
+/// Stores one of the four maps of spherical harmonics, or (ALPI_SH1_COUNT) the direction.
+static alp_result store_directional(alpi_bake_job *job, uint32_t index, float (*values)[3])
+{
+    alp_lightmap *l = job->lightmap;
+    for (uint32_t t = 0; t < l->texels.count; t++) {
+        if (index < ALPI_SH1_COUNT) {
+            memcpy(values[t], job->directional[t].sh[index], sizeof values[t]);
+        } else {
+            direction_of(l, &job->directional[t], t, values[t]);
+        }
+    }
+    return alpi_lightmap_store_vectors(l, (const float(*)[3])values,
+                                       index < ALPI_SH1_COUNT ? &l->sh_pages[index]
+                                                              : &l->direction_pages);
+}
+
+static alp_result store_light_by_direction(alpi_bake_job *job)
+{
+    float(*values)[3] = alpi_allocate(job->context, job->lightmap->texels.count, sizeof *values);
+    alp_result result = values != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    for (uint32_t i = 0; i <= ALPI_SH1_COUNT && result == ALP_OK; i++) {
+        const alp_map map = i < ALPI_SH1_COUNT ? ALP_MAP_SH : ALP_MAP_DIRECTION;
+        if ((job->options.maps & (unsigned)map) != 0) {
+            result = store_directional(job, i, values);
+        }
+    }
+    alpi_release(job->context, values);
+    return result;
+}
+
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
 {
     alp_lightmap *l = job->lightmap;
@@ -154,6 +213,9 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
     if (job->direct != NULL) {
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->direct, &l->direct_pages));
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bounced, &l->bounced_pages));
+    }
+    if (job->directional != NULL) {
+        ALP_TRY(store_light_by_direction(job));
     }
     return ALP_OK;
 }

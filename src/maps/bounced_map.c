@@ -44,15 +44,11 @@ static float level_of(const alpi_reference_value *v)
     return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
 }
 
-/// Traces `count` texels of the list.
-static alp_result gather_list(bounced_job *job, uint32_t count, alpi_reference_value *values,
-                              float (*skies)[3])
+/// Traces `count` texels of the list. @param gather what is written
+static alp_result gather_list(bounced_job *job, uint32_t count, alpi_gather_job gather)
 {
-    alpi_gather_job gather = *job->options->gather;
     gather.list = job->list;
     gather.count = count;
-    gather.values = values;
-    gather.skies = skies;
     job->report->rays += (uint64_t)count * gather.gatherer->packet_count * ALPI_PACKET;
     return alpi_gather_irradiance(&gather, &job->progress);
 }
@@ -69,7 +65,7 @@ static alp_result trace_wanted(bounced_job *job)
         }
     }
     const alpi_gather_job *g = job->options->gather;
-    ALP_TRY(gather_list(job, count, g->values, g->skies));
+    ALP_TRY(gather_list(job, count, *g));
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t t = job->list[i];
         job->lattice.states[t] = ALPI_TEXEL_TRACED;
@@ -199,6 +195,24 @@ static void interpolate(const bounced_job *job, uint32_t t, const alpi_stencil *
     }
 }
 
+static void interpolate_directional(alpi_directional *values, uint32_t t, const alpi_stencil *s)
+{
+    alpi_directional made = {.toward = {0.0f, 0.0f, 0.0f}};
+    for (uint32_t i = 0; i < s->count; i++) {
+        const alpi_directional *v = &values[s->texels[i]];
+        for (int k = 0; k < 3; k++) {
+            for (int c = 0; c < ALPI_SH1_COUNT; c++) {
+                made.sh[c][k] += s->weights[i] * v->sh[c][k];
+            }
+            made.toward[k] += s->weights[i] * v->toward[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        made.sh[0][k] = fmaxf(made.sh[0][k], 0.0f); // a cubic may overshoot
+    }
+    values[t] = made;
+}
+
 /// Interpolates the channels, and the level anew: what was traced since may be in its stencil.
 static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
@@ -213,6 +227,9 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
             alpi_lattice_stencil(l, t, &stencil)) {
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
             interpolate(job, t, &stencil);
+            if (job->options->gather->directional != NULL) {
+                interpolate_directional(job->options->gather->directional, t, &stencil);
+            }
         }
     }
     return ALP_OK;
@@ -293,7 +310,11 @@ static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, 
     if (traced == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    const alp_result result = gather_list(job, count, traced, NULL);
+    alpi_gather_job alone = *job->options->gather;
+    alone.values = traced;
+    alone.skies = NULL;
+    alone.directional = NULL;
+    const alp_result result = gather_list(job, count, alone);
     for (int k = 0; k < 3; k++) {
         double sum = 0.0;
         for (uint32_t i = 0; i < count && result == ALP_OK; i++) {

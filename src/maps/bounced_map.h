@@ -25,10 +25,10 @@ typedef struct alpi_bounced_report {
     uint64_t rays;
 } alpi_bounced_report;
 
-/// Writes the values (with variances) and skies of the gather job for the texels of the order.
-/// Variances are pooled over a texel and its neighbours. Those of interpolated texels are the mean
-/// square difference to independent rays from some of them, chosen at random, less the variance of
-/// those rays: it holds what interpolation misses, as a mean over all of them.
+/// Writes the values (with variances), skies and light by direction of the gather job for the
+/// texels of the order. Variances are pooled over a texel and its neighbours. Those of interpolated
+/// texels are the mean square difference to independent rays from some of them, chosen at random,
+/// less the variance of those rays: it holds what interpolation misses, as a mean over all of them.
 /// @param states [texels] out: alpi_texel_state of those in the order
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,

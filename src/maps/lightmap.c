@@ -27,6 +27,10 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
     release_pages(lightmap, lightmap->irradiance_error_pages);
     release_pages(lightmap, lightmap->direct_pages);
     release_pages(lightmap, lightmap->bounced_pages);
+    for (int i = 0; i < 4; i++) {
+        release_pages(lightmap, lightmap->sh_pages[i]);
+    }
+    release_pages(lightmap, lightmap->direction_pages);
     alpi_release(context, lightmap->vertex_values);
     alpi_release(context, lightmap->errors);
     alpi_release(context, lightmap->states);
@@ -282,8 +286,18 @@ const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, ui
                           : map == ALP_MAP_LIGHT      ? lightmap->irradiance_pages
                           : map == ALP_MAP_DIRECT     ? lightmap->direct_pages
                           : map == ALP_MAP_BOUNCED    ? lightmap->bounced_pages
+                          : map == ALP_MAP_SH         ? lightmap->sh_pages[0]
+                          : map == ALP_MAP_DIRECTION  ? lightmap->direction_pages
                                                       : NULL;
     return pages != NULL ? pages[page] : NULL;
+}
+
+const float *alp_lightmap_sh_page(const alp_lightmap *lightmap, uint32_t index, uint32_t page,
+                                  uint32_t *width, uint32_t *height)
+{
+    const bool there = alp_lightmap_page(lightmap, page, width, height) != NULL && index < 4 &&
+                       lightmap->sh_pages[index] != NULL;
+    return there ? lightmap->sh_pages[index][page] : NULL;
 }
 
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)

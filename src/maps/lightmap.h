@@ -25,6 +25,7 @@ struct alp_lightmap {
     float **obscurance_pages;                           // coloured obscurance
     float **irradiance_pages, **irradiance_error_pages; // W·m⁻², and its standard error
     float **direct_pages, **bounced_pages;              // W·m⁻², of which irradiance is the sum
+    float **sh_pages[4], **direction_pages;             // W·m⁻²; unit, world space
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.

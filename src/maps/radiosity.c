@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "transport/direct.h"
 #include "transport/kept_rays.h"
 
 #include <math.h>
@@ -49,8 +48,7 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
 
 alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
                                  uint32_t count, uint32_t samples, uint64_t seed,
-                                 const alpi_task_progress *progress, alpi_reference_value *values,
-                                 uint64_t *rays)
+                                 const alpi_task_progress *progress, alpi_direct_output *output)
 {
     const alpi_radiosity_options *o = &radiosity->options;
     const alpi_direct_options options = {.context = o->context,
@@ -61,21 +59,24 @@ alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t
                                          .samples = samples,
                                          .seed = seed};
     alpi_direct *direct = NULL;
-    alpi_direct_output output = {.values = values};
     const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
-        alpi_direct_irradiance(direct, &texels, list, count, progress, &output);
-    *rays += output.rays;
+        alpi_direct_irradiance(direct, &texels, list, count, progress, output);
     alpi_direct_destroy(direct);
     return result;
 }
 
-static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count)
+/// @param directional [texels] out, or NULL
+static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count,
+                                alpi_directional *directional)
 {
     const alpi_radiosity_options *o = &s->r->options;
-    return alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress,
-                                 s->r->direct, &s->r->rays);
+    alpi_direct_output output = {.values = s->r->direct, .directional = directional};
+    const alp_result result =
+        alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress, &output);
+    s->r->rays += output.rays;
+    return result;
 }
 
 /// Direct light on the backs of some blocks, the listed receivers.
@@ -93,7 +94,7 @@ static alp_result light_backs(const solver *s, const uint32_t *blocks, uint32_t 
             list[texels++] = p->texels->count + p->block_texels[k];
         }
     }
-    const alp_result result = gather_direct(s, list, texels);
+    const alp_result result = gather_direct(s, list, texels, NULL);
     alpi_release(p->context, list);
     return result;
 }
@@ -378,6 +379,9 @@ static alp_result allocate(solver *s)
     alp_context *context = r->options.context;
     const size_t blocks = sides_of(p) * p->block_count;
     ALPI_TRY_NEW(context, r->direct, sides_of(p) * p->texels->count);
+    if (r->options.directional) {
+        ALPI_TRY_NEW(context, r->directional, p->texels->count);
+    }
     ALPI_TRY_NEW(context, r->bounced, blocks);
     ALPI_TRY_NEW(context, r->before, blocks);
     ALPI_TRY_NEW(context, r->skies, blocks);
@@ -390,7 +394,7 @@ static alp_result allocate(solver *s)
 static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
 {
     ALP_TRY(allocate(s));
-    ALP_TRY(gather_direct(s, order, count));
+    ALP_TRY(gather_direct(s, order, count, s->r->directional));
     s->from = alpi_radiosity_scene(s->r);
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
     ALP_TRY(find_receivers(s));
@@ -425,6 +429,7 @@ void alpi_radiosity_destroy(alpi_radiosity *radiosity)
     }
     alpi_patches_destroy(&radiosity->patches);
     alpi_release(context, radiosity->direct);
+    alpi_release(context, radiosity->directional);
     alpi_release(context, radiosity->bounced);
     alpi_release(context, radiosity->before);
     alpi_release(context, radiosity->skies);

@@ -14,6 +14,7 @@
 #define ALPI_MAPS_RADIOSITY_H
 
 #include "maps/patches.h"
+#include "transport/direct.h"
 
 enum { ALPI_RADIOSITY_PASS_LIMIT = 1024, ALPI_RADIOSITY_CHANGES = 64 };
 
@@ -30,6 +31,7 @@ typedef struct alpi_radiosity_options {
     double tolerance; // then: light that is not yet gathered, over all, that is called nothing
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
+    bool directional;        // direct light is wanted by its direction
     uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
                 // gathers sees: enough for light on fronts
@@ -58,6 +60,7 @@ typedef struct alpi_radiosity {
     alpi_radiosity_options options;
     alpi_patches patches;          // cells hold what the last bounce wanted brings
     alpi_reference_value *direct;  // [sides × texels] E₀ with its variance, a soft sky apart
+    alpi_directional *directional; // [texels] of direct light on fronts, or NULL
     float (*skies)[3];             // [sides × blocks] E of a soft sky
     alpi_reference_value *bounced; // [sides × blocks] E of the last pass
     float (*before)[3];            // [sides × blocks] of the one before
@@ -81,12 +84,11 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
 
 /// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples.
-/// @param values [sides × texels] out, of those listed   @param rays added to
+/// @param output [sides × texels] of those listed
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
                                  uint32_t count, uint32_t samples, uint64_t seed,
-                                 const alpi_task_progress *progress, alpi_reference_value *values,
-                                 uint64_t *rays);
+                                 const alpi_task_progress *progress, alpi_direct_output *output);
 
 /// What gatherers look at to find the light of the last bounce at other receivers.
 alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity);

@@ -57,6 +57,9 @@ static void fill_packet(const alpi_path_wave *w, uint32_t first, alpi_gather_pac
     memcpy(rays->direction_z, w->direction.z + first, size);
     for (int i = 0; i < ALPI_PACKET; i++) {
         rays->maximum[i] = INFINITY;
+        const uint32_t k = first + (uint32_t)i;
+        packet->normals[i] = (vec3){w->normal.x[k], w->normal.y[k], w->normal.z[k]};
+        packet->cosines[i] = (float)ALPI_PI * w->density[k];
     }
     packet->active = 0xffu;
 }

@@ -2,7 +2,7 @@
 #include "base/random.h"
 #include "base/warp.h"
 #include "scene/triangle_light.h"
-#include "transport/direct_setup.h"
+#include "transport/direct_sums.h"
 #include "transport/hit.h"
 #include "transport/panes.h"
 
@@ -36,6 +36,7 @@ typedef struct direct_job {
 typedef struct arrival {
     float light[3];
     uint16_t part, replicate;
+    alpi_directional_way way; // its direction is that of the ray that is sent
 } arrival;
 
 /// The samples of one receiver, by one worker.
@@ -47,6 +48,8 @@ typedef struct gather {
     uint32_t first, count; // samples of the chunk
     uint64_t rays;
     double sums[ALPI_DIRECT_PART_LIMIT][R][3];
+    double horizon_width; // 0: light is not wanted by its direction
+    alpi_directional_sums directional;
     uint32_t queued;
     arrival givens[RAY_LIMIT];
     alpi_rays packets[ALPI_TRACE_BATCH];
@@ -75,6 +78,12 @@ static vec3 ray_start(const alpi_receiver_point *p)
 static void add(gather *g, const arrival *given)
 {
     const uint32_t each = g->direct->samples / R;
+    if (g->horizon_width > 0.0 && given->way.cosine > 0.0f) {
+        const double times = given->replicate == EVERY ? (double)g->direct->samples : 1.0;
+        const double light[3] = {times * (double)given->light[0], times * (double)given->light[1],
+                                 times * (double)given->light[2]};
+        alpi_directional_add(&g->directional, light, &given->way);
+    }
     for (int k = 0; k < 3; k++) {
         if (given->replicate != EVERY) {
             g->sums[given->part][given->replicate][k] += (double)given->light[k];
@@ -144,6 +153,7 @@ static void send(gather *g, const ray_way *way, vec3 light, float factor, arriva
     given.light[0] = light.x * factor;
     given.light[1] = light.y * factor;
     given.light[2] = light.z * factor;
+    given.way.direction = way->direction;
     if (!isfinite(factor) || !(given.light[0] + given.light[1] + given.light[2] > 0.0f)) {
         return;
     }
@@ -185,7 +195,8 @@ static void ask_lamp(gather *g, uint32_t light, uint32_t i, uint32_t replicate, 
         const ray_way way = {origin, at.direction, reach_to(at.distance, p), false};
         send(g, &way, at.light, cosine * factor,
              (arrival){.part = (uint16_t)g->direct->light_parts[light],
-                       .replicate = (uint16_t)replicate});
+                       .replicate = (uint16_t)replicate,
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -222,7 +233,8 @@ static void ask_sun(gather *g, const alpi_sun *sun, uint32_t i, uint32_t use, fl
     if (cosine > 0.0f) {
         send(g, &way, sun->radiance, cosine * factor / (float)alpi_sun_density(sun),
              (arrival){.part = (uint16_t)g->direct->light_parts[sun->light],
-                       .replicate = (uint16_t)replicate_of(i)});
+                       .replicate = (uint16_t)replicate_of(i),
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -293,7 +305,8 @@ static void ask_surface(gather *g, const alpi_emitter_view *view, uint32_t i)
         const ray_way way = {view->point, s.direction, reach_to(s.distance, p), false};
         send(g, &way, s.light, cosine / (s.density + met),
              (arrival){.part = part_of_triangle(g->direct, s.triangle),
-                       .replicate = (uint16_t)replicate_of(i)});
+                       .replicate = (uint16_t)replicate_of(i),
+                       .way = {.normal = p->shading_normal, .cosine = cosine}});
     }
 }
 
@@ -309,7 +322,9 @@ static void add_sky(gather *g)
         if (cosine > 0.0f) {
             send(g, &way, alpi_sky_radiance(d->sky, way.direction),
                  cosine / (density + cosine_density(cosine)),
-                 (arrival){.part = (uint16_t)d->sky_part, .replicate = (uint16_t)replicate_of(i)});
+                 (arrival){.part = (uint16_t)d->sky_part,
+                           .replicate = (uint16_t)replicate_of(i),
+                           .way = {.normal = p->shading_normal, .cosine = cosine}});
         }
     }
     flush(g, true);
@@ -328,12 +343,18 @@ static float sky_factor(const alpi_direct *d, vec3 direction, float density)
     return met_factor(density, d->sky_drawn ? (double)alpi_sky_density(d->sky, direction) : 0.0);
 }
 
+/// Of rays that nothing but an even sky counts for: what is asked too has no 1 / cosθ.
+static bool is_horizon(const gather *g, float cosine)
+{
+    return g->direct->sky != NULL && !g->direct->sky_drawn && cosine < (float)g->horizon_width;
+}
+
 /// Eight cosine-distributed rays that may meet emitters.
 typedef struct met_packet {
     alpi_rays rays;
     uint32_t count;
     const alpi_emitter_view *views[ALPI_PACKET];
-    float densities[ALPI_PACKET];
+    float densities[ALPI_PACKET], cosines[ALPI_PACKET];
     uint32_t samples[ALPI_PACKET];
 } met_packet;
 
@@ -344,7 +365,10 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
     const vec3 direction = {m->rays.direction_x[lane], m->rays.direction_y[lane],
                             m->rays.direction_z[lane]};
     const uint32_t triangle = hits->triangle[lane];
-    arrival given = {.replicate = (uint16_t)replicate_of(m->samples[lane])};
+    arrival given = {.replicate = (uint16_t)replicate_of(m->samples[lane]),
+                     .way = {.direction = direction,
+                             .normal = m->views[lane]->normal,
+                             .cosine = m->cosines[lane]}};
     vec3 light = {0.0f, 0.0f, 0.0f};
     float factor = 0.0f;
     if (triangle != ALPI_NONE) {
@@ -360,6 +384,7 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
         given.part = (uint16_t)d->sky_part;
         light = alpi_sky_radiance(d->sky, direction);
         factor = sky_factor(d, direction, m->densities[lane]);
+        given.way.horizon = is_horizon(g, m->cosines[lane]);
     }
     given.light[0] = light.x * factor * left.x;
     given.light[1] = light.y * factor * left.y;
@@ -407,10 +432,15 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     const vec3 along = vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, n);
     ray_way way = {view->point, vec3_normalize_or(along, n), INFINITY, true};
     const float density = cosine_density(local.z);
+    if (is_horizon(g, local.z)) {
+        alpi_directional_count(&g->directional, ALPI_PI, (double)local.z);
+    }
     if (!near) {
         send(g, &way, alpi_sky_radiance(d->sky, way.direction),
              sky_factor(d, way.direction, density),
-             (arrival){.part = (uint16_t)d->sky_part, .replicate = (uint16_t)replicate_of(i)});
+             (arrival){.part = (uint16_t)d->sky_part,
+                       .replicate = (uint16_t)replicate_of(i),
+                       .way = {.normal = n, .cosine = local.z, .horizon = is_horizon(g, local.z)}});
         return;
     }
     if (m->count == 0) {
@@ -419,6 +449,7 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     alpi_rays_set(&m->rays, (int)m->count, way.origin, way.direction, way.reach);
     m->views[m->count] = view;
     m->densities[m->count] = density;
+    m->cosines[m->count] = local.z;
     m->samples[m->count++] = i;
     if (m->count == ALPI_PACKET) {
         trace_met(g, m);
@@ -449,35 +480,6 @@ static void add_surfaces(gather *g)
     flush(g, true);
 }
 
-// --- means ---------------------------------------------------------------------------------------
-
-/// The mean of all is the floats of the parts added up; its variance, of the replicates of all.
-static void finish(gather *g, uint32_t receiver)
-{
-    const alpi_direct *d = g->direct;
-    const uint32_t each = d->samples / R;
-    double all[R][3] = {{0.0}};
-    float mean[3] = {0.0f, 0.0f, 0.0f};
-    for (uint32_t p = 0; p < d->part_count; p++) {
-        alpi_reference_value part;
-        alpi_reference_mean((const double(*)[3])g->sums[p], R, each, &part);
-        for (int k = 0; k < 3; k++) {
-            mean[k] += part.mean[k];
-            for (int r = 0; r < R; r++) {
-                all[r][k] += g->sums[p][r][k];
-            }
-        }
-        if (g->job->output->parts != NULL) {
-            g->job->output->parts[(size_t)receiver * d->part_count + p] = part;
-        }
-    }
-    alpi_reference_value *value = &g->job->output->values[receiver];
-    alpi_reference_mean((const double(*)[3])all, R, each, value);
-    for (int k = 0; k < 3; k++) {
-        value->mean[k] = mean[k];
-    }
-}
-
 // --- receivers -----------------------------------------------------------------------------------
 
 static void place_points(gather *g, uint32_t receiver)
@@ -497,20 +499,6 @@ static bool has_other_light(const alpi_direct *d)
     return d->lamp_count > 0 || d->sun_count > 0 || d->emitters.all.count > 0 || d->sky != NULL;
 }
 
-/// Light of the polygons, gathered as lane `lane` of eight receivers.
-static void add_polygons(gather *g, uint32_t lane)
-{
-    for (uint32_t p = 0; p < g->direct->polygon_count; p++) {
-        const alpi_polygon *polygon = &g->direct->polygons[p];
-        const double light[3] = {(double)polygon->radiance.x, (double)polygon->radiance.y,
-                                 (double)polygon->radiance.z};
-        for (int i = 0; i < 3 * R; i++) {
-            g->sums[polygon->part][i / 3][i % 3] +=
-                ALPI_PI * light[i % 3] * g->polygons.sums[lane][p][i / 3][i % 3];
-        }
-    }
-}
-
 static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
 {
     const alpi_direct *d = g->direct;
@@ -519,7 +507,11 @@ static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
         g->keys[r] = alpi_hash32(key ^ alpi_hash32(r + 1u));
     }
     memset(g->sums, 0, d->part_count * sizeof *g->sums);
-    add_polygons(g, lane);
+    g->directional = (alpi_directional_sums){.width = g->horizon_width};
+    if (d->polygon_count > 0) {
+        alpi_direct_add_polygons(&g->polygons, lane, g->sums,
+                                 g->horizon_width > 0.0 ? &g->directional : NULL);
+    }
     for (g->first = 0; g->first < d->samples && has_other_light(d); g->first += CHUNK) {
         const uint32_t left = d->samples - g->first;
         g->count = left < CHUNK ? left : CHUNK;
@@ -532,7 +524,11 @@ static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
             return ALP_ERROR_CANCELLED;
         }
     }
-    finish(g, receiver);
+    alpi_direct_put(d, (const double(*)[R][3])g->sums, receiver, g->job->output);
+    if (g->job->output->directional != NULL) {
+        alpi_directional_finish(&g->directional, 1.0 / d->samples,
+                                &g->job->output->directional[receiver]);
+    }
     return ALP_OK;
 }
 
@@ -559,8 +555,10 @@ static void start_gather(gather *g, direct_job *job)
         alpi_polygons_start(&d->options, job->receivers, d->samples, &g->polygons);
         g->polygons.polygons = d->polygons;
         g->polygons.polygon_count = d->polygon_count;
+        g->polygons.by_direction = job->output->directional != NULL;
     }
     g->polygons.rays = 0;
+    g->horizon_width = job->output->directional != NULL ? alpi_horizon_width(d->samples) : 0.0;
 }
 
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)

@@ -13,6 +13,7 @@
 #ifndef ALPI_TRANSPORT_DIRECT_H
 #define ALPI_TRANSPORT_DIRECT_H
 
+#include "transport/directional.h"
 #include "transport/reference.h"
 
 /// Independently scrambled parts of a receiver's samples: see ALPI_REFERENCE_REPLICATES. Half as
@@ -61,12 +62,13 @@ const alpi_direct_part *alpi_direct_parts(const alpi_direct *direct, uint32_t *c
 
 /// What is written of each receiver.
 typedef struct alpi_direct_output {
-    alpi_reference_value *values; // [receivers] of all light together
-    alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
-                                  // order, are the mean of all; variances do not add up: parts
-                                  // share the points of a receiver
-    uint64_t rays;                // that were sent from receivers; what goes on behind a pane
-                                  // is still the ray that met it and is not counted again
+    alpi_reference_value *values;  // [receivers] of all light together
+    alpi_reference_value *parts;   // [receivers][parts], or NULL. Their means, added as floats in
+                                   // order, are the mean of all; variances do not add up: parts
+                                   // share the points of a receiver
+    alpi_directional *directional; // [receivers] of all light together, or NULL
+    uint64_t rays;                 // that were sent from receivers; what goes on behind a pane
+                                   // is still the ray that met it and is not counted again
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased,

@@ -184,9 +184,44 @@ static void place_lane(alpi_polygon_gather *g, uint32_t receiver, int lane)
     }
 }
 
-/// Adds what is seen of the polygon through panes, per channel.
-static void tally_panes(alpi_polygon_gather *g, alpi_polygon_tally *t)
+/// Adds what a free ray brings by its direction. @param left of the light, after panes
+static void add_direction(alpi_polygon_gather *g, uint32_t polygon, uint32_t s, uint32_t lane,
+                          vec3 left)
 {
+    const alpi_polygon_wave *w = &g->wave;
+    const alpi_rays *rays = &w->rays[s];
+    const vec3 light = vec3_scale(g->polygons[polygon].radiance, w->weight[s][lane]);
+    alpi_polygon_directional *to = &g->directional[lane][polygon];
+    alpi_directional_way way = {
+        .direction = {rays->direction_x[lane], rays->direction_y[lane], rays->direction_z[lane]},
+        .normal = {w->normal[0][s][lane], w->normal[1][s][lane], w->normal[2][s][lane]}};
+    way.cosine = vec3_dot(way.direction, way.normal);
+    if (way.cosine > 0.0f) {
+        const double irradiance[3] = {(double)(light.x * left.x), (double)(light.y * left.y),
+                                      (double)(light.z * left.z)};
+        alpi_directional_add(&to->sums, irradiance, &way);
+        for (int k = 0; k < 3; k++) {
+            to->irradiance[k] += irradiance[k];
+        }
+    }
+}
+
+static void add_directions(alpi_polygon_gather *g, uint32_t polygon)
+{
+    const alpi_polygon_wave *w = &g->wave;
+    for (uint32_t s = 0; s < w->count - w->scouts; s++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            if (w->weight[s][i] > 0.0f && w->rays[s].maximum[i] >= 0.0f) {
+                add_direction(g, polygon, s, i, (vec3){1.0f, 1.0f, 1.0f});
+            }
+        }
+    }
+}
+
+/// Adds what is seen of the polygon through panes, per channel.
+static void tally_panes(alpi_polygon_gather *g, uint32_t polygon)
+{
+    alpi_polygon_tally *t = &g->tallies[polygon];
     alpi_polygon_wave *w = &g->wave;
     for (uint32_t s = 0; s < w->count - w->scouts; s++) {
         vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
@@ -202,6 +237,9 @@ static void tally_panes(alpi_polygon_gather *g, alpi_polygon_tally *t)
                 t->seen[0][s % R][i] += weight * (double)left[i].x;
                 t->seen[1][s % R][i] += weight * (double)left[i].y;
                 t->seen[2][s % R][i] += weight * (double)left[i].z;
+                if (g->by_direction) {
+                    add_direction(g, polygon, s, i, left[i]);
+                }
             }
         }
     }
@@ -289,7 +327,9 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
     g->mixed[polygon] |= mixed_scouts(w);
     g->loops->tally(w, panes, &g->tallies[polygon]);
     if (panes) {
-        tally_panes(g, &g->tallies[polygon]);
+        tally_panes(g, polygon);
+    } else if (g->by_direction) {
+        add_directions(g, polygon);
     }
 }
 
@@ -441,6 +481,9 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
         }
     }
     memset(g->tallies, 0, g->polygon_count * sizeof *g->tallies);
+    if (g->by_direction) {
+        memset(g->directional, 0, sizeof g->directional);
+    }
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
     }

@@ -30,6 +30,13 @@ enum { ALPI_POLYGON_LIMIT = ALPI_DIRECT_FEW };
 uint32_t alpi_polygons_collect(const alpi_direct_emitters *emitters, const uint32_t *parts,
                                alpi_polygon polygons[ALPI_POLYGON_LIMIT]);
 
+/// What free rays to a polygon brought, by its direction and together, over the samples: their
+/// ratio counts.
+typedef struct alpi_polygon_directional {
+    alpi_directional_sums sums;
+    double irradiance[3];
+} alpi_polygon_directional;
+
 /// What gathers the light of polygons at eight receivers, by one worker.
 typedef struct alpi_polygon_gather {
     const alpi_direct_options *options;
@@ -41,6 +48,8 @@ typedef struct alpi_polygon_gather {
     uint64_t rays; // sent: added to
     /// Out: form factor × visibility, summed over the samples of each replicate.
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
+    bool by_direction; // then this too:
+    alpi_polygon_directional directional[ALPI_PACKET][ALPI_POLYGON_LIMIT];
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint32_t mixed[ALPI_POLYGON_LIMIT];                       // bit i: scouts of lane i disagreed
@@ -53,7 +62,8 @@ typedef struct alpi_polygon_gather {
 /// The most rays that a polygon takes at a receiver.
 uint32_t alpi_polygon_rays(uint32_t samples);
 
-/// Readies all but the polygons, which are the caller's to set. @param samples see above
+/// Readies all but the polygons and whether light is wanted by direction, which are the caller's to
+/// set. @param samples see above
 void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
                          uint32_t samples, alpi_polygon_gather *gather);
 

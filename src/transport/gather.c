@@ -176,6 +176,33 @@ void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gat
     }
 }
 
+void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
+                                 const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
+                                 alpi_gather_sums *sums)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const double weight = ALPI_PI * weight_of(gatherer, packet, i);
+        const alpi_directional_way way = {
+            .direction = {aimed->rays.direction_x[i], aimed->rays.direction_y[i],
+                          aimed->rays.direction_z[i]},
+            .normal = aimed->normals[i],
+            .cosine = aimed->cosines[i],
+            .horizon =
+                gatherer->weights == NULL && (double)aimed->cosines[i] < sums->directional.width,
+        };
+        if ((aimed->active >> i & 1u) == 0 || !(way.cosine > 0.0f)) {
+            continue;
+        }
+        if (way.horizon) {
+            alpi_directional_count(&sums->directional, weight, (double)way.cosine);
+        }
+        const double irradiance[3] = {weight * (double)radiance[i].x,
+                                      weight * (double)radiance[i].y,
+                                      weight * (double)radiance[i].z};
+        alpi_directional_add(&sums->directional, irradiance, &way);
+    }
+}
+
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value)
 {
@@ -241,9 +268,30 @@ void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_g
     for (int k = 0; k < 2 && job->lost != NULL; k++) {
         job->lost[receiver][k] = (float)sums->lost[k];
     }
+    if (job->directional != NULL) {
+        alpi_directional_finish(&sums->directional, 1.0, &job->directional[receiver]);
+    }
 }
 
 // --- receivers -----------------------------------------------------------------------------------
+
+/// Light of cells, and of the sky, by its direction.
+static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
+                                  const alpi_gather_packet *aimed,
+                                  const uint32_t cells[ALPI_PACKET], alpi_gather_sums *sums)
+{
+    const alpi_rays *rays = &aimed->rays;
+    vec3 radiance[ALPI_PACKET];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float *l = job->from->light.cells[cells[i]];
+        radiance[i] = (vec3){l[0], l[1], l[2]};
+        if (cells[i] == ALPI_CELL_ESCAPED && !job->directional_without_sky) {
+            radiance[i] = sky_radiance(job->from, (vec3){rays->direction_x[i], rays->direction_y[i],
+                                                         rays->direction_z[i]});
+        }
+    }
+    alpi_gather_add_directional(job->gatherer, packet, aimed, radiance, sums);
+}
 
 /// Packets [first, first + count) of one receiver.
 static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t first,
@@ -260,11 +308,17 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
             if (job->from->sky) {
                 alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met, sums);
             }
+            if (job->directional != NULL) {
+                add_cells_directional(job, first + k, &packets[k], met, sums);
+            }
         } else {
             vec3 radiance[ALPI_PACKET];
             alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
                              NULL);
             alpi_gather_add(g, first + k, radiance, sums);
+            if (job->directional != NULL) { // panes move where rays start, not where they go
+                alpi_gather_add_directional(g, first + k, &packets[k], radiance, sums);
+            }
         }
     }
 }
@@ -277,7 +331,8 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
     const uint32_t packets = job->gatherer->packet_count;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = job->list != NULL ? job->list[i] : i;
-        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        alpi_gather_sums sums = {.lost = {0.0}};
+        sums.directional.width = alpi_horizon_width(packets * ALPI_PACKET);
         for (uint32_t first = 0; first < packets; first += ALPI_GATHER_BATCH) {
             const uint32_t left = packets - first;
             gather_batch(job, receiver, first, left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH,

@@ -5,6 +5,7 @@
 
 #include "scene/lighting.h"
 #include "scene/receivers.h"
+#include "transport/directional.h"
 #include "transport/reference.h"
 #include "transport/surface_light.h"
 
@@ -36,6 +37,8 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
 typedef struct alpi_gather_packet {
     alpi_rays rays; // unit directions
     uint32_t active;
+    vec3 normals[ALPI_PACKET];  // shading normals where they start
+    float cosines[ALPI_PACKET]; // to them
 } alpi_gather_packet;
 
 /// Aims packets [first, first + count) of a receiver, at most ALPI_GATHER_BATCH. Called by many
@@ -64,11 +67,13 @@ typedef struct alpi_gather_job {
     const uint32_t *list; // [count] receivers; NULL = all
     uint32_t count;
     // Out, of the receivers listed.
-    alpi_reference_value *values; // [receivers] E [W·m⁻²]; variance 0 with one replicate
-    float (*skies)[3];            // [receivers] or NULL: what of E is the sky's. Of surface light
-                                  // in cells without panes; else 0
-    float (*lost)[2];             // [receivers] or NULL: weights of the rays that left the scene,
-                                  // and of those that met a surface's black back; the same
+    alpi_reference_value *values;  // [receivers] E [W·m⁻²]; variance 0 with one replicate
+    float (*skies)[3];             // [receivers] or NULL: what of E is the sky's. Of surface light
+                                   // in cells without panes; else 0
+    float (*lost)[2];              // [receivers] or NULL: weights of the rays that left the scene,
+                                   // and of those that met a surface's black back; the same
+    alpi_directional *directional; // [receivers] or NULL
+    bool directional_without_sky;  // of surface light in cells without panes
 } alpi_gather_job;
 
 /// @return ALP_OK; CANCELLED. The same bits for any number of workers.
@@ -86,6 +91,7 @@ typedef struct alpi_gather_sums {
     double light[ALPI_GATHER_REPLICATE_LIMIT][3]; // Σ weight · L
     double sky[3];                                // of it
     double lost[2];
+    alpi_directional_sums directional;
 } alpi_gather_sums;
 void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
                      const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
@@ -96,6 +102,10 @@ void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gat
 void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            const uint32_t cells[ALPI_PACKET], const float (*light)[4],
                            alpi_gather_sums *sums);
+/// Adds light by its direction; pixels of a hemicube, whose weights differ, have no horizon apart.
+void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
+                                 const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
+                                 alpi_gather_sums *sums);
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value);
 /// Writes what a receiver gathered to the job's outputs.

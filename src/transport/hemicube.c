@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { STREAM_TURN = 7, STREAM_PLACE = 9 };
 enum { BLOCK_WIDTH = 4, BLOCK_HEIGHT = 2, FACES = 5 };
@@ -314,7 +315,12 @@ static void aim_receiver(const void *user, const alpi_receivers *receivers, uint
     const alpi_hemicube_frame frame =
         alpi_hemicube_frame_about(point.shading_normal, turn_of(o, receiver));
     for (uint32_t k = 0; k < count; k++) {
-        packets[k].active = aim(&o->cube->packets[first + k], &point, &frame, &packets[k].rays);
+        const alpi_hemicube_packet *pixels = &o->cube->packets[first + k];
+        packets[k].active = aim(pixels, &point, &frame, &packets[k].rays);
+        memcpy(packets[k].cosines, pixels->z, sizeof pixels->z);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            packets[k].normals[i] = frame.forward;
+        }
     }
 }
 

@@ -59,7 +59,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
         const uint32_t receiver = receiver_at(job, i);
         uint32_t(*cells)[ALPI_PACKET] =
             (uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
-        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
@@ -111,7 +111,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
         const uint32_t receiver = receiver_at(job, i);
         const uint32_t(*cells)[ALPI_PACKET] =
             (const uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
-        alpi_gather_sums sums = {{{0.0}}, {0.0}, {0.0}};
+        alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
             alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
         }

@@ -12,5 +12,8 @@ bake --bounces 0 --maps-dir direct --json direct.json | said
 bake --bounces 1 --maps-dir paths --json paths.json | said
 bake --bounces 0 --maps-dir again --threads 1 -q
 ls direct
+bake --bounces 1 --maps light,sh,direction --maps-dir directions | grep '^maps'
+ls directions
+cmp paths/irradiance.exr directions/irradiance.exr
 cmp direct/irradiance.exr again/irradiance.exr
 grep -ho '"[a-z_]*per[a-z_]*": [0-9]*' direct.json paths.json

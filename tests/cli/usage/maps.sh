@@ -8,3 +8,8 @@ try bake scene.glb --maps bent --maps-dir maps --existing-ao multiply
 try bake scene.glb --maps-dir maps --ao-bleed --time-limit 5
 try bake scene.glb --maps-dir maps --ao-bleed --keep-partial
 try bake scene.glb --maps-dir maps --ao-bleed --maps bent,ao
+try bake scene.glb --maps-dir maps --maps sh
+try bake scene.glb --maps-dir maps --maps ao,direction
+try bake scene.glb --maps-dir maps --maps light,sh --gather paths
+try bake scene.glb -o out.glb --maps light,sh --atlas vertex
+try bake scene.glb --maps-dir maps --maps light,probes

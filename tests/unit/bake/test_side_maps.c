@@ -252,6 +252,11 @@ static void senseless_combinations_are_refused(void **state)
     options = small_options(ALP_MAP_LIGHT);
     options.light.samples = 0;
     expect_refused(scene, &options);
+    options = small_options(ALP_MAP_AO | ALP_MAP_SH); // of no light
+    expect_refused(scene, &options);
+    options = small_options(ALP_MAP_LIGHT | ALP_MAP_DIRECTION);
+    options.light.gather = ALP_GATHER_PATHS;
+    expect_refused(scene, &options);
     options = small_options(ALP_MAP_LIGHT);
     options.ao_self = true;
     expect_refused(scene, &options);
