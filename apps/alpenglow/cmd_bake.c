@@ -87,18 +87,14 @@ static const char *find_given(const option_value *values, const named_option *na
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
-                                            {OPTION_BOUNCES, "--bounces"},
-                                            {OPTION_GATHER, "--gather"},
-                                            {OPTION_HEMICUBE, "--hemicube"},
-                                            {OPTION_DIRECT, "--direct"},
-                                            {OPTION_SKY, "--sky"},
-                                            {OPTION_SKY_TURN, "--sky-turn"},
-                                            {OPTION_SUN, "--sun"},
-                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
-                                            {OPTION_SUN_SIZE, "--sun-size"},
-                                            {OPTION_LAMP, "--lamp"},
-                                            {OPTION_SPOT, "--spot"}};
+    static const named_option of_light[] = {
+        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
+        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
+        {OPTION_DIRECT, "--direct"},     {OPTION_LAYERS, "--layers"},
+        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
+        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
+        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
+        {OPTION_SPOT, "--spot"}};
     static const named_option of_occlusion[] = {
         {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
         {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
@@ -282,6 +278,7 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->bounces = direct == DIRECT_ONLY ? 0 : lighting_bounces(a);
     o->samples = (uint32_t)values[OPTION_SAMPLES].whole;
     o->hemicube = (uint32_t)values[OPTION_HEMICUBE].whole;
+    o->layers = values[OPTION_LAYERS].given;
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
@@ -296,6 +293,12 @@ static int read_light(const command_line *a, alp_light_options *o)
     if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
         return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
                            values[OPTION_DIRECT].text);
+    }
+    if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
+        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
+    }
+    if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
     }
     if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
         return usage_error(COMMAND_BAKE, "--hemicube: needs --gather hemicube");
@@ -447,14 +450,24 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
-static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
-                          const alp_bake_report *r)
+static void print_layers(const alp_lightmap *lightmap)
+{
+    const uint32_t count = alp_lightmap_layer_count(lightmap);
+    for (uint32_t i = 0; i < count; i++) {
+        printf("%sirradiance.%s.exr%s", i == 0 ? "layers     " : ", ",
+               alp_lightmap_layer_name(lightmap, i), i + 1 == count ? "\n" : "");
+    }
+}
+
+static void print_summary(const session *s, const command_line *a, const alp_lightmap *lightmap,
+                          const alp_bake_options *o, const alp_bake_report *r)
 {
     if (o->output != NULL) {
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
         print_maps(o, r->maps, r->atlas.pages);
+        print_layers(lightmap);
     }
     if (o->only != NULL) {
         printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);
@@ -506,7 +519,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
-        print_summary(s, a, o, &report);
+        print_summary(s, a, lightmap, o, &report);
     }
     alp_lightmap_destroy(lightmap);
     if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {

@@ -148,6 +148,15 @@ typedef struct alp_light_options {
                        ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
                        ///< each light, to a multiple of 8. HEMICUBE: not read
     uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
+    /// Besides, a map of what each light gives alone, its reflections included: of each lamp and
+    /// sun, of each emissive material and of the sky, in this order. See alp_lightmap_layer_page.
+    /// Of more than 16, the last is "others", all that are left, with a warning "many-layers"; of
+    /// more than 64 lamps, suns or emissive materials all are one layer "lamps", "suns" or
+    /// "materials". The map of all light is then their sum. Not with PATHS. Layers see the rays of
+    /// the whole; cost: those once more, a look-up of each a layer, and some 40 bytes a texel and
+    /// layer. Where the rays of a round would take more than 1 GiB, and in scenes that light passes
+    /// through, they are traced again for each layer.
+    bool layers;
 } alp_light_options;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
@@ -207,8 +216,8 @@ typedef struct alp_bake_options {
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
-    /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_ATLAS_VERTEX:
-    /// NULL.
+    /// irradiance.exr and irradiance.error.exr (standard error of each channel), and of each layer
+    /// irradiance.NAME.exr. ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
@@ -307,6 +316,19 @@ ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t pa
 /// Based on: A. Méndez, M. Sbert, J. Catà. Real-time Obscurances with Color Bleeding. SCCG 2003.
 ALP_API const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, uint32_t page,
                                            uint32_t *width, uint32_t *height);
+
+/// Layers of light (alp_light_options.layers), 0 without.
+ALP_API uint32_t alp_lightmap_layer_count(const alp_lightmap *lightmap);
+/// What a layer is called: its light, its emissive material, "lamp 0" (of the options), "sun" (of
+/// the options), "sky" or "others"; fit for the name of a file (dots and what separates are "_", at
+/// most 64 bytes), and unlike all others and the names of other maps ("lamp", "lamp 2" …). NULL:
+/// there is no such layer. Owned by the lightmap.
+ALP_API const char *alp_lightmap_layer_name(const alp_lightmap *lightmap, uint32_t layer);
+/// A page of a layer, laid out like alp_lightmap_page, or NULL: E [W·m⁻²] by that light alone.
+/// Added up as floats, in order from the first layer on, the layers are ALP_MAP_LIGHT, bit for bit;
+/// ALP_MAP_DIRECT and ALP_MAP_BOUNCED add up to it within rounding.
+ALP_API const float *alp_lightmap_layer_page(const alp_lightmap *lightmap, uint32_t layer,
+                                             uint32_t page, uint32_t *width, uint32_t *height);
 /// The atlas the maps are laid out on, NULL with ALP_ATLAS_VERTEX. Owned by the lightmap.
 ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
 

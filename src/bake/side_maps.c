@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Maps beside occlusion: bent normals, which its rays give, coloured obscurance and irradiance,
 // which have rays of their own.
-#include "bake/job.h"
+#include "bake/layers.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -151,5 +151,5 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->direct, &l->direct_pages));
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bounced, &l->bounced_pages));
     }
-    return ALP_OK;
+    return alpi_bake_store_layers(job);
 }

@@ -467,9 +467,7 @@ static void finish(gather *g, uint32_t receiver)
                 all[r][k] += g->sums[p][r][k];
             }
         }
-        if (g->job->output->parts != NULL) {
-            g->job->output->parts[(size_t)receiver * d->part_count + p] = part;
-        }
+        alpi_direct_put_part(g->job->output, d->part_count, p, receiver, &part);
     }
     alpi_reference_value *value = &g->job->output->values[receiver];
     alpi_reference_mean((const double(*)[3])all, R, each, value);

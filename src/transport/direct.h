@@ -26,7 +26,7 @@ enum { ALPI_DIRECT_LIGHT_LIMIT = 64 };
 typedef struct alpi_direct_options {
     alp_context *context; // its workers, its memory
     const alp_scene *scene;
-    const alpi_tracer *tracer;
+    const alpi_tracer *tracer;     // NULL: nothing is asked but which parts there are
     const alpi_lighting *lighting; // all three borrowed
     alpi_trace_filter filter;
     uint32_t samples; // of each light at each receiver, rounded up to a multiple of REPLICATES
@@ -65,6 +65,8 @@ typedef struct alpi_direct_output {
     alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
                                   // order, are the mean of all; variances do not add up: parts
                                   // share the points of a receiver
+    float (*const *groups)[3];    // [groups][receivers] or NULL: the mean of part p is added to
+    const uint32_t *part_groups;  // groups[part_groups[p]]. [parts]
     uint64_t rays;                // that were sent from receivers; what goes on behind a pane
                                   // is still the ray that met it and is not counted again
 } alpi_direct_output;
