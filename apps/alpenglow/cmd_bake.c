@@ -87,14 +87,20 @@ static const char *find_given(const option_value *values, const named_option *na
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {
-        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
-        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
-        {OPTION_DIRECT, "--direct"},     {OPTION_LAYERS, "--layers"},
-        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
-        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
-        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
-        {OPTION_SPOT, "--spot"}};
+    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
+                                            {OPTION_BOUNCES, "--bounces"},
+                                            {OPTION_GATHER, "--gather"},
+                                            {OPTION_HEMICUBE, "--hemicube"},
+                                            {OPTION_DIRECT, "--direct"},
+                                            {OPTION_LAYERS, "--layers"},
+                                            {OPTION_DENOISE, "--denoise"},
+                                            {OPTION_SKY, "--sky"},
+                                            {OPTION_SKY_TURN, "--sky-turn"},
+                                            {OPTION_SUN, "--sun"},
+                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
+                                            {OPTION_SUN_SIZE, "--sun-size"},
+                                            {OPTION_LAMP, "--lamp"},
+                                            {OPTION_SPOT, "--spot"}};
     static const named_option of_occlusion[] = {
         {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
         {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
@@ -268,6 +274,20 @@ static int read_choice(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
+static int check_layers(const option_value *values, const alp_light_options *o)
+{
+    if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
+        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
+    }
+    if (o->layers && o->denoise) {
+        return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
+    }
+    if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
+    }
+    return EXIT_DONE;
+}
+
 /// How irradiance is gathered, and which.
 static int read_light(const command_line *a, alp_light_options *o)
 {
@@ -282,6 +302,10 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
+    o->denoise = values[OPTION_DENOISE].choice == 1;
+    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
+        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
+    }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
                            values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
@@ -294,12 +318,6 @@ static int read_light(const command_line *a, alp_light_options *o)
         return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
                            values[OPTION_DIRECT].text);
     }
-    if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
-        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
-    }
-    if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
-        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
-    }
     if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
         return usage_error(COMMAND_BAKE, "--hemicube: needs --gather hemicube");
     }
@@ -310,7 +328,7 @@ static int read_light(const command_line *a, alp_light_options *o)
         return usage_error(COMMAND_BAKE,
                            "--samples: are of rays; hemicubes have pixels, --hemicube N");
     }
-    return EXIT_DONE;
+    return check_layers(values, o);
 }
 
 static int read_options(const command_line *a, alp_bake_options *o, lamp_list *lamps)

@@ -144,18 +144,23 @@ typedef struct alp_light_options {
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
     /// more and more samples until it is stated. 0 (default): `samples` in one round.
     float error;
-    uint32_t samples;  ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
-                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
-                       ///< each light, to a multiple of 8. HEMICUBE: not read
+    uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
+                      ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
+                      ///< each light, to a multiple of 8. HEMICUBE: not read
+    /// RAYS: noise of the bounced light is taken off by neighbours in space, never across a wall
+    /// (docs/accuracy.md); then every texel is gathered. Default false.
+    bool denoise;
     uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
     /// Besides, a map of what each light gives alone, its reflections included: of each lamp and
     /// sun, of each emissive material and of the sky, in this order. See alp_lightmap_layer_page.
     /// Of more than 16, the last is "others", all that are left, with a warning "many-layers"; of
     /// more than 64 lamps, suns or emissive materials all are one layer "lamps", "suns" or
-    /// "materials". The map of all light is then their sum. Not with PATHS. Layers see the rays of
-    /// the whole; cost: those once more, a look-up of each a layer, and some 40 bytes a texel and
-    /// layer. Where the rays of a round would take more than 1 GiB, and in scenes that light passes
-    /// through, they are traced again for each layer.
+    /// "materials". The map of all light is then their sum: that without layers within rounding,
+    /// and where several rounds are gathered (error) within the noise. Its stated error is that of
+    /// the whole. Not with PATHS or denoise. Cost: the rays of each round once more, a look-up of
+    /// them a layer, and 37 bytes of a texel and layer, 12 more where materials are double-sided.
+    /// Where the rays of a round would take more than 1 GiB, and in scenes that light passes
+    /// through, they are traced again for each layer. Default false.
     bool layers;
 } alp_light_options;
 

@@ -22,6 +22,10 @@ alp_result alpi_bake_check_layers(const alpi_bake_job *job)
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: layers are of light; bake ALP_MAP_LIGHT too");
     }
+    if (o->light.denoise) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: what is denoised is no sum of layers; leave one of them out");
+    }
     if (o->light.gather == ALP_GATHER_PATHS && o->light.bounces > 0) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
                          "bake: paths gather all light together; rays or hemicubes tell layers "

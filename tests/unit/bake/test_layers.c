@@ -284,6 +284,9 @@ static void what_has_no_layers_is_refused(void **state)
     o.light.gather = ALP_GATHER_PATHS;
     assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     o = layer_options(NULL, 0);
+    o.light.denoise = true;
+    assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    o = layer_options(NULL, 0);
     o.maps = ALP_MAP_AO;
     assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     o.maps = ALP_MAP_LIGHT; // no light, no layer
