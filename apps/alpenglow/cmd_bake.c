@@ -91,7 +91,9 @@ static int check_light(const option_value *values, bool light, bool occlusion)
                                             {OPTION_BOUNCES, "--bounces"},
                                             {OPTION_GATHER, "--gather"},
                                             {OPTION_HEMICUBE, "--hemicube"},
-                                            {OPTION_DIRECT, "--direct"},     {OPTION_DENOISE, "--denoise"},
+                                            {OPTION_DIRECT, "--direct"},
+                                            {OPTION_LAYERS, "--layers"},
+                                            {OPTION_DENOISE, "--denoise"},
                                             {OPTION_SKY, "--sky"},
                                             {OPTION_SKY_TURN, "--sky-turn"},
                                             {OPTION_SUN, "--sun"},
@@ -295,6 +297,20 @@ static int read_choice(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
+static int check_layers(const option_value *values, const alp_light_options *o)
+{
+    if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
+        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
+    }
+    if (o->layers && o->denoise) {
+        return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
+    }
+    if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
+    }
+    return EXIT_DONE;
+}
+
 /// How irradiance is gathered, and which.
 static int read_light(const command_line *a, alp_light_options *o)
 {
@@ -305,6 +321,7 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->bounces = direct == DIRECT_ONLY ? 0 : lighting_bounces(a);
     o->samples = (uint32_t)values[OPTION_SAMPLES].whole;
     o->hemicube = (uint32_t)values[OPTION_HEMICUBE].whole;
+    o->layers = values[OPTION_LAYERS].given;
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
@@ -334,7 +351,7 @@ static int read_light(const command_line *a, alp_light_options *o)
         return usage_error(COMMAND_BAKE,
                            "--samples: are of rays; hemicubes have pixels, --hemicube N");
     }
-    return EXIT_DONE;
+    return check_layers(values, o);
 }
 
 static int read_options(const command_line *a, alp_bake_options *o, lamp_list *lamps)
@@ -476,14 +493,24 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
-static void print_summary(const session *s, const command_line *a, const alp_bake_options *o,
-                          const alp_bake_report *r)
+static void print_layers(const alp_lightmap *lightmap)
+{
+    const uint32_t count = alp_lightmap_layer_count(lightmap);
+    for (uint32_t i = 0; i < count; i++) {
+        printf("%sirradiance.%s.exr%s", i == 0 ? "layers     " : ", ",
+               alp_lightmap_layer_name(lightmap, i), i + 1 == count ? "\n" : "");
+    }
+}
+
+static void print_summary(const session *s, const command_line *a, const alp_lightmap *lightmap,
+                          const alp_bake_options *o, const alp_bake_report *r)
 {
     if (o->output != NULL) {
         printf("wrote      %s\n", o->output);
     }
     if (o->maps_folder != NULL) {
         print_maps(o, r->maps, r->atlas.pages);
+        print_layers(lightmap);
     }
     if (o->only != NULL) {
         printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);
@@ -535,7 +562,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
-        print_summary(s, a, o, &report);
+        print_summary(s, a, lightmap, o, &report);
     }
     alp_lightmap_destroy(lightmap);
     if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {

@@ -54,8 +54,6 @@ static const command_entry commands[COMMAND_COUNT] = {
         .name = (name_), .value = (value_), .help = (instead_)                                     \
     }
 
-static const char no_light[] = "--maps light bakes irradiance, all of it together";
-
 static const option options[] = {
     // --- output ---------------------------------------------------------------------------------
     {.id = OPTION_OUTPUT,
@@ -425,9 +423,10 @@ static const option options[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "off",
-     .help = "on: the noise of bounced light is taken off by neighbours in space, across charts and "
-             "never across a wall; direct light stays as it is. Then every texel gathers, and few "
-             "--samples do; means move by some tenths of a percent."},
+     .help =
+         "on: the noise of bounced light is taken off by neighbours in space, across charts and "
+         "never across a wall; direct light stays as it is. Then every texel gathers, and few "
+         "--samples do; means move by some tenths of a percent."},
     {.id = OPTION_DIRECT,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
@@ -441,6 +440,15 @@ static const option options[] = {
          "for a renderer that adds its own. only: nothing else, the same as --bounces 0. "
          "apart: in the map, and in irradiance.direct.exr, beside the rest in "
          "irradiance.bounced.exr."},
+    {.id = OPTION_LAYERS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_FLAG,
+     .name = "--layers",
+     .help = "Besides, a map of what each light gives alone, its reflections included: "
+             "irradiance.NAME.exr in --maps-dir for each lamp, sun, emissive material and the sky, "
+             "by their names. They add up to irradiance.exr exactly. Of more than 16 the last is "
+             "\"others\"."},
     {.id = OPTION_LIGHTMAP_AS,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
@@ -815,7 +823,6 @@ static const option options[] = {
      .help = "Print this."},
 
     // --- of the contract, not built yet ---------------------------------------------------------
-    LATER(IN_BAKE, "--layers", NULL, no_light),
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),

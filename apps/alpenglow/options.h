@@ -62,6 +62,7 @@ typedef enum option_id {
     OPTION_GATHER,
     OPTION_HEMICUBE,
     OPTION_DIRECT,
+    OPTION_LAYERS,
     OPTION_DENOISE,
     OPTION_SKY,
     OPTION_SKY_TURN,

@@ -134,6 +134,16 @@ static json_t *make_sampling(const alp_bake_report *r)
                      (json_int_t)r->unknown, "cut_off", (int)r->cut_off);
 }
 
+/// Names of the layers of light: irradiance.NAME.exr, in the order in which they add up.
+static json_t *make_layers(const alp_lightmap *lightmap)
+{
+    json_t *names = json_array();
+    for (uint32_t i = 0; i < alp_lightmap_layer_count(lightmap); i++) {
+        json_array_append_new(names, json_text(alp_lightmap_layer_name(lightmap, i)));
+    }
+    return names;
+}
+
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r)
 {
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
@@ -157,6 +167,10 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
             document, "light",
             json_pack("{s:I, s:o}", r->light_direct ? "samples_per_light" : "paths_per_texel",
                       (json_int_t)r->light_samples, "mean_irradiance", json_number(r->light_mean)));
+        if (alp_lightmap_layer_count(lightmap) > 0) {
+            json_object_set_new(json_object_get(document, "light"), "layers",
+                                make_layers(lightmap));
+        }
         json_object_set_new(error, "irradiance",
                             json_pack("{s:o, s:o}", "relative",
                                       json_number(r->light_relative_error), "p99",

@@ -147,13 +147,24 @@ typedef struct alp_light_options {
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
     /// more and more samples until it is stated. 0 (default): `samples` in one round.
     float error;
-    uint32_t samples;  ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
-                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
-                       ///< each light, to a multiple of 8. HEMICUBE: not read
+    uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
+                      ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
+                      ///< each light, to a multiple of 8. HEMICUBE: not read
     /// RAYS: noise of the bounced light is taken off by neighbours in space, never across a wall
     /// (docs/accuracy.md); then every texel is gathered. Default false.
     bool denoise;
     uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
+    /// Besides, a map of what each light gives alone, its reflections included: of each lamp and
+    /// sun, of each emissive material and of the sky, in this order. See alp_lightmap_layer_page.
+    /// Of more than 16, the last is "others", all that are left, with a warning "many-layers"; of
+    /// more than 64 lamps, suns or emissive materials all are one layer "lamps", "suns" or
+    /// "materials". The map of all light is then their sum: that without layers within rounding,
+    /// and where several rounds are gathered (error) within the noise. Its stated error is that of
+    /// the whole. Not with PATHS or denoise. Cost: the rays of each round once more, a look-up of
+    /// them a layer, and 37 bytes of a texel and layer, 12 more where materials are double-sided.
+    /// Where the rays of a round would take more than 1 GiB, and in scenes that light passes
+    /// through, they are traced again for each layer. Default false.
+    bool layers;
 } alp_light_options;
 
 /// Values of alp_sampling_options.accuracy that are no accuracy.
@@ -213,8 +224,9 @@ typedef struct alp_bake_options {
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
-    /// irradiance.exr and irradiance.error.exr (standard error of each channel). ALP_MAP_SH:
-    /// sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr. ALP_ATLAS_VERTEX: NULL.
+    /// irradiance.exr and irradiance.error.exr (standard error of each channel), and of each layer
+    /// irradiance.NAME.exr. ALP_MAP_SH: sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr.
+    /// ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
@@ -337,6 +349,19 @@ ALP_API const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map
 /// @param index 0 to 3
 ALP_API const float *alp_lightmap_sh_page(const alp_lightmap *lightmap, uint32_t index,
                                           uint32_t page, uint32_t *width, uint32_t *height);
+
+/// Layers of light (alp_light_options.layers), 0 without.
+ALP_API uint32_t alp_lightmap_layer_count(const alp_lightmap *lightmap);
+/// What a layer is called: its light, its emissive material, "lamp 0" (of the options), "sun" (of
+/// the options), "sky" or "others"; fit for the name of a file (dots and what separates are "_", at
+/// most 64 bytes), and unlike all others and the names of other maps ("lamp", "lamp 2" …). NULL:
+/// there is no such layer. Owned by the lightmap.
+ALP_API const char *alp_lightmap_layer_name(const alp_lightmap *lightmap, uint32_t layer);
+/// A page of a layer, laid out like alp_lightmap_page, or NULL: E [W·m⁻²] by that light alone.
+/// Added up as floats, in order from the first layer on, the layers are ALP_MAP_LIGHT, bit for bit;
+/// ALP_MAP_DIRECT and ALP_MAP_BOUNCED add up to it within rounding.
+ALP_API const float *alp_lightmap_layer_page(const alp_lightmap *lightmap, uint32_t layer,
+                                             uint32_t page, uint32_t *width, uint32_t *height);
 /// The atlas the maps are laid out on, NULL with ALP_ATLAS_VERTEX. Owned by the lightmap.
 ALP_API const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
-#include "bake/job.h"
+#include "bake/layers.h"
 
 #include "atlas/choice.h"
 #include "base/memory.h"
@@ -54,6 +54,7 @@ static alp_result check_options(const alpi_bake_job *job)
     ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_bake_check_maps(job));
     ALP_TRY(alpi_bake_check_light_asset(job));
+    ALP_TRY(alpi_bake_check_layers(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     if (job->scene->usable_count == 0) {
         return alpi_fail(
@@ -108,6 +109,7 @@ static alp_result run(alpi_bake_job *job)
         return alpi_bake_vertices(job);
     }
     ALP_TRY(alpi_bake_plan_packing(job));
+    ALP_TRY(alpi_bake_plan_layers(job));
     ALP_TRY(alpi_bake_check_outputs(job, 1));
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
@@ -146,6 +148,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_release(job.context, job.originals);
     alpi_bake_release_packing(&job);
     alpi_bake_release_light_asset(&job);
+    alpi_bake_release_layers(&job);
     if (result != ALP_OK && folder_is_new) {
         rmdir(folder); // only if empty: nothing was written is then true
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Irradiance at the texels of a bake: direct light alone, or all of it, by radiosity or by the
 // reference.
+#include "bake/layers.h"
 #include "bake/light.h"
 
 #include "base/memory.h"
@@ -66,9 +67,17 @@ static alp_result gather_direct(alpi_bake_job *job, const alpi_light_task *t)
     };
     alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = t->values, .directional = t->directional};
+    alpi_light_layers *layers = alpi_bake_light_layers(job, false);
+    if (layers != NULL) {
+        const uint32_t texels = t->receivers->count;
+        ALP_TRY(alpi_light_layers_reserve(layers, texels, 0, texels));
+        output.groups = layers->direct;
+        output.part_groups = layers->part_layers;
+    }
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
         alpi_direct_irradiance(direct, t->receivers, t->order, t->count, &t->progress, &output);
+    alpi_bake_sum_layers(job, t->order, t->count, NULL, true, t->values);
     job->report.light_samples = alpi_direct_samples(direct);
     job->report.rays += output.rays;
     alpi_direct_destroy(direct);

@@ -3,6 +3,7 @@
 #ifndef ALPI_BAKE_JOB_H
 #define ALPI_BAKE_JOB_H
 
+#include "maps/light_layers.h"
 #include "maps/lightmap.h"
 #include "maps/validity.h"
 #include "transport/directional.h"
@@ -33,6 +34,14 @@ typedef struct alpi_light_asset {
     float scale;   // the largest of those that are used
 } alpi_light_asset;
 
+/// Layers of light: none unless they are asked for.
+typedef struct alpi_layer_plan {
+    alpi_light_layers light;       // room is made where light is gathered
+    char *names[ALPI_LAYER_LIMIT]; // [light.count] unlike, and fit for names of files
+    uint32_t *part_layers;         // [parts of direct light] the layer of each
+    uint32_t sky;                  // its layer; ALPI_NONE: there is none
+} alpi_layer_plan;
+
 typedef struct alpi_bake_job {
     const alp_scene *scene;
     alp_context *context;
@@ -48,6 +57,7 @@ typedef struct alpi_bake_job {
     alpi_validity validity;                          // while sampling
     alpi_packing packing;
     alpi_light_asset light_asset;
+    alpi_layer_plan layers;
     alp_bake_report report;
 } alpi_bake_job;
 

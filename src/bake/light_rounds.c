@@ -2,6 +2,7 @@
 // Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
 // larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
 // their own; what they find is averaged by their numbers of samples.
+#include "bake/layers.h"
 #include "bake/light.h"
 
 #include "base/memory.h"
@@ -91,7 +92,8 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
     job->report.light_traced = report.traced;
     job->report.light_interpolated = report.interpolated;
     job->report.rays += report.rays;
-    return ALP_OK;
+    return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, r->states,
+                                   (double)rays / ((double)r->rays + rays), &t->progress);
 }
 
 /// Mean of two estimates by their numbers of samples.
@@ -159,6 +161,23 @@ static uint32_t list_noisy(const rounds *r, double variance)
     return count;
 }
 
+/// Direct light of layers is averaged in place: what comes is added to `had / more` times what
+/// there is, and the sum, `merged`, made the mean.
+static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool merged)
+{
+    const alpi_light_layers *l = &r->job->layers.light;
+    for (uint32_t layer = 0; layer < l->count; layer++) {
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t t = r->list[i];
+            const double had = r->counts[t];
+            const float factor = (float)(merged ? more / (had + more) : had / more);
+            for (int k = 0; k < 3; k++) {
+                l->direct[layer][t][k] *= factor;
+            }
+        }
+    }
+}
+
 /// Direct light by `factor` times the samples they have for the texels that are noisy, with
 /// `wanted` the root mean square that would do.
 static alp_result add_direct(rounds *r, double factor, double wanted)
@@ -169,8 +188,10 @@ static alp_result add_direct(rounds *r, double factor, double wanted)
     const double most = fmin(factor * r->direct, (double)(MOST_SAMPLES - r->direct));
     const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), 1);
     alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
+    scale_layers(r, count, samples, false);
     ALP_TRY(
         alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
+    scale_layers(r, count, samples, true);
     r->job->report.rays += output.rays;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t texel = r->list[i];
@@ -374,6 +395,8 @@ static void put_together(const rounds *r)
                                  &r->solution->directional[texel], 1.0f);
         }
     }
+    alpi_bake_sum_layers(job, r->task->order, r->task->count, (const float(*)[3])r->skies, on,
+                         r->task->values);
 }
 
 alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake will need, known as soon as the atlas is: better a message now than a killed process
 // after an hour.
-#include "bake/job.h"
+#include "bake/layers.h"
 
 #include <unistd.h>
 
@@ -57,8 +57,9 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *o
 alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    double needed =
-        (double)alpi_bake_memory(atlas, &job->options) + (double)alpi_bake_packing_memory(job);
+    const double needed = (double)alpi_bake_memory(atlas, &job->options) +
+                          (double)alpi_bake_packing_memory(job) +
+                          (double)alpi_bake_layers_memory(job, atlas);
     double present = (double)pages * (double)page_size;
     const uint64_t limit = job->options.sampling.memory_limit;
     if (limit > 0 && needed > (double)limit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a bake leaves on the disk: maps as EXR and PNG, and the patched asset.
-#include "bake/job.h"
+#include "bake/layers.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -108,6 +108,7 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
+        ALP_TRY(alpi_bake_check_layer_files(job, pages));
         for (uint32_t p = 0; p < pages; p++) {
             for (int kind = 0; kind < MAP_COUNT; kind++) {
                 if (is_written(o, kind)) {
@@ -439,7 +440,8 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
 /// All maps to temporary files, then the asset, then the maps to their places.
 static alp_result write_files(const alpi_bake_job *job, const encoded_page *pages)
 {
-    uint32_t count = job->options.maps_folder ? MAP_COUNT * job->lightmap->page_count : 0;
+    const uint32_t maps = job->options.maps_folder ? MAP_COUNT * job->lightmap->page_count : 0;
+    const uint32_t count = maps + alpi_bake_layer_file_count(job);
     alpi_file_writer *writers = ALPI_NEW(job->context, alpi_file_writer, count);
     if (writers == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -447,7 +449,10 @@ static alp_result write_files(const alpi_bake_job *job, const encoded_page *page
     for (uint32_t i = 0; i < count; i++) {
         writers[i] = (alpi_file_writer){.context = job->context, .descriptor = -1};
     }
-    alp_result result = count > 0 ? append_maps(job, pages, writers) : ALP_OK;
+    alp_result result = maps > 0 ? append_maps(job, pages, writers) : ALP_OK;
+    if (result == ALP_OK) {
+        result = alpi_bake_append_layers(job, writers + maps);
+    }
     if (result == ALP_OK && job->options.output != NULL) {
         result = alpi_bake_is_viewer_file(&job->options) ? alpi_bake_write_viewer_file(job)
                                                          : write_asset(job, pages);

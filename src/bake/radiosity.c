@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
+#include "bake/layers.h"
 #include "bake/light.h"
 
 #include "maps/radiosity.h"
@@ -78,6 +79,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
     options.seed = o->occlusion.seed;
+    options.layers = alpi_bake_light_layers(job, direct != t->lighting);
     alpi_radiosity solution;
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));

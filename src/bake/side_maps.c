@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Maps beside occlusion: bent normals, which its rays give, coloured obscurance and irradiance,
 // which have rays of their own.
-#include "bake/job.h"
+#include "bake/layers.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -217,5 +217,5 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
     if (job->directional != NULL) {
         ALP_TRY(store_light_by_direction(job));
     }
-    return ALP_OK;
+    return alpi_bake_store_layers(job);
 }

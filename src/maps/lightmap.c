@@ -31,6 +31,12 @@ void alp_lightmap_destroy(alp_lightmap *lightmap)
         release_pages(lightmap, lightmap->sh_pages[i]);
     }
     release_pages(lightmap, lightmap->direction_pages);
+    for (uint32_t i = 0; i < lightmap->layer_count; i++) {
+        release_pages(lightmap, lightmap->layer_pages[i]);
+        alpi_release(context, lightmap->layer_names[i]);
+    }
+    alpi_release(context, lightmap->layer_pages);
+    alpi_release(context, lightmap->layer_names);
     alpi_release(context, lightmap->vertex_values);
     alpi_release(context, lightmap->errors);
     alpi_release(context, lightmap->states);
@@ -298,6 +304,24 @@ const float *alp_lightmap_sh_page(const alp_lightmap *lightmap, uint32_t index, 
     const bool there = alp_lightmap_page(lightmap, page, width, height) != NULL && index < 4 &&
                        lightmap->sh_pages[index] != NULL;
     return there ? lightmap->sh_pages[index][page] : NULL;
+}
+
+uint32_t alp_lightmap_layer_count(const alp_lightmap *lightmap)
+{
+    return lightmap ? lightmap->layer_count : 0;
+}
+
+const char *alp_lightmap_layer_name(const alp_lightmap *lightmap, uint32_t layer)
+{
+    return layer < alp_lightmap_layer_count(lightmap) ? lightmap->layer_names[layer] : NULL;
+}
+
+const float *alp_lightmap_layer_page(const alp_lightmap *lightmap, uint32_t layer, uint32_t page,
+                                     uint32_t *width, uint32_t *height)
+{
+    const bool there = layer < alp_lightmap_layer_count(lightmap) &&
+                       alp_lightmap_page(lightmap, page, width, height) != NULL;
+    return there ? lightmap->layer_pages[layer][page] : NULL;
 }
 
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)

@@ -26,6 +26,9 @@ struct alp_lightmap {
     float **irradiance_pages, **irradiance_error_pages; // W·m⁻², and its standard error
     float **direct_pages, **bounced_pages;              // W·m⁻², of which irradiance is the sum
     float **sh_pages[4], **direction_pages;             // W·m⁻²; unit, world space
+    uint32_t layer_count;
+    char **layer_names;   // [layer_count] owned
+    float ***layer_pages; // [layer_count] W·m⁻², of which irradiance is the sum as well
 };
 
 /// Takes the atlas over (also on failure) and makes its texels; pages are zero.

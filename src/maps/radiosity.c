@@ -15,7 +15,8 @@ typedef struct solver {
     alpi_gather_scene from;
     alpi_receivers blocks;
     alpi_kept_rays kept;
-    uint32_t *new_receivers; // [sides × blocks]
+    uint32_t *new_receivers;             // [sides × blocks]
+    alpi_reference_value *layer_bounced; // [sides × blocks] with layers
     alpi_task_progress progress;
 } solver;
 
@@ -59,6 +60,10 @@ alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t
                                          .samples = samples,
                                          .seed = seed};
     alpi_direct *direct = NULL;
+    if (o->layers != NULL) {
+        output->groups = o->layers->direct;
+        output->part_groups = o->layers->part_layers;
+    }
     const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
@@ -193,13 +198,25 @@ static alp_result find_receivers(solver *s)
 
 // --- passes --------------------------------------------------------------------------------------
 
-static void light_cell(const alpi_radiosity *r, uint32_t texel, alpi_side side)
+/// Light that cells are lit by.
+typedef struct shown_light {
+    const alpi_radiosity *radiosity;
+    uint32_t layer; // ALPI_NONE: all
+} shown_light;
+
+static void light_cell(const shown_light *s, uint32_t texel, alpi_side side)
 {
+    static const float none[3] = {0.0f, 0.0f, 0.0f};
+    const alpi_radiosity *r = s->radiosity;
     const alpi_patches *p = &r->patches;
+    const alpi_light_layers *layers = r->options.layers;
     const size_t back = side == ALPI_BACK ? 1 : 0;
-    const float *bounced = r->bounced[back * p->block_count + p->blocks[texel]].mean;
-    const float *sky = r->skies[back * p->block_count + p->blocks[texel]];
-    const float *direct = r->direct[back * p->texels->count + texel].mean;
+    const size_t block = back * p->block_count + p->blocks[texel];
+    const size_t place = back * p->texels->count + texel;
+    const bool all = s->layer == ALPI_NONE;
+    const float *bounced = all ? r->before[block] : layers->before[s->layer][block];
+    const float *sky = all || s->layer == layers->sky ? r->skies[block] : none;
+    const float *direct = all ? r->direct[place].mean : layers->direct[s->layer][place];
     float *cell = p->cells[alpi_patches_cell(p, texel, side)];
     for (int k = 0; k < 3; k++) {
         cell[k] =
@@ -207,23 +224,55 @@ static void light_cell(const alpi_radiosity *r, uint32_t texel, alpi_side side)
     }
 }
 
-/// Radiance of all patches, by their direct light and what was gathered last. Backs that nobody
+/// Radiance of all patches, by their direct light and what was gathered before. Backs that nobody
 /// sees are black.
 static alp_result light_cells(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
-    const alpi_radiosity *r = user;
+    const shown_light *s = user;
+    const alpi_patches *p = &s->radiosity->patches;
     for (uint32_t t = begin; t < end; t++) {
-        const uint32_t block = r->patches.blocks[t];
+        const uint32_t block = p->blocks[t];
         if (block == ALPI_NONE) {
             continue;
         }
-        light_cell(r, t, ALPI_FRONT);
-        if (r->patches.two_sided && r->patches.seen_backs[block] == ALPI_BACK_LIT) {
-            light_cell(r, t, ALPI_BACK);
+        light_cell(s, t, ALPI_FRONT);
+        if (p->two_sided && p->seen_backs[block] == ALPI_BACK_LIT) {
+            light_cell(s, t, ALPI_BACK);
         }
     }
     return ALP_OK;
+}
+
+alp_result alpi_radiosity_show(const alpi_radiosity *radiosity, uint32_t layer,
+                               const alpi_task_progress *progress)
+{
+    shown_light shown = {radiosity, layer};
+    return alpi_parallel_for(radiosity->options.context, radiosity->patches.texels->count,
+                             TEXELS_PER_RANGE, light_cells, &shown, progress);
+}
+
+/// What the receivers gather of the light in the cells now.
+static alp_result gather_pass(const solver *s, alpi_reference_value *values)
+{
+    alpi_radiosity *r = s->r;
+    alpi_gather_job job = job_of(s, r->receivers, r->receiver_count);
+    job.values = values;
+    job.skies = NULL; // known
+    if (r->kept) {
+        return alpi_kept_rays_gather(&job, &s->kept, &s->progress);
+    }
+    r->rays += (uint64_t)job.count * job.gatherer->packet_count * ALPI_PACKET;
+    return alpi_gather_irradiance(&job, &s->progress);
+}
+
+/// Takes over what was gathered.
+static void keep_means(const alpi_radiosity *r, const alpi_reference_value *values,
+                       float (*before)[3])
+{
+    for (uint32_t i = 0; i < r->receiver_count; i++) {
+        memcpy(before[r->receivers[i]], values[r->receivers[i]].mean, sizeof *before);
+    }
 }
 
 static double sum_of(const float v[3])
@@ -274,22 +323,9 @@ static alp_result pass(solver *s, double *change)
 {
     alpi_radiosity *r = s->r;
     double sums[ALPI_SUM_LIMIT] = {0.0};
-    ALP_TRY(alpi_parallel_for(r->options.context, r->patches.texels->count, TEXELS_PER_RANGE,
-                              light_cells, r, &s->progress));
-    for (uint32_t i = 0; i < r->receiver_count; i++) {
-        const uint32_t receiver = r->receivers[i];
-        for (int k = 0; k < 3; k++) {
-            r->before[receiver][k] = r->bounced[receiver].mean[k];
-        }
-    }
-    alpi_gather_job job = job_of(s, r->receivers, r->receiver_count);
-    job.skies = NULL; // known
-    if (r->kept) {
-        ALP_TRY(alpi_kept_rays_gather(&job, &s->kept, &s->progress));
-    } else {
-        r->rays += (uint64_t)job.count * job.gatherer->packet_count * ALPI_PACKET;
-        ALP_TRY(alpi_gather_irradiance(&job, &s->progress));
-    }
+    keep_means(r, r->bounced, r->before);
+    ALP_TRY(alpi_radiosity_show(r, ALPI_NONE, &s->progress));
+    ALP_TRY(gather_pass(s, r->bounced));
     ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_changes, r, &s->progress,
                               sums));
     *change = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
@@ -324,6 +360,27 @@ static alp_result run_passes(solver *s)
         former = change;
     }
     return ALP_OK;
+}
+
+/// The passes of the whole again for each layer, without the last, which is the texels' own. As
+/// many for all: what is left out of the whole is left out of each.
+static alp_result run_layers(solver *s)
+{
+    const alpi_radiosity *r = s->r;
+    const alpi_light_layers *layers = r->options.layers;
+    if (layers == NULL) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(r->options.context, s->layer_bounced,
+                 sides_of(&r->patches) * r->patches.block_count);
+    for (uint32_t layer = 0; layer < layers->count; layer++) {
+        for (uint32_t passes = 1; passes < r->passes; passes++) {
+            ALP_TRY(alpi_radiosity_show(r, layer, &s->progress));
+            ALP_TRY(gather_pass(s, s->layer_bounced));
+            keep_means(r, s->layer_bounced, layers->before[layer]);
+        }
+    }
+    return alpi_radiosity_show(r, ALPI_NONE, &s->progress);
 }
 
 // --- energy --------------------------------------------------------------------------------------
@@ -388,7 +445,10 @@ static alp_result allocate(solver *s)
     ALPI_TRY_NEW(context, r->lost, blocks);
     ALPI_TRY_NEW(context, r->receivers, blocks);
     ALPI_TRY_NEW(context, s->new_receivers, blocks);
-    return ALP_OK;
+    return r->options.layers == NULL
+               ? ALP_OK
+               : alpi_light_layers_reserve(r->options.layers, sides_of(p) * p->texels->count,
+                                           blocks, p->texels->count);
 }
 
 static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
@@ -400,7 +460,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     ALP_TRY(find_receivers(s));
     ALP_TRY(run_passes(s));
     find_energy(s->r);
-    return ALP_OK;
+    return run_layers(s);
 }
 
 alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alpi_lattice *lattice,
@@ -415,6 +475,7 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
     const alp_result result = solve(&s, order, count);
     alpi_kept_rays_destroy(&s.kept);
     alpi_release(options->context, s.new_receivers);
+    alpi_release(options->context, s.layer_bounced);
     if (result != ALP_OK) {
         alpi_radiosity_destroy(radiosity);
     }

@@ -13,6 +13,7 @@
 #ifndef ALPI_MAPS_RADIOSITY_H
 #define ALPI_MAPS_RADIOSITY_H
 
+#include "maps/light_layers.h"
 #include "maps/patches.h"
 #include "transport/direct.h"
 
@@ -36,6 +37,7 @@ typedef struct alpi_radiosity_options {
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
                 // gathers sees: enough for light on fronts
     uint64_t seed;
+    alpi_light_layers *layers; // NULL, or filled, but for what the texels gather
 } alpi_radiosity_options;
 
 /// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
@@ -83,7 +85,14 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity);
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
 
-/// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples.
+/// Puts the light of one layer into the cells, as it goes into the last bounce; ALPI_NONE: of all
+/// of them, which is there after solving.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_radiosity_show(const alpi_radiosity *radiosity, uint32_t layer,
+                               const alpi_task_progress *progress);
+
+/// Direct light of listed texels (fronts, then backs) as the solution's own, by other samples. That
+/// of each layer is added to what it has.
 /// @param output [sides × texels] of those listed
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,

@@ -153,7 +153,7 @@ alp_result alpi_direct_create(const alpi_direct_options *options, alpi_direct **
     }
     const uint32_t replicates = ALPI_DIRECT_REPLICATES;
     made->options = *options;
-    made->options.filter.panes = alpi_tracer_has_panes(options->tracer);
+    made->options.filter.panes = options->tracer != NULL && alpi_tracer_has_panes(options->tracer);
     made->samples = options->samples / replicates * replicates;
     made->samples += made->samples < options->samples || made->samples == 0 ? replicates : 0;
     alp_result result = collect_lights(made);
@@ -206,4 +206,15 @@ const alpi_direct_part *alpi_direct_parts(const alpi_direct *direct, uint32_t *c
 {
     *count = direct->part_count;
     return direct->parts;
+}
+
+void alpi_direct_put_part(const alpi_direct_output *output, uint32_t part_count, uint32_t part,
+                          uint32_t receiver, const alpi_reference_value *value)
+{
+    if (output->parts != NULL) {
+        output->parts[(size_t)receiver * part_count + part] = *value;
+    }
+    for (int k = 0; k < 3 && output->groups != NULL; k++) {
+        output->groups[output->part_groups[part]][receiver][k] += value->mean[k];
+    }
 }

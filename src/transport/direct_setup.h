@@ -38,4 +38,8 @@ struct alpi_direct {
 /// The most rays that a receiver may take. @param extended see alpi_receivers
 double alpi_direct_most_rays(const alpi_direct *direct, bool extended);
 
+/// Writes one part of a receiver to the parts and groups of an output.
+void alpi_direct_put_part(const alpi_direct_output *output, uint32_t part_count, uint32_t part,
+                          uint32_t receiver, const alpi_reference_value *value);
+
 #endif

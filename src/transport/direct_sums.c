@@ -52,9 +52,7 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
                 all[r][k] += sums[p][r][k];
             }
         }
-        if (output->parts != NULL) {
-            output->parts[(size_t)receiver * d->part_count + p] = part;
-        }
+        alpi_direct_put_part(output, d->part_count, p, receiver, &part);
     }
     alpi_reference_value *value = &output->values[receiver];
     alpi_reference_mean((const double(*)[3])all, R, each, value);

@@ -2,7 +2,7 @@
 # every option and command of the contract that is not built yet is refused by name
 . "$(dirname "$0")/helpers.bash"
 for option in --bounces --direct --gather --samples --units \
-    --layers --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as \
+    --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as \
     --denoise --stitch --checkpoint --resume; do
     try bake scene.glb -o out.glb $option
     try bake scene.glb -o out.glb $option=1

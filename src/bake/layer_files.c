@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Layers of light as files of the maps folder: irradiance.NAME.exr, irradiance.NAME.1.exr …
+#include "bake/layers.h"
+
+#include "base/memory.h"
+#include "formats/formats.h"
+
+static bool is_written(const alpi_bake_job *job)
+{
+    return job->options.maps_folder != NULL && job->layers.light.count > 0;
+}
+
+static char *path_of(const alpi_bake_job *job, uint32_t layer, uint32_t page)
+{
+    const char *folder = job->options.maps_folder, *name = job->layers.names[layer];
+    return page == 0 ? alpi_format(job->context, "%s/irradiance.%s.exr", folder, name)
+                     : alpi_format(job->context, "%s/irradiance.%s.%u.exr", folder, name, page);
+}
+
+static alp_result check_file(const alpi_bake_job *job, uint32_t layer, uint32_t page)
+{
+    char *path = path_of(job, layer, page);
+    if (path == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = alpi_file_check_writable(job->context, path, job->options.overwrite);
+    alpi_release(job->context, path);
+    return result;
+}
+
+alp_result alpi_bake_check_layer_files(const alpi_bake_job *job, uint32_t pages)
+{
+    for (uint32_t i = 0; is_written(job) && i < job->layers.light.count; i++) {
+        for (uint32_t p = 0; p < pages; p++) {
+            ALP_TRY(check_file(job, i, p));
+        }
+    }
+    return ALP_OK;
+}
+
+uint32_t alpi_bake_layer_file_count(const alpi_bake_job *job)
+{
+    return is_written(job) ? job->layers.light.count * job->lightmap->page_count : 0;
+}
+
+static alp_result append_page(const alpi_bake_job *job, uint32_t layer, uint32_t page,
+                              alpi_file_writer *writer)
+{
+    const alp_lightmap *l = job->lightmap;
+    const alp_image view = {.context = job->context,
+                            .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
+                            .pixels = l->layer_pages[layer][page]};
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    char *path = path_of(job, layer, page);
+    if (path == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = alpi_exr_encode(&view, &bytes, &size);
+    if (result == ALP_OK) {
+        result = alpi_file_open(job->context, path, job->options.overwrite, writer);
+    }
+    if (result == ALP_OK) {
+        result = alpi_file_append(writer, bytes, size);
+    }
+    alpi_release(job->context, bytes);
+    alpi_release(job->context, path);
+    return result;
+}
+
+alp_result alpi_bake_append_layers(const alpi_bake_job *job, alpi_file_writer *writers)
+{
+    const uint32_t pages = job->lightmap->page_count, count = alpi_bake_layer_file_count(job);
+    for (uint32_t i = 0; i < count; i++) {
+        ALP_TRY(append_page(job, i / pages, i % pages, &writers[i]));
+    }
+    return ALP_OK;
+}

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// Which layers of light there are and what they are called, what each gets, and where it goes.
+#include "bake/layers.h"
+
+#include "base/memory.h"
+#include "maps/bounced_again.h"
+#include "transport/direct.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/// Names are cut at this many bytes: file names have 255, other parts of them included.
+enum { NAME_LIMIT = 64 };
+
+alp_result alpi_bake_check_layers(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if (!o->light.layers) {
+        return ALP_OK;
+    }
+    if ((o->maps & ALP_MAP_LIGHT) == 0) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: layers are of light; bake ALP_MAP_LIGHT too");
+    }
+    if (o->light.denoise) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: what is denoised is no sum of layers; leave one of them out");
+    }
+    if (o->light.gather == ALP_GATHER_PATHS && o->light.bounces > 0) {
+        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "bake: paths gather all light together; rays or hemicubes tell layers "
+                         "apart");
+    }
+    return ALP_OK;
+}
+
+// --- names ---------------------------------------------------------------------------------------
+
+/// As it may stand in the name of a file, on any system, and never be taken for a number or an
+/// ending: without dots, separators, and what shells of other systems refuse.
+static char *make_safe(alp_context *context, const char *name, const char *otherwise)
+{
+    char text[NAME_LIMIT + 1];
+    size_t size = strlen(name);
+    if (size > NAME_LIMIT) {
+        size = NAME_LIMIT;
+        while (size > 0 && ((unsigned char)name[size] & 0xC0u) == 0x80u) { // not inside a character
+            size--;
+        }
+    }
+    for (size_t i = 0; i < size; i++) {
+        const unsigned char c = (unsigned char)name[i];
+        text[i] = c < 0x20 || c == 0x7F || strchr("./\\:*?\"<>|", c) != NULL ? '_' : name[i];
+    }
+    while (size > 0 && text[size - 1] == ' ') {
+        size--;
+    }
+    text[size] = '\0';
+    return alpi_copy_string(context, size > 0 ? text : otherwise);
+}
+
+static bool is_alike(const char *a, const char *b)
+{
+    while (*a != '\0' && tolower((unsigned char)*a) == tolower((unsigned char)*b)) {
+        a++;
+        b++;
+    }
+    return *a == *b;
+}
+
+/// Whether a file of this name would be another one: a further page, another map, or a layer, also
+/// where capitals count for nothing.
+static bool is_taken(const alpi_layer_plan *plan, const char *name)
+{
+    static const char *const maps[] = {"error", "direct", "bounced", "sh", "direction"};
+    if (strspn(name, "0123456789") == strlen(name)) {
+        return true;
+    }
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
+        if (is_alike(name, maps[i])) {
+            return true;
+        }
+    }
+    for (uint32_t i = 0; i < plan->light.count; i++) {
+        if (is_alike(name, plan->names[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Adds a layer. The second of a name is "NAME 2".
+static alp_result add_layer(alp_context *context, alpi_layer_plan *plan, const char *name,
+                            const char *otherwise)
+{
+    char *safe = make_safe(context, name, otherwise);
+    char *unique = safe != NULL ? alpi_copy_string(context, safe) : NULL;
+    for (uint32_t n = 2; unique != NULL && is_taken(plan, unique); n++) {
+        alpi_release(context, unique);
+        unique = alpi_format(context, "%s %u", safe, n);
+    }
+    alpi_release(context, safe);
+    if (unique == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    plan->names[plan->light.count++] = unique;
+    return ALP_OK;
+}
+
+static alp_result name_part(const alpi_bake_job *job, const alpi_lighting *lighting,
+                            const alpi_direct_part *part, alpi_layer_plan *plan)
+{
+    alp_context *context = job->context;
+    switch (part->kind) {
+    case ALPI_DIRECT_LIGHT:
+        return add_layer(context, plan, alpi_lighting_light(lighting, part->index)->name, "light");
+    case ALPI_DIRECT_MATERIAL:
+        return add_layer(context, plan, job->scene->materials[part->index].name, "material");
+    case ALPI_DIRECT_LIGHTS:
+        return add_layer(context, plan, "lamps", "");
+    case ALPI_DIRECT_SUNS:
+        return add_layer(context, plan, "suns", "");
+    case ALPI_DIRECT_MATERIALS:
+        return add_layer(context, plan, "materials", "");
+    case ALPI_DIRECT_SKY:
+        break;
+    }
+    return add_layer(context, plan, "sky", "");
+}
+
+/// A layer for each part of direct light; of too many, the last of them for all that are left.
+static alp_result plan_parts(alpi_bake_job *job, const alpi_lighting *lighting,
+                             const alpi_direct_part *parts, uint32_t count)
+{
+    alpi_layer_plan *plan = &job->layers;
+    ALPI_TRY_NEW(job->context, plan->part_layers, count);
+    const uint32_t own = count > ALPI_LAYER_LIMIT ? ALPI_LAYER_LIMIT - 1 : count;
+    for (uint32_t i = 0; i < own; i++) {
+        ALP_TRY(name_part(job, lighting, &parts[i], plan));
+        plan->part_layers[i] = i;
+    }
+    for (uint32_t i = own; i < count; i++) {
+        plan->part_layers[i] = own;
+    }
+    if (count > 0 && parts[count - 1].kind == ALPI_DIRECT_SKY) { // the sky is the last
+        plan->sky = plan->part_layers[count - 1];
+    }
+    if (own == count) {
+        return ALP_OK;
+    }
+    alpi_warn(job->context, "many-layers", job->scene->name,
+              "%u lights make %d layers: the last %u of them are together in \"others\"", count,
+              ALPI_LAYER_LIMIT, count - own);
+    return add_layer(job->context, plan, "others", "");
+}
+
+alp_result alpi_bake_plan_layers(alpi_bake_job *job)
+{
+    if (!job->options.light.layers) {
+        return ALP_OK;
+    }
+    alpi_lighting *lighting = NULL;
+    alpi_direct *direct = NULL;
+    job->layers.light.context = job->context;
+    job->layers.sky = ALPI_NONE;
+    ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
+    const alpi_direct_options options = {
+        .context = job->context, .scene = job->scene, .lighting = lighting, .samples = 1};
+    alp_result result = alpi_direct_create(&options, &direct);
+    if (result == ALP_OK) {
+        uint32_t count = 0;
+        const alpi_direct_part *parts = alpi_direct_parts(direct, &count);
+        result = plan_parts(job, lighting, parts, count);
+    }
+    alpi_direct_destroy(direct);
+    alpi_lighting_destroy(job->context, lighting);
+    return result;
+}
+
+void alpi_bake_release_layers(alpi_bake_job *job)
+{
+    alpi_layer_plan *plan = &job->layers;
+    alpi_light_layers_clear(&plan->light);
+    alpi_release(job->context, plan->part_layers);
+    for (uint32_t i = 0; i < plan->light.count; i++) {
+        alpi_release(job->context, plan->names[i]);
+    }
+    *plan = (alpi_layer_plan){0};
+}
+
+uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
+{
+    enum {
+        SIDE_BYTES = 12 + 1, // direct; before the last pass, of a block of 16 texels
+        BYTES = 12,          // bounced
+        SHARED_BYTES = 32,   // fresh values 24, list 4, values of a lattice 4
+        PAGE_BYTES = 16
+    };
+    const uint64_t count = job->layers.light.count;
+    uint64_t sides = 1;
+    for (uint32_t m = 0; m < job->scene->material_count; m++) {
+        sides = job->scene->materials[m].double_sided ? 2 : sides;
+    }
+    const uint64_t pixels = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    return count == 0 ? 0
+                      : (count * (BYTES + SIDE_BYTES * sides) + SHARED_BYTES) * atlas->texels +
+                            count * PAGE_BYTES * pixels;
+}
+
+// --- light ---------------------------------------------------------------------------------------
+
+alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
+{
+    alpi_layer_plan *plan = &job->layers;
+    plan->light.part_layers = plan->part_layers;
+    plan->light.sky = sky ? plan->sky : ALPI_NONE;
+    return job->options.light.layers ? &plan->light : NULL;
+}
+
+static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution,
+                              alpi_bounced_again *again, double share,
+                              const alpi_task_progress *progress)
+{
+    const alpi_bounced_options *o = &again->options;
+    const float b = (float)share;
+    for (uint32_t layer = 0; layer < job->layers.light.count; layer++) {
+        float(*bounced)[3] = job->layers.light.bounced[layer];
+        ALP_TRY(alpi_radiosity_show(solution, layer, progress));
+        ALP_TRY(alpi_bounced_again_gather(again, progress));
+        for (uint32_t i = 0; i < o->count; i++) {
+            const uint32_t t = o->order[i];
+            for (int k = 0; k < 3; k++) {
+                bounced[t][k] += b * (o->gather->values[t].mean[k] - bounced[t][k]);
+            }
+        }
+    }
+    job->report.rays += again->rays;
+    return alpi_radiosity_show(solution, ALPI_NONE, progress);
+}
+
+alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
+                                   const alpi_bounced_options *options, const alpi_lattice *lattice,
+                                   uint8_t *states, double share,
+                                   const alpi_task_progress *progress)
+{
+    if (job->layers.light.count == 0) {
+        return ALP_OK;
+    }
+    alpi_gather_scene from = *options->gather->from;
+    from.sky = false; // what it gives is known, by the same rays
+    alpi_gather_job gather = *options->gather;
+    gather.from = &from;
+    gather.skies = NULL;
+    gather.values = ALPI_NEW(job->context, alpi_reference_value, lattice->texels->count);
+    if (gather.values == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alpi_bounced_options own = *options;
+    own.gather = &gather;
+    alpi_bounced_again again = {0};
+    alp_result result = alpi_bounced_again_create(&own, lattice, states,
+                                                  solution->options.kept_limit, progress, &again);
+    if (result == ALP_OK) {
+        result = gather_each(job, solution, &again, share, progress);
+    }
+    alpi_bounced_again_destroy(&again);
+    alpi_release(job->context, gather.values);
+    return result;
+}
+
+void alpi_bake_sum_layers(const alpi_bake_job *job, const uint32_t *order, uint32_t count,
+                          const float (*skies)[3], bool direct, alpi_reference_value *values)
+{
+    const alpi_light_layers *l = &job->layers.light;
+    for (uint32_t i = 0; job->options.light.layers && i < count; i++) {
+        const uint32_t t = order[i];
+        for (int k = 0; k < 3; k++) {
+            float sum = 0.0f;
+            for (uint32_t layer = 0; layer < l->count; layer++) {
+                float *value = &l->bounced[layer][t][k];
+                const float sky = skies != NULL && layer == l->sky ? skies[t][k] : 0.0f;
+                *value += direct ? l->direct[layer][t][k] + sky : 0.0f;
+                sum += *value;
+            }
+            values[t].mean[k] = sum;
+        }
+    }
+}
+
+alp_result alpi_bake_store_layers(alpi_bake_job *job)
+{
+    alp_lightmap *l = job->lightmap;
+    alpi_layer_plan *plan = &job->layers;
+    const uint32_t count = plan->light.count;
+    if (count == 0) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(job->context, l->layer_names, count);
+    ALPI_TRY_NEW(job->context, l->layer_pages, count);
+    l->layer_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        l->layer_names[i] = alpi_copy_string(job->context, plan->names[i]);
+        if (l->layer_names[i] == NULL) {
+            return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])plan->light.bounced[i],
+                                            &l->layer_pages[i]));
+    }
+    alpi_light_layers_clear(&plan->light);
+    return ALP_OK;
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Layers of light: which there are, what each gets, and where it goes.
+#ifndef ALPI_BAKE_LAYERS_H
+#define ALPI_BAKE_LAYERS_H
+
+#include "bake/job.h"
+#include "base/file.h"
+#include "maps/bounced_map.h"
+#include "maps/radiosity.h"
+
+/// Refuses what has no layers.
+alp_result alpi_bake_check_layers(const alpi_bake_job *job);
+/// Finds out which layers there are, and names them, if they are asked for.
+alp_result alpi_bake_plan_layers(alpi_bake_job *job);
+void alpi_bake_release_layers(alpi_bake_job *job);
+/// Bytes that they take at their peak.
+uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
+
+/// Where a solution keeps them, NULL: they are not asked for.
+/// @param sky whether the sky is gathered with what is bounced
+alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky);
+/// What texels gather of each by the rays that found all of it, as options and states say; averaged
+/// with what they gathered before.
+/// @param share of the new in the average
+alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
+                                   const alpi_bounced_options *options, const alpi_lattice *lattice,
+                                   uint8_t *states, double share,
+                                   const alpi_task_progress *progress);
+/// Puts each together, and makes their sum, as floats in their order, the mean of the values.
+/// @param skies  [texels] or NULL: what of the light is a sky's that is gathered with what bounces
+/// @param direct whether direct light counts
+void alpi_bake_sum_layers(const alpi_bake_job *job, const uint32_t *order, uint32_t count,
+                          const float (*skies)[3], bool direct, alpi_reference_value *values);
+/// Stores them in the lightmap.
+alp_result alpi_bake_store_layers(alpi_bake_job *job);
+
+/// Fails if a file of theirs could not be written.
+alp_result alpi_bake_check_layer_files(const alpi_bake_job *job, uint32_t pages);
+/// Files of theirs that go to the maps folder, and these, to their temporary places.
+uint32_t alpi_bake_layer_file_count(const alpi_bake_job *job);
+alp_result alpi_bake_append_layers(const alpi_bake_job *job, alpi_file_writer *writers);
+
+#endif
