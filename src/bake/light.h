@@ -56,7 +56,8 @@ uint32_t alpi_light_block_rays(const alp_light_options *options);
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
 /// Gathers the last bounce at the texels, in rounds until the wanted error is stated or the time is
-/// over, and takes what the rounds before gave where one is cut off; adds direct light, and fills task->values and the report.
+/// over, and takes what the rounds before gave where one is cut off; adds direct light, and fills
+/// task->values and the report.
 /// @param fixed the gatherer of texels, or NULL: cosine rays, as many as it takes
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,

@@ -12,7 +12,8 @@
 // and nobody knows how many.
 static const double LOOP_SHARE = 0.5;
 
-alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job, const alpi_task_progress *progress)
+alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
+                                        const alpi_task_progress *progress)
 {
     const alp_sampling_options *s = &job->options.sampling;
     const double now = alpi_seconds();
@@ -64,8 +65,8 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress)
             follow(c, fmin((double)told.done / (double)told.total, 1.0));
         }
         const double now = alpi_seconds(), elapsed = now - c->part_began;
-        double left = c->share > 0.0 ? elapsed * ((1.0 - c->share) / c->share + c->after / c->share)
-                                     : -1.0;
+        double left =
+            c->share > 0.0 ? elapsed * ((1.0 - c->share) / c->share + c->after / c->share) : -1.0;
         if (c->until_deadline || left > c->deadline - now) {
             left = fmax(c->deadline - now, 0.0);
         }

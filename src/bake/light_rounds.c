@@ -34,9 +34,9 @@ typedef struct rounds {
     float (*fresh_skies)[3];            // [texels]
     uint8_t *states;                    // [texels]
     uint32_t rays, direct;              // samples so far; direct: of the texels that have the most
-    uint32_t *counts; // [texels] samples of direct light so far
-    uint32_t *list;   // [texels]
-    uint8_t *noisy;   // [texels]
+    uint32_t *counts;                   // [texels] samples of direct light so far
+    uint32_t *list;                     // [texels]
+    uint8_t *noisy;                     // [texels]
     uint32_t number;                    // of the round
     double ray_seconds, direct_seconds; // that a ray more of each texel took, and a direct sample
     double mean;                        // of all light, over texels and channels

@@ -136,9 +136,8 @@ static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *
 alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    double needed =
-        (double)find_memory(atlas, job->scene, &job->options, 0) +
-        (double)alpi_bake_packing_memory(job);
+    double needed = (double)find_memory(atlas, job->scene, &job->options, 0) +
+                    (double)alpi_bake_packing_memory(job);
     double present = (double)pages * (double)page_size;
     const uint64_t limit = job->options.sampling.memory_limit;
     if (limit > 0 && needed > (double)limit) {
@@ -155,7 +154,9 @@ alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atla
                          job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p30,
                          present / 0x1p30);
     }
-    job->kept_limit =
-        find_kept_limit(job, atlas, limit > 0 ? (double)limit : pages > 0 ? 0.9 * present : 0x1p62);
+    job->kept_limit = find_kept_limit(job, atlas,
+                                      limit > 0   ? (double)limit
+                                      : pages > 0 ? 0.9 * present
+                                                  : 0x1p62);
     return ALP_OK;
 }

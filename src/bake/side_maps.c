@@ -67,8 +67,8 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
         (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
         return alpi_fail(job->context, code,
                          "bake: %s gathered in one go: no time limit, no partial result",
-                         in_one_go                           ? "coloured obscurance is"
-                         : o->light.bounces == 0             ? "direct light alone is"
+                         in_one_go                             ? "coloured obscurance is"
+                         : o->light.bounces == 0               ? "direct light alone is"
                          : o->light.gather == ALP_GATHER_PATHS ? "light by paths is"
                                                                : "light by hemicubes is");
     }

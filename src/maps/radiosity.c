@@ -366,8 +366,8 @@ static alp_result drop_backs(alpi_radiosity *r)
 {
     const alpi_patches *p = &r->patches;
     if (p->two_sided) {
-        void *fronts = alpi_reallocate(r->options.context, r->direct, p->texels->count,
-                                       sizeof *r->direct);
+        void *fronts =
+            alpi_reallocate(r->options.context, r->direct, p->texels->count, sizeof *r->direct);
         if (fronts == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
         }

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
-
 enum { RAYS_PER_RANGE = 4096 };
 
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
