@@ -14,10 +14,11 @@ enum { POINTS = 128, DIRECT_SAMPLES = 16, PATHS = 16, STREAM_PILOT = 90 };
 // Measured on the truth table (docs/conventions.md, "Estimates").
 static const double PAGE_SHARE = 0.75; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
-static const double TRACED_SHARE = 0.4;    // of texels that gather: others are interpolated
+static const double TRACED_SHARE = 0.35;    // of texels that gather: others are interpolated
 static const double BOUNCED_ERROR = 0.04;  // of 64 rays, over the mean of all light
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
 static const double EDGE_SHARE = 1.5;      // noisy texels with those around them, over noisy ones
+static const double PACKET_SHARE = 0.22;   // time of a ray in a packet, over that of a path
 static const double TEXEL_SECONDS = 1e-6;  // atlas, files
 
 /// What a few points tell of a scene.
@@ -163,7 +164,8 @@ static alp_result light_points(const alpi_bake_job *job, const alpi_receivers *r
                                   .seed = o->occlusion.seed};
     began = alpi_seconds();
     ALP_TRY(alpi_reference_irradiance(&paths, receivers, NULL, 0, NULL, values));
-    p->ray_seconds = (alpi_seconds() - began) / (2.0 * receivers->count * PATHS);
+    const double rays = (double)receivers->count * PATHS;
+    p->ray_seconds = PACKET_SHARE * (alpi_seconds() - began) / rays;
     return ALP_OK;
 }
 
