@@ -73,6 +73,7 @@ typedef struct truth_case {
     bench_scene scene;
     bench_map map;
     alp_image *sky;
+    alp_lighting_options light;
     alpi_lighting *lighting;
     uint32_t *list;
     alpi_reference_value *halves[2], *whole; // [question.count]
@@ -83,17 +84,17 @@ typedef struct truth_case {
 
 static alp_result light_case(truth_case *c, const char *sky)
 {
-    alp_lighting_options options = alp_lighting_options_default();
+    c->light = alp_lighting_options_default();
     if (sky != NULL) {
         ALP_TRY(alp_image_load(c->scene.context, sky, &c->sky));
-        options.sky.kind = ALP_SKY_IMAGE;
-        options.sky.image = c->sky;
+        c->light.sky.kind = ALP_SKY_IMAGE;
+        c->light.sky.image = c->sky;
     } else if (c->what->clear) {
-        options.sky.kind = ALP_SKY_CLEAR;
-        options.sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
-        options.sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
+        c->light.sky.kind = ALP_SKY_CLEAR;
+        c->light.sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
+        c->light.sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
     }
-    return alpi_lighting_create(c->scene.scene, &options, &c->lighting);
+    return alpi_lighting_create(c->scene.scene, &c->light, &c->lighting);
 }
 
 /// Texels by a keyed draw without replacement: the first `count` of a shuffled order. Those wholly
@@ -116,7 +117,7 @@ static void choose_texels(truth_case *c, uint32_t count)
     }
     c->list = order;
     c->question = (bench_question){
-        .scene = &c->scene, .map = &c->map, .lighting = c->lighting, .count = count, .list = order};
+        .scene = &c->scene, .map = &c->map, .lighting = c->lighting, .light = &c->light, .count = count, .list = order};
 }
 
 static void close_case(truth_case *c)

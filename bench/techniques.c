@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "techniques.h"
 
+#include "bake/light.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -99,6 +100,67 @@ static bool run_bake(const bench_question *question, uint32_t paths, alpi_refere
     free(list);
     free(all);
     return good;
+}
+
+/// Radiosity as `bake --maps light` solves it, on all texels of the map.
+static bool run_radiosity_with(const bench_question *question, const alp_light_options *light,
+                               alpi_reference_value *values)
+{
+    const bench_scene *scene = question->scene;
+    const alpi_receivers receivers = alpi_texels_receivers(&question->map->texels);
+    alp_lightmap lightmap = {.context = scene->context,
+                             .scene = scene->scene,
+                             .atlas = question->map->atlas,
+                             .texels = question->map->texels};
+    alpi_bake_job job = {.scene = scene->scene,
+                         .context = scene->context,
+                         .options = alp_bake_options_default(),
+                         .lightmap = &lightmap,
+                         .validity = question->map->validity};
+    job.options.light = *light;
+    job.options.light.lighting = *question->light;
+    job.options.occlusion.seed = SEED;
+    uint32_t *order = bench_allocate(receivers.count, sizeof *order);
+    alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
+    alpi_light_task task = {.lighting = question->lighting,
+                            .tracer = scene->tracer,
+                            .receivers = &receivers,
+                            .order = order,
+                            .lattice = &question->map->lattice,
+                            .progress = {.stage = "light"},
+                            .values = all};
+    for (uint32_t i = 0; i < receivers.count; i++) {
+        const uint32_t texel = question->map->lattice.order[i];
+        if (!question->map->validity.dropped[texel]) {
+            order[task.count++] = texel;
+        }
+    }
+    const bool good = bench_good(scene, alpi_bake_radiosity(&job, &task));
+    for (uint32_t i = 0; i < question->count && good; i++) {
+        values[i] = all[question->list[i]];
+    }
+    free(order);
+    free(all);
+    return good;
+}
+
+/// What a bake does unless it is told otherwise: goes for an error of 1 %.
+static bool run_radiosity(const bench_question *question, uint32_t paths,
+                          alpi_reference_value *values)
+{
+    (void)paths;
+    alp_light_options light = alp_bake_options_default().light;
+    light.error = 0.01f;
+    return run_radiosity_with(question, &light, values);
+}
+
+static bool run_preview(const bench_question *question, uint32_t paths,
+                        alpi_reference_value *values)
+{
+    (void)paths;
+    alp_light_options light = alp_bake_options_default().light;
+    light.error = 0.04f;
+    return run_radiosity_with(question, &light, values);
 }
 
 static bool run_by_chance(const bench_question *question, uint32_t paths,
@@ -212,6 +274,8 @@ const bench_technique *bench_technique_at(int index)
         // Neighbours' errors are alike: the mean's standard error, which takes them for
         // independent, says too little.
         {"bake, 64 shared paths", run_bake, 64, false},
+        {"radiosity, error 1 %", run_radiosity, 0, false},
+        {"radiosity, error 4 %", run_preview, 0, false},
         // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
         // too little of their own spread.
         {"without next event, 256 paths", run_by_chance, 256, false},

@@ -13,6 +13,7 @@ typedef struct bench_question {
     const bench_scene *scene;
     const bench_map *map;
     const alpi_lighting *lighting;
+    const alp_lighting_options *light; // that it was made with
     uint32_t count;
     const uint32_t *list;              // [count] texels
     const alpi_reference_value *truth; // [count], for what a user would set by hand: models with

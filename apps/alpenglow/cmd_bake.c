@@ -88,18 +88,14 @@ static const char *find_given(const option_value *values, const named_option *na
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
-                                            {OPTION_BOUNCES, "--bounces"},
-                                            {OPTION_GATHER, "--gather"},
-                                            {OPTION_HEMICUBE, "--hemicube"},
-                                            {OPTION_DIRECT, "--direct"},
-                                            {OPTION_SKY, "--sky"},
-                                            {OPTION_SKY_TURN, "--sky-turn"},
-                                            {OPTION_SUN, "--sun"},
-                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
-                                            {OPTION_SUN_SIZE, "--sun-size"},
-                                            {OPTION_LAMP, "--lamp"},
-                                            {OPTION_SPOT, "--spot"}};
+    static const named_option of_light[] = {
+        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
+        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
+        {OPTION_DIRECT, "--direct"},     {OPTION_DENOISE, "--denoise"},
+        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
+        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
+        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
+        {OPTION_SPOT, "--spot"}};
     static const named_option of_occlusion[] = {
         {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
         {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
@@ -285,6 +281,10 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
+    o->denoise = values[OPTION_DENOISE].choice == 1;
+    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
+        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
+    }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
                            values[OPTION_BOUNCES].given ? "--bounces" : "--gather");

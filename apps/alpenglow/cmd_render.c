@@ -81,20 +81,23 @@ static int read_camera(const char *text, alp_render_options *o)
 /// What a method does not look at is refused and never ignored.
 static int check_method(const command_line *a, const alp_render_options *o)
 {
-    enum { REFERENCE = 1 << ALP_RENDER_REFERENCE, HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE };
-    enum { AO = 1 << ALP_RENDER_AO };
+    enum { HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE, AO = 1 << ALP_RENDER_AO };
+    enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY };
+    enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS };
     static const struct {
         const char *name;
         option_id id;
         unsigned methods; // that read it
-    } read_by[] = {{"--bounces", OPTION_BOUNCES, REFERENCE},
-                   {"--sun", OPTION_SUN, REFERENCE},
-                   {"--sun-size", OPTION_SUN_SIZE, REFERENCE},
-                   {"--lamp", OPTION_LAMP, REFERENCE},
-                   {"--spot", OPTION_SPOT, REFERENCE},
-                   {"--sky-turn", OPTION_SKY_TURN, REFERENCE},
-                   {"--sky", OPTION_SKY, REFERENCE | HEMISPHERE},
-                   {"--sky-strength", OPTION_SKY_STRENGTH, REFERENCE | HEMISPHERE},
+    } read_by[] = {{"--size", OPTION_SIZE, TEXELS},
+                   {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
+                   {"--bounces", OPTION_BOUNCES, LIT},
+                   {"--sun", OPTION_SUN, LIT},
+                   {"--sun-size", OPTION_SUN_SIZE, LIT},
+                   {"--lamp", OPTION_LAMP, LIT},
+                   {"--spot", OPTION_SPOT, LIT},
+                   {"--sky-turn", OPTION_SKY_TURN, LIT},
+                   {"--sky", OPTION_SKY, LIT | HEMISPHERE},
+                   {"--sky-strength", OPTION_SKY_STRENGTH, LIT | HEMISPHERE},
                    {"--occluders", OPTION_OCCLUDERS, AO},
                    {"--ao-samples", OPTION_AO_SAMPLES, AO},
                    {"--ao-distance", OPTION_AO_DISTANCE, AO},
@@ -136,12 +139,13 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
                            output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "by which method? give --with reference, ao, constant "
-                                           "or hemisphere");
+        return usage_error(COMMAND_RENDER, "by which method? give --with reference, radiosity, "
+                                           "lightmap, ao, constant or hemisphere");
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
     o->occluders = a->values[OPTION_OCCLUDERS].text;
+    o->atlas.size = (uint32_t)a->values[OPTION_SIZE].whole;
     int code = linear ? film_refuse(a, output) : EXIT_DONE;
     if (code == EXIT_DONE) {
         code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
@@ -187,6 +191,40 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
+/// The map that --with lightmap shows: irradiance alone, baked as bake does it.
+static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
+                             alp_lightmap **lightmap)
+{
+    alp_bake_options bake = alp_bake_options_default();
+    bake.maps = ALP_MAP_LIGHT;
+    bake.atlas = o->atlas;
+    bake.occlusion = o->occlusion;
+    bake.light.lighting = o->lighting;
+    bake.light.bounces = o->bounces;
+    bake.light.samples = (uint32_t)a->values[OPTION_TEXEL_SAMPLES].whole;
+    bake.progress = session_progress;
+    bake.progress_user = s;
+    return alp_bake(s->scene, &bake, lightmap, NULL);
+}
+
+static alp_result make_picture(session *s, const command_line *a, alp_render_options *o,
+                               alp_image **image)
+{
+    alp_lightmap *lightmap = NULL;
+    alp_result result = ALP_OK;
+    *image = NULL;
+    if (o->method == ALP_RENDER_LIGHTMAP) {
+        result = bake_light(s, a, o, &lightmap);
+        o->lightmap = lightmap;
+    }
+    if (result == ALP_OK) {
+        result = alp_render(s->scene, o, image);
+    }
+    o->lightmap = NULL;
+    alp_lightmap_destroy(lightmap);
+    return result;
+}
+
 static int render(session *s, const command_line *a, alp_render_options *o)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -196,7 +234,7 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     o->progress = session_progress;
     o->progress_user = s;
     interrupt_defer();
-    alp_result result = alp_render(s->scene, o, &image);
+    alp_result result = make_picture(s, a, o, &image);
     double seconds = clock_seconds() - start;
     if (result == ALP_OK) {
         result = save(image, output, a->values[OPTION_FORCE].given, &film);

@@ -163,6 +163,18 @@ static const option options[] = {
      .unit = "texels",
      .initial = "1024",
      .help = "Side of a page of the atlas. Time and memory grow with its square."},
+    {.id = OPTION_SIZE,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--size",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 16384,
+     .unit = "texels",
+     .initial = "512",
+     .help = "Of --with lightmap and radiosity: side of a page of the atlas. Time and memory grow "
+             "with its square."},
     {.id = OPTION_TEXELS_PER_METRE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -315,15 +327,20 @@ static const option options[] = {
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "reference|ao|constant|hemisphere",
-     .choices = "ao|constant|hemisphere|reference",
-     .later_choices = "radiosity|lightmap|probes|ambience|lpv|cube",
-     .help = "reference: all light by path tracing, through blended and transmissive surfaces too, "
-             "which the others cut at an alpha of one half or take for opaque. ao: accessibility, "
-             "from the scene's occlusion maps, and by rays where it has none. constant: uniform "
-             "light of radiance 1, which shows the albedo: base colour x (1 - metallic), at most "
-             "0.95. hemisphere: the two colours of --sky (without it 1,1,1 above and 0,0,0 below), "
-             "nothing in their way. Needed."},
+     .value = "reference|radiosity|lightmap|ao|constant|hemisphere",
+     .choices = "ao|constant|hemisphere|reference|lightmap|radiosity",
+     .later_choices = "probes|ambience|lpv|cube",
+     .help =
+         "reference: all light by path tracing. radiosity: direct light at each pixel, and what "
+         "surfaces reflect gathered from a radiosity on texels; less noise than reference in "
+         "as many --samples. lightmap: bakes --maps light and shows it as a viewer does, emission "
+         "+ albedo / pi x irradiance, with its texels; the backs of double-sided surfaces show "
+         "their fronts' map. These three see through blended and transmissive surfaces, which "
+         "the others cut at an alpha of one half or take for opaque. ao: accessibility, "
+         "from the scene's occlusion maps, and by rays where it has none. constant: uniform "
+         "light of radiance 1, which shows the albedo: base colour x (1 - metallic), at most "
+         "0.95. hemisphere: the two colours of --sky (without it 1,1,1 above and 0,0,0 below), "
+         "nothing in their way. Needed."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -353,8 +370,20 @@ static const option options[] = {
      .maximum = 65536,
      .unit = "camera rays per pixel",
      .initial = "16",
-     .help = "More smooth the edges; time grows with N. With reference each is a path, and the "
-             "noise falls as 1 over the root of N."},
+     .help = "More smooth the edges; time grows with N. With reference and radiosity each is a "
+             "path, N is rounded up to a multiple of 16, and the noise falls as 1 over the root of "
+             "N."},
+    {.id = OPTION_TEXEL_SAMPLES,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--texel-samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 65536,
+     .unit = "rays per texel",
+     .initial = "256",
+     .help = "Of --with lightmap, as --samples of bake."},
     {.id = OPTION_SAMPLES,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
@@ -392,6 +421,18 @@ static const option options[] = {
      .unit = "pixels",
      .initial = "64",
      .help = "Edge of the front face of --gather hemicube, an even number: 3 N N rays a texel."},
+    {.id = OPTION_DENOISE,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--denoise",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "off",
+     .help =
+         "on: the noise of bounced light is taken off by neighbours in space, across charts and "
+         "never across a wall; direct light stays as it is. Then every texel gathers, and few "
+         "--samples do; means move by some tenths of a percent."},
     {.id = OPTION_DIRECT,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
@@ -780,7 +821,6 @@ static const option options[] = {
 
     // --- of the contract, not built yet ---------------------------------------------------------
     LATER(IN_BAKE, "--layers", NULL, no_light),
-    LATER(IN_BAKE, "--denoise", "on|off", "nothing is denoised"),
     LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),

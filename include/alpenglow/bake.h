@@ -145,9 +145,12 @@ typedef struct alp_light_options {
     /// more and more samples until it is stated. 0 (default): `samples` in one round; with a
     /// time_limit or keep_partial in rounds that double.
     float error;
-    uint32_t samples;  ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
-                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
-                       ///< each light, to a multiple of 8. HEMICUBE: not read
+    uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
+                      ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
+                      ///< each light, to a multiple of 8. HEMICUBE: not read
+    /// RAYS: noise of the bounced light is taken off by neighbours in space, never across a wall
+    /// (docs/accuracy.md); then every texel is gathered. Default false.
+    bool denoise;
     uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
 } alp_light_options;
 

@@ -14,7 +14,7 @@ enum { POINTS = 128, DIRECT_SAMPLES = 16, PATHS = 16, STREAM_PILOT = 90 };
 // Measured on the truth table (docs/conventions.md, "Estimates").
 static const double PAGE_SHARE = 0.75; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
-static const double TRACED_SHARE = 0.35;    // of texels that gather: others are interpolated
+static const double TRACED_SHARE = 0.35;   // of texels that gather: others are interpolated
 static const double BOUNCED_ERROR = 0.04;  // of 64 rays, over the mean of all light
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
 static const double EDGE_SHARE = 1.5;      // noisy texels with those around them, over noisy ones

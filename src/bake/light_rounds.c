@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/bounced_map.h"
+#include "maps/denoise.h"
 #include "transport/cosine_rays.h"
 
 #include <math.h>
@@ -88,7 +89,8 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .order = t->order,
         .count = t->count,
         .near = job->validity.near,
-        .adaptive = r->fixed == NULL && job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .adaptive = r->fixed == NULL && !job->options.light.denoise &&
+                    job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
     };
     alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
     const double began = alpi_seconds();
@@ -343,6 +345,93 @@ static alp_result run_rounds(rounds *r)
     return result;
 }
 
+// --- noise ---------------------------------------------------------------------------------------
+
+/// The texels of the order as the denoiser wants them.
+typedef struct denoise_arrays {
+    float (*means)[3], (*variances)[3], (*positions)[3], (*normals)[3];
+    float *sides;
+} denoise_arrays;
+
+static void fill_arrays(const rounds *r, const denoise_arrays *a)
+{
+    const alpi_texels *texels = r->task->lattice->texels;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        const alpi_reference_value *v = &r->task->values[t];
+        alpi_receiver_point point;
+        alpi_texels_point(texels, t, &point);
+        const float position[3] = {point.position.x, point.position.y, point.position.z};
+        memcpy(a->positions[i], position, sizeof position);
+        memcpy(a->normals[i], texels->normals[t], sizeof texels->normals[t]);
+        memcpy(a->means[i], v->mean, sizeof v->mean);
+        memcpy(a->variances[i], v->variance, sizeof v->variance);
+        a->sides[i] = sqrtf(texels->areas[t] / texels->coverages[t]);
+    }
+}
+
+static alp_result filter(rounds *r, denoise_arrays *a)
+{
+    alp_context *context = r->job->context;
+    const uint32_t count = r->task->count;
+    ALPI_TRY_NEW(context, a->means, count);
+    ALPI_TRY_NEW(context, a->variances, count);
+    ALPI_TRY_NEW(context, a->positions, count);
+    ALPI_TRY_NEW(context, a->normals, count);
+    ALPI_TRY_NEW(context, a->sides, count);
+    fill_arrays(r, a);
+    const alpi_denoise_texels texels = {.count = count,
+                                        .means = (const float(*)[3])a->means,
+                                        .variances = (const float(*)[3])a->variances,
+                                        .positions = (const float(*)[3])a->positions,
+                                        .normals = (const float(*)[3])a->normals,
+                                        .sides = a->sides};
+    ALP_TRY(alpi_denoise(context, r->task->tracer, &texels, &r->task->progress, a->means,
+                         a->variances));
+    for (uint32_t i = 0; i < count; i++) {
+        alpi_reference_value *v = &r->task->values[r->task->order[i]];
+        float *sky = r->skies[r->task->order[i]];
+        for (int k = 0; k < 3; k++) {
+            const float mean = fmaxf(a->means[i][k], 0.0f);
+            sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
+            v->mean[k] = mean;
+            v->variance[k] = a->variances[i][k];
+        }
+    }
+    return ALP_OK;
+}
+
+/// What only further rounds need.
+static void release_rounds(rounds *r)
+{
+    alp_context *context = r->job->context;
+    alpi_release(context, r->fresh);
+    alpi_release(context, r->fresh_skies);
+    alpi_release(context, r->counts);
+    alpi_release(context, r->list);
+    alpi_release(context, r->noisy);
+    r->fresh = NULL;
+    r->fresh_skies = NULL;
+    r->counts = r->list = NULL;
+    r->noisy = NULL;
+}
+
+/// Takes noise off the bounced light; direct light has edges that must stay.
+static alp_result denoise(rounds *r)
+{
+    alp_context *context = r->job->context;
+    denoise_arrays a = {0};
+    release_rounds(r);
+    r->task->clock->deadline = HUGE_VAL; // what is whole is filtered as a whole
+    const alp_result result = filter(r, &a);
+    alpi_release(context, a.means);
+    alpi_release(context, a.variances);
+    alpi_release(context, a.positions);
+    alpi_release(context, a.normals);
+    alpi_release(context, a.sides);
+    return result;
+}
+
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
 static void put_together(const rounds *r)
 {
@@ -368,16 +457,15 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
                              const alpi_gatherer *fixed, alpi_radiosity *solution)
 {
     rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
-    const alp_result result = run_rounds(&r);
+    alp_result result = run_rounds(&r);
+    if (result == ALP_OK && job->options.light.denoise) {
+        result = denoise(&r);
+    }
     if (result == ALP_OK) {
         put_together(&r);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
-    alpi_release(job->context, r.fresh);
-    alpi_release(job->context, r.fresh_skies);
-    alpi_release(job->context, r.counts);
-    alpi_release(job->context, r.list);
-    alpi_release(job->context, r.noisy);
+    release_rounds(&r);
     return result;
 }

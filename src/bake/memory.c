@@ -37,8 +37,9 @@ enum {
     BLOCK_BYTES = 64,  // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
     // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
     GATHER_BYTES_PER_TEXEL = 34,
-    ROUND_BYTES_PER_TEXEL = 45, // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
-    SPACING = 4                 // texels along a block
+    ROUND_BYTES_PER_TEXEL = 45,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
+    DENOISE_BYTES_PER_TEXEL = 128, // in their place: arrays 52, and neighbours
+    SPACING = 4                    // texels along a block
 };
 
 /// Blocks of charts of the mean size: squares of the page that a chart has a part in.
@@ -68,7 +69,9 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t blocks = (uint64_t)((double)sides * count_blocks(atlas));
     const uint64_t solution = (PATCH_BYTES_PER_TEXEL + CELL_BYTES * sides) * texels +
                               BLOCK_BYTES * blocks + (sides > 1 ? BACK_BYTES * texels : 0);
-    const uint64_t later = alpi_light_has_rounds(options) ? ROUND_BYTES_PER_TEXEL : 0;
+    const uint64_t later = o->denoise                       ? DENOISE_BYTES_PER_TEXEL
+                           : alpi_light_has_rounds(options) ? ROUND_BYTES_PER_TEXEL
+                                                            : 0;
     m.solve += solution + DIRECT_BYTES * sides * texels;
     m.rounds += solution + (DIRECT_BYTES + GATHER_BYTES_PER_TEXEL + later) * texels;
     m.kept = blocks * alpi_light_block_rays(o) * sizeof(uint32_t);

@@ -6,12 +6,13 @@
 #include "transport/cosine_rays.h"
 #include "transport/hemicube.h"
 
-enum { SPACING = 4, BLOCK_RAYS = 64, BLOCK_CUBE = 16 };
+enum { BLOCK_CUBE = 16 };
 
 uint32_t alpi_light_block_rays(const alp_light_options *options)
 {
     // A face, four halves of one; coherent packets leave some rays unused.
-    return options->gather == ALP_GATHER_HEMICUBE ? 3 * BLOCK_CUBE * BLOCK_CUBE : BLOCK_RAYS;
+    return options->gather == ALP_GATHER_HEMICUBE ? 3 * BLOCK_CUBE * BLOCK_CUBE
+                                                  : ALPI_RADIOSITY_BLOCK_RAYS;
 }
 
 /// How blocks gather, and, by hemicubes, how texels do.
@@ -45,8 +46,10 @@ static alp_result make_gatherers(const alpi_bake_job *job, light_gatherers *g)
     if (o->gather == ALP_GATHER_HEMICUBE) {
         return make_hemicubes(job, seed, g);
     }
-    g->block_rays = (alpi_cosine_rays){
-        .context = job->context, .samples = BLOCK_RAYS, .replicates = 1, .seed = seed};
+    g->block_rays = (alpi_cosine_rays){.context = job->context,
+                                       .samples = ALPI_RADIOSITY_BLOCK_RAYS,
+                                       .replicates = 1,
+                                       .seed = seed};
     g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
     return ALP_OK;
 }
@@ -69,21 +72,18 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
                                const light_gatherers *g, const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
-    const alpi_radiosity_options options = {
-        .context = job->context,
-        .scene = job->scene,
-        .tracer = t->tracer,
-        .lighting = t->lighting,
-        .direct = direct,
-        .filter = {.one_sided = o->occlusion.one_sided},
-        .gatherer = &g->blocks,
-        .bounces = o->light.bounces,
-        .tolerance = 5e-4,
-        .spacing = SPACING,
-        .direct_samples = alpi_light_first_direct(job),
-        .kept_limit = job->kept_limit,
-        .seed = o->occlusion.seed,
-    };
+    alpi_radiosity_options options = alpi_radiosity_options_default();
+    options.context = job->context;
+    options.scene = job->scene;
+    options.tracer = t->tracer;
+    options.lighting = t->lighting;
+    options.direct = direct;
+    options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
+    options.gatherer = &g->blocks;
+    options.bounces = o->light.bounces;
+    options.direct_samples = alpi_light_first_direct(job);
+    options.kept_limit = job->kept_limit;
+    options.seed = o->occlusion.seed;
     alpi_radiosity solution;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,

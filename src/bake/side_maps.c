@@ -33,6 +33,10 @@ static alp_result check_light(const alpi_bake_job *job)
     if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
         return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
     }
+    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
+        return alpi_fail(job->context, code,
+                         "bake: only bounced light that rays gather can be denoised");
+    }
     if (o->gather == ALP_GATHER_HEMICUBE &&
         (o->hemicube < 2 || o->hemicube > 1024 || o->hemicube % 2 != 0)) {
         return alpi_fail(job->context, code,

@@ -131,6 +131,22 @@ bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle)
            lightmap->atlas->triangle_pages[triangle] != ALPI_NONE;
 }
 
+/// Bilinear look-up in some pages.
+static void sample_pages(const alp_lightmap *lightmap, float *const *pages, uint32_t triangle,
+                         float b1, float b2, float rgb[3])
+{
+    const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
+    float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
+    float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
+    alp_image view = {.context = lightmap->context,
+                      .info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT},
+                      .pixels = pages[lightmap->atlas->triangle_pages[triangle]]};
+    float rgba[4];
+    alpi_image_sample(&view, u, v,
+                      (alpi_sampler){.wrap_u = ALPI_WRAP_CLAMP, .wrap_v = ALPI_WRAP_CLAMP}, rgba);
+    memcpy(rgb, rgba, 3 * sizeof *rgb);
+}
+
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3])
 {
@@ -141,16 +157,31 @@ void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float
             (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] + b2 * values[corner[2]];
         return;
     }
-    const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
-    float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
-    float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
-    alp_image view = {.context = lightmap->context,
-                      .info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT},
-                      .pixels = lightmap->pages[lightmap->atlas->triangle_pages[triangle]]};
-    float rgba[4];
-    alpi_image_sample(&view, u, v,
-                      (alpi_sampler){.wrap_u = ALPI_WRAP_CLAMP, .wrap_v = ALPI_WRAP_CLAMP}, rgba);
-    memcpy(rgb, rgba, 3 * sizeof *rgb);
+    sample_pages(lightmap, lightmap->pages, triangle, b1, b2, rgb);
+}
+
+static void reflect(const void *user, const alpi_surface_point *points, uint32_t count,
+                    vec3 *radiance)
+{
+    const alp_lightmap *lightmap = user;
+    const alp_scene *scene = lightmap->scene;
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_surface_point *p = &points[i];
+        float e[3] = {0.0f, 0.0f, 0.0f};
+        if (alpi_lightmap_holds(lightmap, p->triangle)) {
+            sample_pages(lightmap, lightmap->irradiance_pages, p->triangle, p->b1, p->b2, e);
+        }
+        const vec3 albedo = alpi_surface_albedo(scene, p->triangle, p->b1, p->b2);
+        const float kept = alpi_surface_pane(scene, p->triangle, p->b1, p->b2).kept;
+        const float share = kept * (float)(1.0 / ALPI_PI);
+        radiance[i] =
+            (vec3){share * albedo.x * e[0], share * albedo.y * e[1], share * albedo.z * e[2]};
+    }
+}
+
+alpi_surface_light alpi_lightmap_light(const alp_lightmap *lightmap)
+{
+    return (alpi_surface_light){.reflected = reflect, .user = lightmap};
 }
 
 alp_result alpi_lightmap_page_image(const alp_lightmap *lightmap, uint32_t page,

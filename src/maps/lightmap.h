@@ -6,6 +6,7 @@
 #include "atlas/atlas.h"
 #include "base/image.h"
 #include "maps/lattice.h"
+#include "transport/surface_light.h"
 
 #include <alpenglow/bake.h>
 
@@ -56,6 +57,10 @@ bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
 /// at its vertices.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
+
+/// What surfaces reflect by the irradiance pages, which must be there: ρ/π · E, both sides alike,
+/// as viewers show a lightmap. Black where the lightmap holds nothing.
+alpi_surface_light alpi_lightmap_light(const alp_lightmap *lightmap);
 
 /// What a value, in [0, 1], is multiplied by at a cell of texel (x, y) of the layout it goes to.
 typedef struct alpi_lightmap_weight {

@@ -20,6 +20,15 @@ typedef struct solver {
     alpi_task_progress progress;
 } solver;
 
+alpi_radiosity_options alpi_radiosity_options_default(void)
+{
+    return (alpi_radiosity_options){.bounces = UINT32_MAX,
+                                    .tolerance = 5e-4,
+                                    .spacing = 4,
+                                    .direct_samples = 16,
+                                    .kept_limit = 1ull << 30};
+}
+
 static size_t sides_of(const alpi_patches *p)
 {
     return p->two_sided ? 2 : 1;
@@ -117,6 +126,20 @@ static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
                       : alpi_gather_irradiance(&job, &s->progress);
 }
 
+/// Calls all backs of double-sided materials seen.
+static void see_backs(const solver *s)
+{
+    const alpi_patches *p = &s->r->patches;
+    for (uint32_t b = 0; b < p->block_count && p->two_sided; b++) {
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            const uint32_t triangle = p->texels->triangles[p->block_texels[k]];
+            if (alpi_surface_is_double_sided(p->scene, triangle)) {
+                p->seen_backs[b] = ALPI_BACK_SEEN;
+            }
+        }
+    }
+}
+
 /// Adds the backs that were seen since to the receivers. @return how many
 static uint32_t add_seen_backs(solver *s)
 {
@@ -149,6 +172,9 @@ static alp_result find_receivers(solver *s)
         r->receivers[b] = s->new_receivers[b] = b;
     }
     r->receiver_count = p->block_count;
+    if (o->backs) {
+        see_backs(s);
+    }
     for (uint32_t count = p->block_count; count > 0; count = add_seen_backs(s)) {
         if (s->new_receivers[0] >= p->block_count) {
             if (r->kept && room == p->block_count) {

@@ -31,8 +31,15 @@ typedef struct alpi_radiosity_options {
     uint32_t spacing; // texels along a block
     uint32_t direct_samples; // of each light at each texel
     uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
+    bool backs; // all backs of double-sided materials gather; else those alone that some other who
+                // gathers sees: enough for light on fronts
     uint64_t seed;
 } alpi_radiosity_options;
+
+/// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
+/// filter, gatherer and seed.
+alpi_radiosity_options alpi_radiosity_options_default(void);
+enum { ALPI_RADIOSITY_BLOCK_RAYS = 64 }; // of cosine rays that gather for blocks
 
 /// Where the light goes: fluxes in W, means of the three channels, area integrals over the patches
 /// that were gathered for. They close to the noise of the rays:

@@ -7,8 +7,10 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
+#include "maps/solution.h"
 #include "render/automatic_camera.h"
 #include "render/camera_rays.h"
+#include "render/lightmap_pixel.h"
 #include "scene/select.h"
 #include "transport/examine.h"
 #include "transport/hit.h"
@@ -29,21 +31,27 @@ typedef struct render_job {
     const alpi_tracer *tracer;
     alpi_tracer *occluders; // of the chosen ones, NULL = `tracer`
     alpi_occlusion_setup occlusion;
-    alpi_lighting *lighting; // of the reference, else NULL
+    alpi_lighting *lighting; // of methods that light the scene, else NULL
     alpi_reference reference;
+    alpi_solution *solution;  // of RADIOSITY, else NULL
+    alpi_surface_light known; // of the solution
+    alpi_gather_scene shown;  // of LIGHTMAP
     alp_image *image, *error; // error: NULL unless asked for
     alpi_view view;
 } render_job;
 
 alp_render_options alp_render_options_default(void)
 {
-    return (alp_render_options){.struct_size = sizeof(alp_render_options),
-                                .width = 960,
-                                .height = 540,
-                                .samples = 16,
-                                .bounces = ALP_BOUNCES_CONVERGE,
-                                .lighting = alp_lighting_options_default(),
-                                .occlusion = alp_occlusion_options_default()};
+    alp_render_options options = {.struct_size = sizeof(alp_render_options),
+                                  .width = 960,
+                                  .height = 540,
+                                  .samples = 16,
+                                  .bounces = ALP_BOUNCES_CONVERGE,
+                                  .atlas = alp_atlas_options_default(),
+                                  .lighting = alp_lighting_options_default(),
+                                  .occlusion = alp_occlusion_options_default()};
+    options.atlas.size = 512;
+    return options;
 }
 
 static alp_result check_options(const alp_scene *scene, const alp_render_options *o)
@@ -60,13 +68,25 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code, "render: %u samples per pixel, need 1 to %d",
                          o->samples, SAMPLE_LIMIT);
     }
-    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_REFERENCE) {
+    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_RADIOSITY) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
     }
     if (o->lightmap != NULL && o->lightmap->scene != scene) {
         return alpi_fail(scene->context, code, "render: the maps belong to another scene");
     }
+    const bool has_light = o->lightmap != NULL && o->lightmap->irradiance_pages != NULL;
+    if (o->method == ALP_RENDER_LIGHTMAP && !has_light) {
+        return alpi_fail(scene->context, code,
+                         "render: there is no map of light to show; bake with ALP_MAP_LIGHT");
+    }
     return alpi_occlusion_check(scene, &o->occlusion);
+}
+
+/// Whether pixels are means over paths, and have an error.
+static bool goes_by_paths(const render_job *job)
+{
+    return job->options.method == ALP_RENDER_REFERENCE ||
+           job->options.method == ALP_RENDER_RADIOSITY;
 }
 
 /// The camera that was given, or that of the scene.
@@ -87,6 +107,7 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
 {
     enum { ACROSS = 8 };
     const alp_render_method method = job->options.method;
+    const bool lights = method != ALP_RENDER_AO && method != ALP_RENDER_CONSTANT;
     enum { COUNT = ACROSS * ACROSS };
     vec3 directions[COUNT];
     float x[COUNT], y[COUNT], d[3][COUNT] = {{0.0f}};
@@ -100,7 +121,7 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
         directions[i] = (vec3){d[0][i], d[1][i], d[2][i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
-    if ((method == ALP_RENDER_HEMISPHERE || method == ALP_RENDER_REFERENCE) &&
+    if (lights &&
         alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
@@ -269,7 +290,13 @@ static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_
     const render_job *job = user;
     float *pixels = job->image->pixels;
     for (uint32_t i = begin; i < end; i++) {
-        render_pixel(job, i, pixels + 4 * (size_t)i);
+        float *pixel = pixels + 4 * (size_t)i;
+        if (job->options.method == ALP_RENDER_LIGHTMAP) {
+            const uint32_t key = alpi_random_key(job->options.occlusion.seed, i, STREAM_PIXEL);
+            alpi_lightmap_pixel(&job->shown, &job->view, job->options.samples, key, i, pixel);
+        } else {
+            render_pixel(job, i, pixel);
+        }
     }
     return ALP_OK;
 }
@@ -287,13 +314,40 @@ static alp_result choose_occluders(render_job *job)
     return result;
 }
 
-static alp_result prepare_reference(render_job *job, alp_image_info info)
+/// What LIGHTMAP reads.
+static void prepare_lightmap(render_job *job)
+{
+    job->shown = (alpi_gather_scene){.scene = job->scene,
+                                     .tracer = job->tracer,
+                                     .lighting = job->lighting,
+                                     .filter = job->occlusion.filter,
+                                     .light = alpi_lightmap_light(job->options.lightmap),
+                                     .emitters = true};
+}
+
+/// What the paths of RADIOSITY end with.
+static alp_result prepare_solution(render_job *job)
 {
     const alp_render_options *o = &job->options;
-    if (o->method != ALP_RENDER_REFERENCE) {
+    if (o->method != ALP_RENDER_RADIOSITY || o->bounces == 0) {
         return ALP_OK;
     }
-    ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
+    const alpi_solution_options options = {.scene = job->scene,
+                                           .tracer = job->tracer,
+                                           .lighting = job->lighting,
+                                           .atlas = o->atlas,
+                                           .one_sided = o->occlusion.one_sided,
+                                           .bounces = o->bounces,
+                                           .seed = o->occlusion.seed};
+    ALP_TRY(alpi_solution_create(&options, o->progress, o->progress_user, &job->solution));
+    job->known = alpi_solution_light(job->solution);
+    job->reference.known = &job->known;
+    return ALP_OK;
+}
+
+static alp_result prepare_paths(render_job *job, alp_image_info info)
+{
+    const alp_render_options *o = &job->options;
     ALP_TRY(alpi_examine_light(job->tracer, job->occlusion.filter, job->scene, job->lighting,
                                o->progress, o->progress_user));
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
@@ -306,7 +360,22 @@ static alp_result prepare_reference(render_job *job, alp_image_info info)
                                       .samples = o->samples,
                                       .next_event = !o->no_next_event,
                                       .seed = o->occlusion.seed};
+    ALP_TRY(prepare_solution(job));
     return o->error != NULL ? alp_image_create(job->scene->context, info, &job->error) : ALP_OK;
+}
+
+/// What methods need that light the scene, or show its light.
+static alp_result prepare_light(render_job *job, alp_image_info info)
+{
+    if (!goes_by_paths(job) && job->options.method != ALP_RENDER_LIGHTMAP) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_lighting_create(job->scene, &job->options.lighting, &job->lighting));
+    if (goes_by_paths(job)) {
+        return prepare_paths(job, info);
+    }
+    prepare_lightmap(job);
+    return ALP_OK;
 }
 
 static alp_result run(render_job *job)
@@ -325,14 +394,14 @@ static alp_result run(render_job *job)
                                    &job->occlusion));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
-    ALP_TRY(prepare_reference(job, info));
+    ALP_TRY(prepare_light(job, info));
     alpi_task_progress progress = {.callback = o->progress,
                                    .user = o->progress_user,
                                    .stage = "render",
                                    .units_per_item = (double)o->samples,
                                    .units_are_rays = true};
     const uint32_t pixels = o->width * o->height;
-    if (o->method == ALP_RENDER_REFERENCE) {
+    if (goes_by_paths(job)) {
         progress.units_per_item *= PIXELS_PER_RANGE;
         return alpi_parallel_for(job->scene->context,
                                  pixels / PIXELS_PER_RANGE + (pixels % PIXELS_PER_RANGE != 0), 1,
@@ -360,6 +429,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     alp_result result = run(&job);
     alpi_occlusion_release(&job.occlusion);
     alpi_tracer_destroy(job.occluders);
+    alpi_solution_destroy(job.solution);
     alpi_lighting_destroy(scene->context, job.lighting);
     if (result == ALP_OK && job.options.error != NULL) {
         *job.options.error = job.error;

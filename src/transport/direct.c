@@ -50,6 +50,7 @@ typedef struct gather {
     uint32_t queued;
     arrival givens[RAY_LIMIT];
     alpi_rays packets[ALPI_TRACE_BATCH];
+    alpi_polygon_gather polygons;
 } gather;
 
 /// Sample i of the chunk, for one use; the replicates take turns.
@@ -491,7 +492,26 @@ static void place_points(gather *g, uint32_t receiver)
     receivers->place(receivers->user, receiver, g->count, (const float(*)[2])square, g->points);
 }
 
-static alp_result gather_receiver(gather *g, uint32_t receiver)
+static bool has_other_light(const alpi_direct *d)
+{
+    return d->lamp_count > 0 || d->sun_count > 0 || d->emitters.all.count > 0 || d->sky != NULL;
+}
+
+/// Light of the polygons, gathered as lane `lane` of eight receivers.
+static void add_polygons(gather *g, uint32_t lane)
+{
+    for (uint32_t p = 0; p < g->direct->polygon_count; p++) {
+        const alpi_polygon *polygon = &g->direct->polygons[p];
+        const double light[3] = {(double)polygon->radiance.x, (double)polygon->radiance.y,
+                                 (double)polygon->radiance.z};
+        for (int i = 0; i < 3 * R; i++) {
+            g->sums[polygon->part][i / 3][i % 3] +=
+                ALPI_PI * light[i % 3] * g->polygons.sums[lane][p][i / 3][i % 3];
+        }
+    }
+}
+
+static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
 {
     const alpi_direct *d = g->direct;
     const uint32_t key = alpi_random_key(d->options.seed, receiver, STREAM_DIRECT);
@@ -499,7 +519,8 @@ static alp_result gather_receiver(gather *g, uint32_t receiver)
         g->keys[r] = alpi_hash32(key ^ alpi_hash32(r + 1u));
     }
     memset(g->sums, 0, d->part_count * sizeof *g->sums);
-    for (g->first = 0; g->first < d->samples; g->first += CHUNK) {
+    add_polygons(g, lane);
+    for (g->first = 0; g->first < d->samples && has_other_light(d); g->first += CHUNK) {
         const uint32_t left = d->samples - g->first;
         g->count = left < CHUNK ? left : CHUNK;
         place_points(g, receiver);
@@ -515,33 +536,49 @@ static alp_result gather_receiver(gather *g, uint32_t receiver)
     return ALP_OK;
 }
 
+/// Up to eight receivers, whose polygons are asked side by side.
+static alp_result gather_block(gather *g, const uint32_t *receivers, uint32_t count)
+{
+    if (g->direct->polygon_count > 0) {
+        ALP_TRY(alpi_polygons_gather(&g->polygons, receivers, count));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        ALP_TRY(gather_receiver(g, receivers[i], i));
+    }
+    return ALP_OK;
+}
+
+static void start_gather(gather *g, direct_job *job)
+{
+    const alpi_direct *d = job->direct;
+    g->job = job;
+    g->direct = d;
+    g->rays = 0;
+    g->queued = 0;
+    if (d->polygon_count > 0) {
+        alpi_polygons_start(&d->options, job->receivers, d->samples, &g->polygons);
+        g->polygons.polygons = d->polygons;
+        g->polygons.polygon_count = d->polygon_count;
+    }
+    g->polygons.rays = 0;
+}
+
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     direct_job *job = user;
     gather g;
-    g.job = job;
-    g.direct = job->direct;
     (void)worker;
-    g.rays = 0;
-    g.queued = 0;
+    start_gather(&g, job);
     alp_result result = ALP_OK;
-    for (uint32_t i = begin; i < end && result == ALP_OK; i++) {
-        result = gather_receiver(&g, job->list != NULL ? job->list[i] : i);
+    for (uint32_t i = begin; i < end && result == ALP_OK; i += ALPI_PACKET) {
+        uint32_t block[ALPI_PACKET], count = 0;
+        for (; count < ALPI_PACKET && i + count < end; count++) {
+            block[count] = job->list != NULL ? job->list[i + count] : i + count;
+        }
+        result = gather_block(&g, block, count);
     }
-    atomic_fetch_add_explicit(&job->rays, g.rays, memory_order_relaxed);
+    atomic_fetch_add_explicit(&job->rays, g.rays + g.polygons.rays, memory_order_relaxed);
     return result;
-}
-
-/// The most rays that a receiver may take.
-static double most_rays(const alpi_direct *d, const alpi_receivers *receivers)
-{
-    const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
-    double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
-    of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
-    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
-    const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
-    const bool once = !receivers->extended && !d->lamps_drawn;
-    return of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
 }
 
 alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receivers *receivers,
@@ -551,11 +588,11 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     direct_job job = {.direct = direct, .receivers = receivers, .list = list, .output = output};
     const uint32_t count = list != NULL ? list_count : receivers->count;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    const double rays = fmax(most_rays(direct, receivers), 1.0);
-    const uint32_t grain = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // a millisecond
+    const double rays = fmax(alpi_direct_most_rays(direct, receivers->extended), 1.0);
+    const uint32_t blocks = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // some milliseconds
     told.units_per_item = rays;
-    const alp_result result =
-        alpi_parallel_for(direct->options.context, count, grain, gather_range, &job, &told);
+    const alp_result result = alpi_parallel_for(direct->options.context, count,
+                                                blocks * ALPI_PACKET, gather_range, &job, &told);
     output->rays += atomic_load(&job.rays);
     return result;
 }

@@ -109,6 +109,11 @@ static alp_result collect_surfaces(alpi_direct *d)
                 shared != ALPI_NONE ? shared : add_part(d, ALPI_DIRECT_MATERIAL, m);
         }
     }
+    d->polygon_count = alpi_polygons_collect(&d->emitters, d->material_parts, d->polygons);
+    if (d->polygon_count > 0) {
+        alpi_direct_emitters_clear(&d->emitters);
+        d->emitters = (alpi_direct_emitters){.scene = scene};
+    }
     return ALP_OK;
 }
 
@@ -178,6 +183,18 @@ void alpi_direct_destroy(alpi_direct *direct)
     alpi_release(context, direct->light_parts);
     alpi_release(context, direct->lights);
     alpi_release(context, direct);
+}
+
+double alpi_direct_most_rays(const alpi_direct *d, bool extended)
+{
+    const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
+    double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
+    of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
+    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
+    const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
+    const bool once = !extended && !d->lamps_drawn;
+    const double polygons = (double)d->polygon_count * alpi_polygon_rays(d->samples);
+    return polygons + of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
 }
 
 uint32_t alpi_direct_samples(const alpi_direct *direct)

@@ -7,6 +7,7 @@
 #include "scene/lighting_suns.h"
 #include "transport/direct.h"
 #include "transport/direct_emitters.h"
+#include "transport/direct_polygons.h"
 
 /// A part of each light up to the limit and as many materials, or one of many; and the sky.
 enum { ALPI_DIRECT_PART_LIMIT = 3 * ALPI_DIRECT_LIGHT_LIMIT + 1 };
@@ -26,10 +27,15 @@ struct alpi_direct {
     uint32_t sun_count;       // of `suns`
     bool suns_drawn;          // one at a time
     uint32_t *material_parts; // [scene.material_count], ALPI_NONE: it emits nothing
-    alpi_direct_emitters emitters;
-    const alpi_sky *sky; // NULL: none
+    alpi_polygon polygons[ALPI_POLYGON_LIMIT]; // [polygon_count] all emitters, if there are any
+    uint32_t polygon_count;
+    alpi_direct_emitters emitters; // others
+    const alpi_sky *sky;           // NULL: none
     uint32_t sky_part;
     bool sky_drawn; // it is uneven: directions to it are drawn besides those that meet it
 };
+
+/// The most rays that a receiver may take. @param extended see alpi_receivers
+double alpi_direct_most_rays(const alpi_direct *direct, bool extended);
 
 #endif

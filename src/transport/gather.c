@@ -7,6 +7,7 @@
 
 /// Points that rays of a packet have met, and whose they are.
 typedef struct met_points {
+    uint32_t left_scene; // bit i: lane i met nothing
     uint32_t count;
     int lanes[ALPI_PACKET];
     alpi_surface_point points[ALPI_PACKET];
@@ -38,7 +39,7 @@ static vec3 sky_radiance(const alpi_gather_scene *from, vec3 direction)
 static void sort_hits(const alpi_gather_scene *from, const alpi_rays *rays, const alpi_hits *hits,
                       uint32_t active, met_points *met, const vec3 *left, vec3 *radiance)
 {
-    met->count = 0;
+    met->count = met->left_scene = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         if ((active >> i & 1u) == 0) {
             continue;
@@ -46,6 +47,7 @@ static void sort_hits(const alpi_gather_scene *from, const alpi_rays *rays, cons
         const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
         const uint32_t triangle = hits->triangle[i];
         if (triangle == ALPI_NONE) {
+            met->left_scene |= 1u << i;
             add_light(&radiance[i], sky_radiance(from, direction), left[i]);
             continue;
         }
@@ -80,14 +82,18 @@ static void add_surfaces(const alpi_gather_scene *from, const met_points *met, c
 }
 
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      bool coherent, vec3 radiance[ALPI_PACKET])
+                      bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET])
 {
+    const vec3 black = {0.0f, 0.0f, 0.0f};
     alpi_trace_filter filter = from->filter;
     filter.panes = alpi_tracer_has_panes(from->tracer);
     vec3 left[ALPI_PACKET];
     for (int i = 0; i < ALPI_PACKET; i++) {
-        radiance[i] = (vec3){0.0f, 0.0f, 0.0f};
+        radiance[i] = black;
         left[i] = (vec3){1.0f, 1.0f, 1.0f};
+    }
+    for (int i = 0; i < ALPI_PACKET && open != NULL; i++) {
+        open[i] = black;
     }
     for (int passed = 0; active != 0 && passed < ALPI_PANE_LIMIT; passed++) {
         alpi_hits hits;
@@ -99,6 +105,9 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
         }
         sort_hits(from, rays, &hits, active, &met, left, radiance);
         add_surfaces(from, &met, left, radiance);
+        for (int i = 0; i < ALPI_PACKET && open != NULL; i++) {
+            open[i] = (met.left_scene >> i & 1u) != 0 ? left[i] : open[i];
+        }
         active = filter.panes ? alpi_panes_go_on(from->scene, &hits, active, rays, left) : 0;
     }
 }
@@ -128,15 +137,23 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            alpi_gather_sums *sums)
 {
     double *sum = sums->light[packet % gatherer->replicates];
+    const bool even = gatherer->weights == NULL;
+    float parts[5] = {0.0f};
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const double weight = weight_of(gatherer, packet, i);
+        const float weight = even ? 1.0f : gatherer->weights[packet][i];
         const float *l = light[cells[i]];
-        sum[0] += weight * (double)l[0];
-        sum[1] += weight * (double)l[1];
-        sum[2] += weight * (double)l[2];
-        sums->lost[0] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0;
-        sums->lost[1] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0;
+        parts[0] += weight * l[0];
+        parts[1] += weight * l[1];
+        parts[2] += weight * l[2];
+        parts[3] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0f;
+        parts[4] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0f;
     }
+    const double scale = even ? weight_of(gatherer, packet, 0) : 1.0;
+    for (int k = 0; k < 3; k++) {
+        sum[k] += scale * (double)parts[k];
+    }
+    sums->lost[0] += scale * (double)parts[3];
+    sums->lost[1] += scale * (double)parts[4];
 }
 
 void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
@@ -245,7 +262,8 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
             }
         } else {
             vec3 radiance[ALPI_PACKET];
-            alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance);
+            alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
+                             NULL);
             alpi_gather_add(g, first + k, radiance, sums);
         }
     }

@@ -27,8 +27,10 @@ typedef struct alpi_gather_scene {
 /// @param active   bit i: lane i
 /// @param coherent the rays of the packet leave in about one direction
 /// @param radiance out; 0 of lanes that are not active
+/// @param open     NULL, or out: what panes leave of the light of each ray that leaves the scene; 0
+///                 of the others
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      bool coherent, vec3 radiance[ALPI_PACKET]);
+                      bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET]);
 
 /// Rays of one packet, as a gatherer spreads them.
 typedef struct alpi_gather_packet {

@@ -259,7 +259,7 @@ void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receive
     alpi_rays rays;
     const uint32_t active = aim(&options->cube->packets[packet], point, frame, &rays);
     alpi_gather_look(&options->from, &rays, active, options->cube->resolution >= COHERENT_FROM,
-                     radiance);
+                     radiance, NULL);
 }
 
 alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,

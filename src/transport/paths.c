@@ -223,6 +223,29 @@ static void meet(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_
     add_met(r, w, i, alpi_surface_emission(r->scene, triangle, b1, b2, back), triangle, distance);
 }
 
+/// Path i, bounced once, ends with light that is known.
+/// @param kept what alpi_panes_pass left of a pane's own share, which is in that light already
+static void meet_known(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float kept)
+{
+    const alpi_hits *hits = &w->hits[i / ALPI_PACKET];
+    const int lane = (int)(i % ALPI_PACKET);
+    const vec3 direction = at(&w->direction, i), throughput = at(&w->throughput, i);
+    alpi_surface_point point = {hits->triangle[lane], hits->b1[lane], hits->b2[lane],
+                                vec3_scale(direction, -1.0f), false};
+    alpi_hit_point(r->scene, hits, lane, direction, &point.from_behind);
+    if (point.from_behind && !alpi_surface_is_double_sided(r->scene, point.triangle)) {
+        return;
+    }
+    if (r->filter.panes) {
+        const float own = alpi_surface_pane(r->scene, point.triangle, point.b1, point.b2).kept;
+        kept = own > 0.0f ? kept / own : 0.0f;
+    }
+    vec3 known;
+    r->known->reflected(r->known->user, &point, 1, &known);
+    known = vec3_scale(known, (float)ALPI_PI * kept);
+    bring(w, i, (vec3){throughput.x * known.x, throughput.y * known.y, throughput.z * known.z});
+}
+
 /// Path i meets a surface. @param to where it goes on @return false: it ends here
 static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_t to)
 {
@@ -240,6 +263,10 @@ static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint3
     const float b1 = hits->b1[lane], b2 = hits->b2[lane];
     meet(r, w, i, triangle, b1, b2, distance);
     if (w->depth[i] >= (int32_t)r->bounces) {
+        return false;
+    }
+    if (r->known != NULL && w->depth[i] == 0) {
+        meet_known(r, w, i, kept);
         return false;
     }
     const vec3 albedo = vec3_scale(alpi_surface_albedo(r->scene, triangle, b1, b2), kept);

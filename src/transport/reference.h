@@ -14,6 +14,7 @@
 #include "scene/lighting.h"
 #include "scene/receivers.h"
 #include "trace/trace.h"
+#include "transport/surface_light.h"
 
 /// Independently scrambled parts of a receiver's samples: the spread of their means gives the
 /// standard error. Samples are rounded up to a multiple of it.
@@ -34,6 +35,9 @@ typedef struct alpi_reference {
     bool share;       // eight receivers that follow each other, best if neighbours, share what
                       // their paths find after the first bounce: less noise for as many paths,
                       // alike in all eight. Pixels do not
+    // NULL, or light that surfaces reflect, as somebody knows already: from its first vertex a path
+    // goes to what it meets next and ends there with this, if there is to be a bounce at all.
+    const alpi_surface_light *known;
     uint64_t seed;
 } alpi_reference;
 

@@ -21,6 +21,16 @@ bake --samples 0
 bake --samples 65537
 render --with ao --sky 1,1,1
 render --with constant --bounces 3
+render --with reference --size 64
+render --with radiosity --texel-samples 64
+render --with ao --texel-samples 64
+render --with lightmap --ao-samples 64
+render --with radiosity --occluders a
+render --with radiosity --size 0
+render --with lightmap --size 16385
+render --with lightmap --texel-samples 0
+render --with lightmap --gather paths
+render --with lightmap --bounces -1
 render --with hemisphere --sun 0,45,1
 render --with hemisphere --sky clear
 render --with hemisphere --sky sky.hdr

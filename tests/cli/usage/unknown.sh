@@ -22,6 +22,6 @@ try compare --maxrmse 1
 try info --jsno
 # an option of another command
 try bake --resolution 3x3
-try render --size 4
+try render --padding 4
 try info --ao-samples 4
 try compare --threads 2

@@ -156,11 +156,13 @@ static void memory_of_light_is_known_beforehand(void **state)
         uint32_t size;
         float error;
         alp_direct direct;
-    } cases[] = {{"builtin:cornell", 128, 0.2f, ALP_DIRECT_ON},
-                 {"builtin:cornell", 256, 0.0f, ALP_DIRECT_ON},
-                 {"builtin:cornell", 512, 0.2f, ALP_DIRECT_APART},
-                 {"builtin:furnace", 512, 0.2f, ALP_DIRECT_ON},
-                 {"builtin:teapot-room", 512, 0.2f, ALP_DIRECT_ON}};
+        bool denoise;
+    } cases[] = {{"builtin:cornell", 128, 0.2f, ALP_DIRECT_ON, false},
+                 {"builtin:cornell", 256, 0.0f, ALP_DIRECT_ON, false},
+                 {"builtin:cornell", 512, 0.2f, ALP_DIRECT_APART, false},
+                 {"builtin:furnace", 512, 0.2f, ALP_DIRECT_ON, false},
+                 {"builtin:teapot-room", 512, 0.2f, ALP_DIRECT_ON, false},
+                 {"builtin:cornell", 512, 0.2f, ALP_DIRECT_ON, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_context *context = test_context(2);
         alp_scene *scene = load(context, cases[i].scene);
@@ -169,6 +171,7 @@ static void memory_of_light_is_known_beforehand(void **state)
         options.light.samples = 32;
         options.light.error = cases[i].error;
         options.light.direct = cases[i].direct;
+        options.light.denoise = cases[i].denoise;
         alp_bake_report report;
         alp_lightmap *lightmap = NULL;
         ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));

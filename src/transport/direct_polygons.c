@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: MIT
+#include "transport/direct_polygons.h"
+
+#include "base/random.h"
+#include "scene/triangle_light.h"
+#include "transport/panes.h"
+
+#include <string.h>
+
+enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
+enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
+_Static_assert(CHUNK % R == 0 && SCOUTS % R == 0, "replicates take turns");
+/// Means of form factors over a half's replicates are uneven where their range is more of their
+/// mean.
+static const double UNEVEN = 1.0 / 32.0;
+
+/// The loops for this machine, unless the context asks for less.
+static const alpi_polygon_loops *loops_of(const alp_context *context)
+{
+#ifdef ALPI_HAS_V3_KERNEL
+    if (alpi_context_has_v3(context)) {
+        return &alpi_polygon_loops_v3;
+    }
+#endif
+    (void)context;
+    return &alpi_polygon_loops_baseline;
+}
+
+// --- which there are -----------------------------------------------------------------------------
+
+static bool is_even(const alp_scene *scene, uint32_t triangle)
+{
+    const alpi_material *m =
+        &scene->materials[scene->surfaces[scene->triangle_surface[triangle]].material];
+    return m->alpha_mode == ALPI_ALPHA_OPAQUE && (m->emission_texture.image == ALPI_NONE ||
+                                                  scene->images[m->emission_texture.image] == NULL);
+}
+
+/// A triangle; false where it has no shape that floats can hold.
+static bool start_polygon(const alp_scene *scene, uint32_t triangle, alpi_polygon *p)
+{
+    vec3 c[3];
+    const vec3 none = {0.0f, 0.0f, 0.0f};
+    alpi_triangle_corners(scene, triangle, c);
+    *p = (alpi_polygon){.corner = {c[0], c[1], c[2], c[0]},
+                        .triangle = true,
+                        .two_sided = alpi_surface_is_double_sided(scene, triangle),
+                        .normal = vec3_triangle_normal(c[0], c[1], c[2], none)};
+    p->radiance = alpi_surface_emission(scene, triangle, 1.0f / 3.0f, 1.0f / 3.0f, p->normal);
+    return vec3_length(p->normal) > 0.0f;
+}
+
+static bool same(vec3 a, vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// Makes two triangles one where they share an edge of opposite ways, and the corners beyond it lie
+/// as those of a parallelogram, to within rounding.
+static bool join(alpi_polygon *p, const alpi_polygon *q)
+{
+    for (int i = 0; i < 3 && p->triangle; i++) {
+        for (int j = 0; j < 3; j++) {
+            // The edge from corner i to the next, with a opposite in p and b in q.
+            const vec3 from = p->corner[i], to = p->corner[i + 1], a = p->corner[(i + 2) % 3];
+            const vec3 b = q->corner[(j + 2) % 3];
+            const vec3 apart = vec3_sub(vec3_add(a, b), vec3_add(from, to));
+            const float size = vec3_length(from) + vec3_length(to) + vec3_length(vec3_sub(a, b));
+            if (same(from, q->corner[j + 1]) && same(to, q->corner[j]) &&
+                vec3_length(apart) <= 4.0f * 0x1p-23f * size &&
+                vec3_dot(p->normal, q->normal) > 0.0f) {
+                const vec3 corner[4] = {from, b, to, a};
+                memcpy(p->corner, corner, sizeof corner);
+                p->triangle = false;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void measure(alpi_polygon *p)
+{
+    const vec3 *c = p->corner;
+    const vec3 third = p->triangle ? c[2] : c[3];
+    p->along = vec3_sub(c[1], c[0]);
+    p->across = vec3_sub(third, c[0]);
+    p->area = (float)(vec3_triangle_area(c[0], c[1], third) * (p->triangle ? 1.0 : 2.0));
+    p->middle = vec3_scale(vec3_add(c[0], c[2]), 0.5f);
+    for (int k = 0; k < 4; k++) {
+        for (int j = 0; j < k; j++) {
+            p->diameter = fmaxf(p->diameter, vec3_length(vec3_sub(c[k], c[j])));
+        }
+    }
+}
+
+uint32_t alpi_polygons_collect(const alpi_direct_emitters *emitters, const uint32_t *parts,
+                               alpi_polygon polygons[ALPI_POLYGON_LIMIT])
+{
+    const alp_scene *scene = emitters->scene;
+    const alpi_emitters *all = &emitters->all;
+    uint32_t count = 0, last_surface = ALPI_NONE;
+    if (all->count > ALPI_POLYGON_LIMIT) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < all->count; i++) {
+        alpi_polygon p;
+        const uint32_t surface = scene->triangle_surface[all->triangles[i]];
+        if (!is_even(scene, all->triangles[i]) || !start_polygon(scene, all->triangles[i], &p)) {
+            return 0;
+        }
+        p.part = parts[scene->surfaces[surface].material];
+        if (count == 0 || surface != last_surface || !join(&polygons[count - 1], &p)) {
+            polygons[count++] = p;
+        }
+        last_surface = surface;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        measure(&polygons[i]);
+    }
+    return count;
+}
+
+// --- near ones -----------------------------------------------------------------------------------
+
+/// Instead of the loops' even density over the area, of which little counts where it is near: a
+/// direction of even density over the solid angle.
+static void aim_near(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s, int lane)
+{
+    const vec3 origin = {w->origin[0][s][lane], w->origin[1][s][lane], w->origin[2][s][lane]};
+    const vec3 normal = {w->normal[0][s][lane], w->normal[1][s][lane], w->normal[2][s][lane]};
+    const vec3 halves[2][3] = {{p->corner[0], p->corner[1], p->corner[2]},
+                               {p->corner[0], p->corner[2], p->corner[3]}};
+    alpi_triangle_view views[2];
+    vec2 u = {w->u[s][lane], w->v[s][lane]};
+    views[0] = alpi_triangle_view_from(origin, halves[0]);
+    double chance = 1.0;
+    uint32_t k = 0;
+    if (!p->triangle) {
+        views[1] = alpi_triangle_view_from(origin, halves[1]);
+        const double both = views[0].solid_angle + views[1].solid_angle;
+        const double first = both > 0.0 ? views[0].solid_angle / both : 0.5;
+        k = (double)u.x >= first;
+        chance = k == 0 ? first : 1.0 - first;
+        u.x = (float)(((double)u.x - (k == 0 ? 0.0 : first)) / chance); // as even as it was
+        u.x = fminf(fmaxf(u.x, 0.0f), 1.0f - 0x1p-24f);
+    }
+    const vec3 direction = double3_to_vec3(alpi_triangle_sample(&views[k], u));
+    const double3 along = double3_from(direction);
+    const float cosine = vec3_dot(direction, normal);
+    const double density = chance * alpi_triangle_density(&views[k], along);
+    const float weight = density > 0.0 ? (float)((double)cosine / density) : 0.0f;
+    const bool gives = w->factor[s][lane] > 0.0 && weight > 0.0f && isfinite(weight);
+    const float distance = (float)alpi_triangle_hit_at(&views[k], along).distance;
+    const float reach = distance * (1.0f - 1e-5f) - 2.0f * w->offset[s][lane];
+    w->weight[s][lane] = gives ? weight : 0.0f;
+    alpi_rays_set(&w->rays[s], lane, origin, direction, gives && reach > 0.0f ? reach : 0.0f);
+}
+
+// --- gathering -----------------------------------------------------------------------------------
+
+static void place_lane(alpi_polygon_gather *g, uint32_t receiver, int lane)
+{
+    alpi_polygon_wave *w = &g->wave;
+    float square[CHUNK][2];
+    for (uint32_t s = 0; s < w->count; s++) {
+        square[s][0] = w->u[s][lane];
+        square[s][1] = w->v[s][lane];
+    }
+    g->receivers->place(g->receivers->user, receiver, w->count, (const float(*)[2])square,
+                        g->placed);
+    for (uint32_t s = 0; s < w->count; s++) {
+        const alpi_receiver_point *p = &g->placed[s];
+        w->position[0][s][lane] = p->position.x;
+        w->position[1][s][lane] = p->position.y;
+        w->position[2][s][lane] = p->position.z;
+        w->normal[0][s][lane] = p->shading_normal.x;
+        w->normal[1][s][lane] = p->shading_normal.y;
+        w->normal[2][s][lane] = p->shading_normal.z;
+        w->origin[0][s][lane] = p->position.x + p->offset * p->geometric_normal.x;
+        w->origin[1][s][lane] = p->position.y + p->offset * p->geometric_normal.y;
+        w->origin[2][s][lane] = p->position.z + p->offset * p->geometric_normal.z;
+        w->offset[s][lane] = p->offset;
+    }
+}
+
+/// Adds what is seen of the polygon through panes, per channel.
+static void tally_panes(alpi_polygon_gather *g, alpi_polygon_tally *t)
+{
+    alpi_polygon_wave *w = &g->wave;
+    for (uint32_t s = 0; s < w->count - w->scouts; s++) {
+        vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
+        uint32_t free = 0;
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            free |= w->weight[s][i] > 0.0f && w->rays[s].maximum[i] >= 0.0f ? 1u << i : 0u;
+        }
+        alpi_panes_dim(g->options->scene, g->options->tracer, g->options->filter, free, &w->rays[s],
+                       left);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            if ((free >> i & 1u) != 0) {
+                const double weight = (double)w->weight[s][i];
+                t->seen[0][s % R][i] += weight * (double)left[i].x;
+                t->seen[1][s % R][i] += weight * (double)left[i].y;
+                t->seen[2][s % R][i] += weight * (double)left[i].z;
+            }
+        }
+    }
+}
+
+/// Traces the packets that bring anything; `maximum` of the others says free, which weighs nothing.
+static void trace(alpi_polygon_gather *g, uint32_t active)
+{
+    alpi_polygon_wave *w = &g->wave;
+    const alpi_direct_options *o = g->options;
+    uint32_t run = 0; // packets before this one, not traced yet
+    for (uint32_t s = 0; s <= w->count; s++) {
+        uint32_t sent = 0;
+        for (uint32_t i = 0; i < ALPI_PACKET && s < w->count; i++) {
+            sent += (active >> i & 1u) != 0 && w->rays[s].maximum[i] > 0.0f;
+        }
+        g->rays += sent;
+        if (sent > 0) {
+            run++;
+        } else if (run > 0) {
+            alpi_trace_occluded(o->tracer, &w->rays[s - run], run, active, o->filter,
+                                ALPI_RAYS_NEAR);
+            run = 0;
+        }
+    }
+}
+
+/// Which samples of a polygon count from now on. @return whether any does
+static bool want(alpi_polygon_gather *g, uint32_t polygon)
+{
+    alpi_polygon_wave *w = &g->wave;
+    for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+        w->any_wanted[h] = g->wanted[polygon][h] != 0;
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            w->wanted[h][i] = (g->wanted[polygon][h] >> i & 1u) != 0 ? 1.0f : 0.0f;
+        }
+    }
+    return w->any_wanted[0] || w->any_wanted[1];
+}
+
+/// Numbers as drawn for the use, from sample `first` on; of scouts from the corners of the square.
+/// @param turn of which corner the first scout is
+static void draw(alpi_polygon_gather *g, uint32_t use, uint32_t first, uint32_t turn)
+{
+    alpi_polygon_wave *w = &g->wave;
+    g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, use, first);
+    for (uint32_t k = 0; k < w->scouts; k++) {
+        const uint32_t corner = (k + turn * (k / 4)) % 4;
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            w->u[w->count - w->scouts + k][i] = (corner == 1 || corner == 2) ? 0.98f : 0.02f;
+            w->v[w->count - w->scouts + k][i] = corner >= 2 ? 0.98f : 0.02f;
+        }
+    }
+}
+
+/// Lanes whose scouts were of different minds.
+static uint32_t mixed_scouts(const alpi_polygon_wave *w)
+{
+    uint32_t free = 0, hidden = 0;
+    for (uint32_t s = w->count - w->scouts; s < w->count; s++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            const uint32_t gives = w->weight[s][i] > 0.0f ? 1u << i : 0u;
+            free |= w->rays[s].maximum[i] >= 0.0f ? gives : 0u;
+            hidden |= w->rays[s].maximum[i] >= 0.0f ? 0u : gives;
+        }
+    }
+    return free & hidden;
+}
+
+static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t active)
+{
+    alpi_polygon_wave *w = &g->wave;
+    const alpi_polygon *p = &g->polygons[polygon];
+    const bool panes = g->options->filter.panes;
+    draw(g, USE_POLYGON + polygon, first, 1);
+    g->loops->aim(w, p);
+    for (uint32_t s = 0; s < w->count; s++) {
+        for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
+            if ((w->nears[s] >> i & 1u) != 0 && w->factor[s][i] > 0.0) {
+                aim_near(w, p, s, (int)i);
+            }
+        }
+    }
+    trace(g, active);
+    g->mixed[polygon] |= mixed_scouts(w);
+    g->loops->tally(w, panes, &g->tallies[polygon]);
+    if (panes) {
+        tally_panes(g, &g->tallies[polygon]);
+    }
+}
+
+/// Samples from `first` on, of the polygons and lanes that want any.
+static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
+                         uint32_t first)
+{
+    uint32_t lanes = 0;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        lanes |= g->wanted[k][0] | g->wanted[k][1];
+    }
+    draw(g, USE_PLACE, first, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        if ((lanes >> i & 1u) != 0) {
+            place_lane(g, receivers[i], (int)i);
+        }
+    }
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        if (want(g, k)) {
+            ask(g, k, first, lanes);
+        }
+    }
+}
+
+/// Whether half of the replicates were of different minds: rays about what is hidden, or points of
+/// the receiver about how much light there is.
+static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uint32_t lane)
+{
+    double factor = 0.0, weight = 0.0, seen = 0.0, least = HUGE_VAL, most = 0.0;
+    for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
+        factor += t->factor[r][lane];
+        least = fmin(least, t->factor[r][lane]);
+        most = fmax(most, t->factor[r][lane]);
+        weight += t->weight[r][lane];
+        for (int k = 0; k < 3; k++) {
+            seen += t->seen[panes ? k : 0][r][lane] / 3.0;
+        }
+    }
+    const bool hidden = seen < weight * (1.0 - 1e-9) || weight == 0.0;
+    const bool uneven = (most - least) * ALPI_POLYGON_HALF > UNEVEN * factor;
+    return factor > 0.0 && (uneven || (hidden && (seen > 0.0 || weight == 0.0)));
+}
+
+/// After the first samples, only receivers that found a polygon partly hidden, or uneven, go on:
+/// where their scouts did, which count in no mean, and each half of the replicates where the other
+/// did. What decides is independent of what it decides about, so nothing is biased.
+static bool choose(alpi_polygon_gather *g, uint32_t count)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+            g->wanted[k][h] = g->mixed[k] & ((1u << count) - 1u);
+            for (uint32_t i = 0; i < count; i++) {
+                const bool mixed = is_mixed(&g->tallies[k], g->options->filter.panes, 1 - h, i);
+                g->wanted[k][h] |= mixed ? 1u << i : 0u;
+            }
+            any = any || g->wanted[k][h] != 0;
+        }
+    }
+    return any;
+}
+
+/// Makes sums over `few` samples those of `all`, alike.
+static void scale_tally(alpi_polygon_tally *t, uint32_t half, uint32_t lane, double scale)
+{
+    for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
+        t->factor[r][lane] *= scale;
+        t->weight[r][lane] *= scale;
+        for (int k = 0; k < 3; k++) {
+            t->seen[k][r][lane] *= scale;
+        }
+    }
+}
+
+/// Form factor × visibility of each replicate, linearised about that of all, so that their mean is
+/// that of all: F_r V + F (S_r − V W_r) / W.
+static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sums[R][3])
+{
+    double factor = 0.0, weight = 0.0, seen[3] = {0.0, 0.0, 0.0};
+    for (int r = 0; r < R; r++) {
+        factor += t->factor[r][lane];
+        weight += t->weight[r][lane];
+        for (int k = 0; k < 3; k++) {
+            seen[k] += t->seen[panes ? k : 0][r][lane];
+        }
+    }
+    const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double visible = seen[k] == weight ? 1.0 : seen[k] * scale;
+        for (int r = 0; r < R; r++) {
+            const double apart = t->seen[panes ? k : 0][r][lane] - visible * t->weight[r][lane];
+            sums[r][k] = weight > 0.0 ? t->factor[r][lane] * visible + factor * apart * scale : 0.0;
+        }
+    }
+}
+
+/// Half of them, but enough for both halves to tell.
+static uint32_t first_samples(uint32_t samples)
+{
+    const uint32_t few = samples / 2 / R * R;
+    return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
+}
+
+uint32_t alpi_polygon_rays(uint32_t samples)
+{
+    return samples + (first_samples(samples) < samples ? SCOUTS : 0);
+}
+
+/// @param scouts sent with the first of them
+static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count,
+                                 const uint32_t range[2], uint32_t scouts)
+{
+    alpi_polygon_wave *w = &g->wave;
+    for (uint32_t first = range[0]; first < range[1]; first += w->count) {
+        const uint32_t left = range[1] - first, room = CHUNK - scouts;
+        w->scouts = scouts;
+        w->count = (left < room ? left : room) + scouts;
+        gather_chunk(g, receivers, count, first);
+        w->count -= scouts;
+        scouts = 0;
+        if (!alpi_loop_goes_on(g->options->context)) { // ten thousand samples may take seconds
+            return ALP_ERROR_CANCELLED;
+        }
+    }
+    return ALP_OK;
+}
+
+void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
+                         uint32_t samples, alpi_polygon_gather *g)
+{
+    g->options = options;
+    g->receivers = receivers;
+    g->samples = samples;
+    g->loops = loops_of(options->context);
+    g->rays = 0;
+    memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set
+    for (uint32_t s = 0; s < CHUNK; s++) {
+        alpi_rays_clear(&g->wave.rays[s]);
+    }
+}
+
+alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
+{
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t receiver = receivers[i < count ? i : count - 1];
+        const uint32_t key = alpi_random_key(g->options->seed, receiver, STREAM_POLYGON);
+        for (uint32_t r = 0; r < R; r++) {
+            g->keys[r][i] = alpi_hash32(key ^ alpi_hash32(r + 1u));
+        }
+    }
+    memset(g->tallies, 0, g->polygon_count * sizeof *g->tallies);
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
+    }
+    const uint32_t few = first_samples(g->samples);
+    const uint32_t stages[3] = {0, few, g->samples};
+    memset(g->mixed, 0, sizeof g->mixed);
+    ALP_TRY(gather_samples(g, receivers, count, stages, few < g->samples ? SCOUTS : 0));
+    if (few < g->samples && choose(g, count)) {
+        ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < g->polygon_count; k++) {
+            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES && few < g->samples; h++) {
+                if ((g->wanted[k][h] >> i & 1u) == 0) {
+                    scale_tally(&g->tallies[k], h, i, (double)g->samples / few);
+                }
+            }
+            finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
+        }
+    }
+    return ALP_OK;
+}

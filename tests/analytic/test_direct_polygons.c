@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Direct light of a few even polygons: closed forms without noise where all or nothing is visible,
+// from any point and side; penumbrae without bias; the same bits however it is computed.
+#include "test_direct_stage.h"
+
+#include "base/random.h"
+#include "scene/polygon_light.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0}, GREY = {0.5f, 0.5f, 0.5f};
+static const vec3 QUAD[4] = {{-1, 2, -0.5f}, {1, 2, -0.5f}, {1, 2, 0.5f}, {-1, 2, 0.5f}};
+static alp_context *context;
+
+static int setup(void **state)
+{
+    (void)state;
+    context = test_context(1);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    alp_context_destroy(context);
+    return 0;
+}
+
+/// The quad, of radiance 3, and a dark one besides where `screen` is one.
+static test_stage open_quad(alp_context *made_in, bool two_sided, const vec3 *screen)
+{
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, made_in, "quad");
+    const uint32_t light = alpi_builder_material(&b, "light", GREY, (vec3){3, 3, 3});
+    b.scene->materials[light].double_sided = two_sided;
+    alpi_builder_surface(&b, "light", light);
+    alpi_builder_quad(&b, QUAD);
+    if (screen != NULL) {
+        alpi_builder_surface(&b, "screen", alpi_builder_material(&b, "screen", GREY, DARK));
+        alpi_builder_quad(&b, screen);
+    }
+    ASSERT_OK(made_in, alpi_builder_finish(&b, &scene));
+    return test_stage_open(made_in, scene, NULL, 0, NULL);
+}
+
+/// π L F of the quad without obstacles.
+static double exact(const test_patch *p, bool two_sided)
+{
+    const double f = alpi_polygon_form_factor(p->corner, p->normal, QUAD, 4);
+    return 3.0 * ALPI_PI * (two_sided ? fabs(f) : fmax(f, 0.0));
+}
+
+enum { POINTS = 509 }; // no multiple of 8
+/// Points all around the quad, near ones too, that look anywhere.
+static void scatter(test_patch points[POINTS])
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const vec2 u = alpi_sample_2d(1, i), v = alpi_sample_2d(2, i), w = alpi_sample_2d(3, i);
+        const float y = 2.0f * w.x - 1.0f, r = sqrtf(1.0f - y * y), size = i % 2 == 0 ? 6.0f : 2.0f;
+        const double phi = 2.0 * ALPI_PI * (double)w.y;
+        points[i] =
+            test_point((vec3){size * (u.x - 0.5f), 2.0f + size * (v.x - 0.5f), size * (u.y - 0.5f)},
+                       vec3_normalize_or((vec3){r * (float)cos(phi), y, r * (float)sin(phi)}, UP));
+    }
+}
+
+static void gather(const test_stage *s, const test_patch *points, const uint32_t *list,
+                   uint32_t list_count, alpi_reference_value *values)
+{
+    const test_patches patches = {.count = POINTS, .patches = points, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&patches);
+    const alpi_direct_options o = test_stage_options(s, 256);
+    alpi_direct *direct = NULL;
+    alpi_direct_output output = {.values = values};
+    ASSERT_OK(s->context, alpi_direct_create(&o, &direct));
+    ASSERT_OK(s->context,
+              alpi_direct_irradiance(direct, &receivers, list, list_count, NULL, &output));
+    alpi_direct_destroy(direct);
+}
+
+/// From any point and side, above the horizon and below: the closed form, and no noise. A sliver
+/// above the horizon may hold none of 256 rays: it gives less than π L (1/100)².
+static void all_of_it(void **state)
+{
+    (void)state;
+    static test_patch points[POINTS];
+    static alpi_reference_value values[POINTS];
+    scatter(points);
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        test_stage s = open_quad(context, two_sided != 0, NULL);
+        uint32_t lit = 0;
+        gather(&s, points, NULL, 0, values);
+        for (uint32_t i = 0; i < POINTS; i++) {
+            const double e = exact(&points[i], two_sided != 0);
+            const double sliver = values[i].mean[0] == 0.0f ? 3.0 * ALPI_PI * 1e-4 : 0.0;
+            // Angles to 1e-9, and floats.
+            ASSERT_NEAR(values[i].mean[0], e, 1e-6 * e + 1e-9 + sliver);
+            assert_true(sqrt((double)values[i].variance[0]) <= 1e-7 * e);
+            lit += e > 0.0;
+        }
+        assert_true(lit > POINTS / 5);
+        test_stage_close(&s);
+    }
+}
+
+/// Behind a screen all is dark, without noise.
+static void nothing_of_it(void **state)
+{
+    (void)state;
+    const vec3 screen[4] = {{-9, 1, -9}, {9, 1, -9}, {9, 1, 9}, {-9, 1, 9}};
+    test_stage s = open_quad(context, false, screen);
+    const test_patch p = {{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, UP};
+    const alpi_reference_value v = test_stage_direct(&s, &p, 64, 1, NULL);
+    assert_true(v.mean[0] == 0.0f && v.variance[0] == 0.0f);
+    test_stage_close(&s);
+}
+
+/// What lies on the quad, on either side, does not see it.
+static void on_it(void **state)
+{
+    (void)state;
+    test_stage s = open_quad(context, true, NULL);
+    for (int k = 0; k < 2; k++) {
+        const test_patch p = {
+            {-0.5f, 2, -0.3f}, {1, 0, 0}, {0, 0, 0.5f}, {0, k == 0 ? 1.0f : -1.0f, 0}};
+        assert_true(test_stage_direct(&s, &p, 64, 1, NULL).mean[0] == 0.0f);
+    }
+    test_stage_close(&s);
+}
+
+/// A screen halfway hides all beyond x = −.7 + 2 · .3 = −.1 of the quad from x = −.7. Over seeds
+/// the mean of few samples errs by less than 1 %, most of it from the ratio of means, and the
+/// stated error is true.
+static void a_penumbra(void **state)
+{
+    (void)state;
+    enum { SEEDS = 1024 };
+    const vec3 screen[4] = {{-0.4f, 1, -5}, {5, 1, -5}, {5, 1, 5}, {-0.4f, 1, 5}};
+    const vec3 seen[4] = {{-1, 2, -0.5f}, {-0.1f, 2, -0.5f}, {-0.1f, 2, 0.5f}, {-1, 2, 0.5f}};
+    test_stage s = open_quad(context, false, screen);
+    const test_patch p = test_point((vec3){-0.7f, 0, 0}, UP);
+    const double e = 3.0 * ALPI_PI * alpi_polygon_form_factor(p.corner, UP, seen, 4);
+    ASSERT_LIGHT(test_stage_direct(&s, &p, 1u << 15, 5, NULL), e);
+    for (uint32_t samples = 16; samples <= 64; samples *= 2) {
+        double mean = 0.0, squares = 0.0, stated = 0.0;
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
+            const alpi_reference_value v = test_stage_direct(&s, &p, samples, seed, NULL);
+            const double apart = (double)v.mean[0] - e;
+            mean += apart / SEEDS;
+            squares += apart * apart / SEEDS;
+            stated += (double)v.variance[0] / SEEDS;
+        }
+        printf(
+            "accuracy: penumbra of a quad, %u samples: bias %+.2f %%, error %.2f %%, stated over "
+            "true error %.2f\n",
+            samples, 100.0 * mean / e, 100.0 * sqrt(squares) / e, sqrt(stated / squares));
+        assert_true(fabs(mean) < 4.0 * sqrt(squares / SEEDS) + 0.16 / samples * e);
+        ASSERT_NEAR(sqrt(stated / squares), 1.0, 0.12); // 4 standard errors of 1,024 squares
+    }
+    test_stage_close(&s);
+}
+
+/// The same bits alone or among others, of which some are cut by the horizon or near, and by the
+/// loops for other machines.
+static void the_same_bits(void **state)
+{
+    (void)state;
+    static test_patch points[POINTS];
+    static alpi_reference_value values[POINTS], others[POINTS];
+    scatter(points);
+    const vec3 screen[4] = {{-2, 1, -2}, {2, 1, -2}, {2, 1, 2}, {-2, 1, 2}};
+    test_stage s = open_quad(context, true, screen);
+    gather(&s, points, NULL, 0, values);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        gather(&s, points, &i, 1, others);
+    }
+    assert_memory_equal(values, others, sizeof values);
+    test_stage_close(&s);
+    alp_context_options o = alp_context_options_default();
+    alp_context *plain = NULL;
+    o.max_isa = "sse4.2";
+    o.worker_count = 1;
+    assert_int_equal(alp_context_create(&o, &plain), ALP_OK);
+    s = open_quad(plain, true, NULL); // no screen: the tracer may differ at its edges
+    gather(&s, points, NULL, 0, others);
+    test_stage_close(&s);
+    alp_context_destroy(plain);
+    s = open_quad(context, true, NULL);
+    gather(&s, points, NULL, 0, values);
+    assert_memory_equal(values, others, sizeof values);
+    test_stage_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_of_it),  cmocka_unit_test(nothing_of_it), cmocka_unit_test(on_it),
+        cmocka_unit_test(a_penumbra), cmocka_unit_test(the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+// Patches: where light is looked up, what texels reflect, how blocks hold them.
+#include "test_radiant.h"
+#include "test_scenes.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const vec3 ONE = {1, 1, 1}, ZERO = {0, 0, 0}, HALF = {0.5f, 0.5f, 0.5f};
+
+/// An atlas of a scene and patches of it.
+typedef struct setting {
+    alp_context *context;
+    alp_scene *scene;
+    alp_atlas *atlas;
+    alpi_texels texels;
+    alpi_lattice lattice;
+    alpi_patches patches;
+} setting;
+
+/// @param each 1: all texels have light of their own; n: those not divisible by n; 0: all, 5 to a
+/// metre
+static void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_angle,
+                         uint32_t spacing, uint32_t each)
+{
+    static uint32_t order[1u << 18];
+    uint32_t count = 0;
+    alp_atlas_options a = alp_atlas_options_default();
+    *s = (setting){.context = scene->context, .scene = scene};
+    a.size = size;
+    a.texels_per_metre = each == 0 ? 5.0 : 0.0;
+    a.max_angle = max_angle;
+    ASSERT_OK(s->context, alp_atlas_create(scene, &a, &s->atlas));
+    ASSERT_OK(s->context, alpi_texels_create(s->atlas, &s->texels));
+    ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, &s->lattice));
+    assert_true(s->texels.count <= sizeof order / sizeof *order);
+    for (uint32_t i = 0; i < s->texels.count; i++) {
+        if (each <= 1 || s->lattice.order[i] % each != 0) {
+            order[count++] = s->lattice.order[i];
+        }
+    }
+    ASSERT_OK(s->context,
+              alpi_patches_create(&s->lattice, s->atlas, order, count, spacing, &s->patches));
+}
+
+static void close_setting(setting *s)
+{
+    alp_context *context = s->context;
+    alpi_patches_destroy(&s->patches);
+    alpi_lattice_destroy(&s->lattice);
+    alpi_texels_destroy(context, &s->texels);
+    alp_atlas_destroy(s->atlas);
+    alp_scene_destroy(s->scene);
+    alp_context_destroy(context);
+}
+
+static vec3 point_at(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    return vec3_mad(vec3_mad(c[0], b1, vec3_sub(c[1], c[0])), b2, vec3_sub(c[2], c[0]));
+}
+
+/// A ball of facets in a room: charts of one facet (thousands), or of many.
+static alp_scene *make_ball(alp_context *context, int slices, int stacks)
+{
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1.0, slices, stacks, 1.0, 1);
+    test_mesh_quad(mesh, (double[]){-2, -2, -2}, (double[]){0, 0, 4}, (double[]){4, 0, 0});
+    return test_mesh_scene(context, mesh, 0);
+}
+
+/// Points all over every triangle, its corners and edges too: what is found is a texel of the
+/// triangle's chart with light of its own, and near: `reach` texels at most.
+static double hold_lookups(const setting *s, double reach, uint32_t *black)
+{
+    const double texel = 1.0 / alp_atlas_get_info(s->atlas).texels_per_metre;
+    double worst = 0.0;
+    *black = 0;
+    for (uint32_t t = 0; t < s->scene->triangle_count; t++) {
+        for (uint32_t i = 0; i < 24; i++) {
+            const vec2 u = alpi_sample_2d(t, i);
+            float b1 = u.x + u.y > 1.0f ? 1.0f - u.x : u.x,
+                  b2 = u.x + u.y > 1.0f ? 1.0f - u.y : u.y;
+            b1 = i == 0 ? 0.0f : i == 1 ? 1.0f : i == 2 ? 0.0f : b1;
+            b2 = i == 0 ? 0.0f : i == 1 ? 0.0f : i == 2 ? 1.0f : b2;
+            b1 = i == 3 ? 0.0f : i == 4 ? 1.0f - b2 : b1;
+            b2 = i == 5 ? 0.0f : b2;
+            const uint32_t found = alpi_patches_find(&s->patches, t, b1, b2);
+            if (found == ALPI_NONE) {
+                ++*black;
+                continue;
+            }
+            assert_int_equal(s->texels.charts[found], s->atlas->triangle_charts[t]);
+            assert_true(s->patches.blocks[found] != ALPI_NONE);
+            const float *b = s->texels.barycentrics[found];
+            const vec3 at = point_at(s->scene, s->texels.triangles[found], b[0], b[1]);
+            const double away =
+                (double)vec3_length(vec3_sub(at, point_at(s->scene, t, b1, b2))) / texel;
+            worst = fmax(worst, away);
+            ASSERT_NEAR(away, 0.0, reach);
+        }
+    }
+    return worst;
+}
+
+/// A point lies in a texel, at most a diagonal from what represents it, of which half would do if
+/// that were always the middle; and √2 more where the chart slopes by up to π/4.
+static void lookups_stay_in_their_charts(void **state)
+{
+    (void)state;
+    static const struct {
+        int slices, stacks;
+        uint32_t size, charts;
+        float angle;
+        double reach;
+    } cases[] = {{24, 12, 256, 2, 0.78f, 1.5},
+                 {24, 12, 128, 250, 0.01f, 1.1},
+                 {96, 48, 256, 4096, 0.01f, 1.1},  // texels as large as facets
+                 {96, 48, 160, 4096, 0.01f, 1.1}}; // charts of a texel and less
+    for (int i = 0; i < 4; i++) {
+        setting s;
+        uint32_t black;
+        open_setting(&s, make_ball(test_context(2), cases[i].slices, cases[i].stacks),
+                     cases[i].size, cases[i].angle, 4, i < 3 ? 1 : 0);
+        const alp_atlas_info info = alp_atlas_get_info(s.atlas);
+        assert_true(info.charts >= cases[i].charts);
+        const double worst = hold_lookups(&s, cases[i].reach, &black);
+        printf("look-ups in %u charts, %u texels: at most %.2f texels away, %u without\n",
+               info.charts, s.texels.count, worst, black);
+        assert_int_equal(black, 0);
+        close_setting(&s);
+    }
+}
+
+/// Two squares whose kept charts share a column of texels, which belongs to one of them: the other
+/// looks beside it.
+static void charts_that_share_a_texel(void **state)
+{
+    (void)state;
+    static const float uvs[2][4][2] = {{{0, 0}, {0, 1}, {0.46f, 1}, {0.46f, 0}},
+                                       {{0.465f, 0}, {0.465f, 1}, {1, 1}, {1, 0}}};
+    static const float squares[2][4][3] = {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}},
+                                           {{3, 0, 0}, {3, 0, 1}, {4, 0, 1}, {4, 0, 0}}};
+    static const uint32_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    alp_mesh meshes[2];
+    for (int i = 0; i < 2; i++) {
+        meshes[i] = (alp_mesh){.positions = squares[i][0],
+                               .uvs = uvs[i][0],
+                               .indices = triangles[0],
+                               .vertex_count = 4,
+                               .triangle_count = 2,
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+    }
+    setting s;
+    uint32_t black, shared = 0;
+    alp_scene *scene = NULL;
+    alp_context *context = test_context(1);
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    open_setting(&s, scene, 16, 0.5f, 4, 1);
+    assert_int_equal(alp_atlas_get_info(s.atlas).mode, ALP_ATLAS_KEEP);
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        shared += s.texels.pixels[t][0] == 7;
+    }
+    assert_int_equal(shared, 16);
+    hold_lookups(&s, 2.5, &black);
+    assert_int_equal(black, 0);
+    close_setting(&s);
+}
+
+/// A third of the texels has no light of its own, as where they are inside other geometry: the
+/// nearest of the chart stands in; of a chart without any there is none.
+static void texels_without_light_have_stand_ins(void **state)
+{
+    (void)state;
+    setting s;
+    uint32_t black;
+    open_setting(&s, make_ball(test_context(2), 24, 12), 256, 0.78f, 4, 3);
+    assert_true(s.patches.blocks[0] == ALPI_NONE && s.patches.stand_ins[0] != 0);
+    hold_lookups(&s, 5.5, &black);
+    assert_int_equal(black, 0);
+    close_setting(&s);
+    open_setting(&s, make_ball(test_context(2), 4, 2), 32, 0.01f, 4, 1);
+    alpi_patches none;
+    ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, 0, 4, &none));
+    for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
+        assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
+        const alpi_surface_point point = {t, 0.3f, 0.3f, {0, 1, 0}, false};
+        const alpi_surface_light light = alpi_patches_light(&none);
+        assert_int_equal(light.cell(light.user, &point), ALPI_CELL_BLACK);
+    }
+    alpi_patches_destroy(&none);
+    alpi_patches_destroy(&none);
+    close_setting(&s);
+}
+
+/// Blocks hold each texel once, of one chart and one square of the page, with their area.
+static void blocks_hold_every_texel_once(void **state)
+{
+    (void)state;
+    static const uint32_t spacings[] = {1, 3, 4, 16};
+    for (int i = 0; i < 4; i++) {
+        setting s;
+        double area = 0.0;
+        uint32_t members = 0;
+        open_setting(&s, make_ball(test_context(2), 24, 12), 96, 0.3f, spacings[i], 5);
+        const alpi_patches *p = &s.patches;
+        for (uint32_t b = 0; b < p->block_count; b++) {
+            const uint32_t first = p->block_texels[p->block_first[b]];
+            double sum = 0.0;
+            assert_true(p->block_first[b + 1] > p->block_first[b]);
+            for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+                const uint32_t t = p->block_texels[k];
+                assert_int_equal(p->blocks[t], b);
+                assert_true(t % 5 != 0);
+                assert_int_equal(s.texels.charts[t], s.texels.charts[first]);
+                for (int d = 0; d < 2; d++) {
+                    assert_int_equal(s.texels.pixels[t][d] / spacings[i],
+                                     s.texels.pixels[first][d] / spacings[i]);
+                }
+                assert_true(k == p->block_first[b] || p->block_ends[k] >= p->block_ends[k - 1]);
+                sum += (double)s.texels.areas[t];
+                members++;
+            }
+            assert_true(p->block_ends[p->block_first[b + 1] - 1] == 1.0f);
+            ASSERT_NEAR(p->block_areas[b], sum, 1e-6 * sum);
+            area += sum;
+        }
+        assert_int_equal(members, s.texels.count - (s.texels.count + 4) / 5);
+        assert_true(spacings[i] > 1 || p->block_count == members);
+        assert_true(area > 0.0);
+        close_setting(&s);
+    }
+}
+
+/// Points of a block lie on its texels, as many as their share of the area.
+static void blocks_are_placed_by_area(void **state)
+{
+    (void)state;
+    enum { POINTS = 1024 };
+    static float square[POINTS][2];
+    static alpi_receiver_point points[POINTS];
+    setting s;
+    open_setting(&s, make_ball(test_context(2), 8, 4), 64, 0.01f, 4, 1);
+    const alpi_patches *p = &s.patches;
+    const alpi_receivers blocks = alpi_patches_block_receivers(p);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const vec2 u = alpi_sample_2d(9, i);
+        square[i][0] = u.x;
+        square[i][1] = u.y;
+    }
+    assert_true(blocks.extended && blocks.count == p->block_count && !p->two_sided);
+    for (uint32_t b = 0; b < p->block_count; b += 7) {
+        vec3 mean = ZERO, wanted = ZERO;
+        double size = 0.0;
+        blocks.place(blocks.user, b, POINTS, (const float(*)[2])square, points);
+        for (uint32_t i = 0; i < POINTS; i++) {
+            mean = vec3_mad(mean, 1.0f / POINTS, points[i].position);
+            ASSERT_NEAR(vec3_length(points[i].geometric_normal), 1.0, 1e-5);
+        }
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            const uint32_t t = p->block_texels[k];
+            alpi_receiver_point inside[64];
+            const alpi_receivers texels = alpi_texels_receivers(&s.texels);
+            texels.place(texels.user, t, 64, (const float(*)[2])square, inside);
+            for (int i = 0; i < 64; i++) {
+                const double share = (double)s.texels.areas[t] / p->block_areas[b] / 64.0;
+                wanted = vec3_mad(wanted, (float)share, inside[i].position);
+            }
+        }
+        size = sqrt(p->block_areas[b]);
+        ASSERT_NEAR(vec3_length(vec3_sub(mean, wanted)), 0.0, 0.05 * size);
+    }
+    close_setting(&s);
+}
+
+// --- materials -----------------------------------------------------------------------------------
+
+/// A square with a picture of 2 × 2 pixels.
+static alp_scene *make_picture(alp_context *context, alpi_alpha_mode mode)
+{
+    static const uint8_t pixels[4][4] = {
+        {255, 255, 255, 255}, {0, 0, 0, 0}, {0, 0, 0, 0}, {255, 255, 255, 255}}; // a checker
+    static const float uvs[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, context, "picture");
+    alpi_builder_surface(&b, "square", alpi_builder_material(&b, "square", HALF, ONE));
+    alpi_builder_quad(&b, (const vec3[4]){{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}});
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof *scene->uvs[0]);
+    scene->images = alpi_allocate(context, 1, sizeof *scene->images);
+    assert_true(scene->uvs[0] != NULL && scene->images != NULL);
+    memcpy(scene->uvs[0], uvs, sizeof uvs);
+    scene->image_count = 1;
+    ASSERT_OK(context, alp_image_create(context, (alp_image_info){2, 2, 4, ALP_COMPONENT_U8},
+                                        &scene->images[0]));
+    memcpy(alp_image_bytes(scene->images[0]), pixels, sizeof pixels);
+    scene->materials[0].base_color_texture.image = 0;
+    scene->materials[0].alpha_mode = mode;
+    return scene;
+}
+
+/// One texel over all of the picture reflects half of the material's own ½. Where its alpha is a
+/// mask, the half that is left is the brighter one: at a grid of 4 × 4 points the pixels' weights
+/// are ¾ and ¼ both ways, ⅝ of white or ⅜, and those below ½ are cut. The texel's 16 points are
+/// dealt out to its two triangles and lie a little off that grid.
+static void pictures_count_by_their_mean(void **state)
+{
+    (void)state;
+    static const double wanted[2] = {0.25, 0.3125};
+    for (int i = 0; i < 2; i++) {
+        setting s;
+        open_setting(&s, make_picture(test_context(2), i ? ALPI_ALPHA_MASK : ALPI_ALPHA_OPAQUE), 1,
+                     0.5f, 4, 1);
+        assert_int_equal(s.texels.count, 1);
+        for (int k = 0; k < 3; k++) {
+            ASSERT_NEAR(s.patches.reflectances[0][k], wanted[i], 0.02);
+            ASSERT_NEAR(s.patches.emissions[0][k], 1.0, 1e-6);
+        }
+        close_setting(&s);
+    }
+}
+
+/// Backs: cells and receivers of their own, turned over, and seen only when a ray says so.
+static void backs_are_other_cells(void **state)
+{
+    (void)state;
+    setting s;
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
+    open_setting(&s, test_mesh_scene(test_context(2), mesh, 1), 8, 0.5f, 4, 1);
+    const alpi_surface_light light = alpi_patches_light(&s.patches);
+    const alpi_receivers blocks = alpi_patches_block_receivers(&s.patches);
+    const alpi_receivers texels = alpi_patches_texel_receivers(&s.patches);
+    const float middle[1][2] = {{0.5f, 0.5f}};
+    assert_true(s.patches.two_sided);
+    assert_int_equal(blocks.count, 2 * s.patches.block_count);
+    assert_int_equal(texels.count, 2 * s.texels.count);
+    for (int behind = 0; behind < 2; behind++) {
+        const alpi_surface_point point = {1, 0.3f, 0.4f, {0, behind ? -1 : 1, 0}, behind != 0};
+        const uint32_t texel = alpi_patches_find(&s.patches, 1, 0.3f, 0.4f);
+        const uint8_t *seen = &s.patches.seen_backs[s.patches.blocks[texel]];
+        assert_int_equal(*seen, ALPI_BACK_UNSEEN);
+        assert_int_equal(light.cell(light.user, &point),
+                         ALPI_CELL_FIRST + texel + (behind ? s.texels.count : 0));
+        assert_int_equal(*seen, behind ? ALPI_BACK_SEEN : ALPI_BACK_UNSEEN);
+        for (int kind = 0; kind < 2; kind++) {
+            const alpi_receivers *r = kind ? &texels : &blocks;
+            alpi_receiver_point at;
+            r->place(r->user, behind ? r->count / 2 : 0, 1, middle, &at);
+            assert_true(at.geometric_normal.y == (behind ? -1.0f : 1.0f));
+            assert_true(at.shading_normal.y == (behind ? -1.0f : 1.0f));
+        }
+    }
+    close_setting(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lookups_stay_in_their_charts),
+        cmocka_unit_test(charts_that_share_a_texel),
+        cmocka_unit_test(texels_without_light_have_stand_ins),
+        cmocka_unit_test(blocks_hold_every_texel_once),
+        cmocka_unit_test(blocks_are_placed_by_area),
+        cmocka_unit_test(pictures_count_by_their_mean),
+        cmocka_unit_test(backs_are_other_cells),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
