@@ -38,7 +38,7 @@ enum {
     // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
     GATHER_BYTES_PER_TEXEL = 34,
     ROUND_BYTES_PER_TEXEL = 45,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
-    DENOISE_BYTES_PER_TEXEL = 128, // in their place: arrays 52, and neighbours
+    DENOISE_BYTES_PER_TEXEL = 256, // in their place, measured
     SPACING = 4                    // texels along a block
 };
 

@@ -257,6 +257,7 @@ static void senseless_combinations_are_refused(void **state)
     expect_refused(scene, &options);
     options = small_options(ALP_MAP_LIGHT);
     options.sampling.keep_partial = true;
+    options.light.gather = ALP_GATHER_HEMICUBE; // in one go
     expect_refused(scene, &options);
     options = small_options(ALP_MAP_AO | ALP_MAP_BENT);
     options.atlas.mode = ALP_ATLAS_VERTEX;
