@@ -6,6 +6,7 @@
 #include "report.h"
 #include "report_page.h"
 #include "session.h"
+#include "work.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,9 +106,7 @@ static int check_light(const option_value *values, bool light, bool occlusion)
         {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
         {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
         {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
-    static const named_option not_of_light[] = {{OPTION_TIME_LIMIT, "--time-limit"},
-                                                {OPTION_KEEP_PARTIAL, "--keep-partial"},
-                                                {OPTION_AO_SELF, "--ao-self"},
+    static const named_option not_of_light[] = {{OPTION_AO_SELF, "--ao-self"},
                                                 {OPTION_OCCLUDERS, "--occluders"}};
     const char *name = find_given(values, of_light, sizeof of_light / sizeof *of_light);
     if (name != NULL && !light) {
@@ -119,9 +118,7 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     }
     name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
     if (name != NULL && light) {
-        return usage_error(COMMAND_BAKE,
-                           "--maps light: falls on the whole scene and is baked in one go; leave "
-                           "out %s",
+        return usage_error(COMMAND_BAKE, "--maps light: falls on the whole scene; leave out %s",
                            name);
     }
     return EXIT_DONE;
@@ -263,10 +260,13 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     } else if (values[OPTION_ERROR].given) {
         s->error = (float)(values[OPTION_ERROR].real / 100.0);
     }
-    if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS) {
-        o->light.error = s->error > 0.0f ? s->error : 0.01f;
-    }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
+    if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS &&
+        o->light.bounces > 0) {
+        const bool till_time = s->time_limit > 0.0 && !(s->error > 0.0f);
+        o->light.error = s->error > 0.0f ? s->error : till_time ? 0.0f : 0.01f;
+        o->light.samples = till_time ? MOST_SAMPLES : o->light.samples;
+    }
     if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
         o->occlusion.samples = MOST_SAMPLES;
     }
@@ -553,6 +553,12 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     o->progress = session_progress;
     o->progress_user = s;
     interrupt_defer();
+    alp_bake_work work;
+    if (!a->values[OPTION_QUIET].given && o->atlas.mode != ALP_ATLAS_VERTEX &&
+        alp_bake_estimate(s->scene, o, &work) == ALP_OK && work.texels > 0) {
+        progress_clear(&s->progress); // where it fails, the bake says why
+        work_print(stderr, &work);
+    }
     int code = session_end(s, alp_bake(s->scene, o, &lightmap, &report));
     if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
         code = write_report(s, lightmap, &report, a);

@@ -3,6 +3,7 @@
 #include "output.h"
 #include "report.h"
 #include "session.h"
+#include "work.h"
 
 #include <math.h>
 
@@ -32,6 +33,32 @@ static void print_scene(const char *path, const alp_scene_info *i)
     printf("area       %.6g m2\n", i->area);
     if (i->area > 0.0) {
         printf("estimate   --size 1024 gives about %.4g texels per metre\n", estimate_density(i));
+    }
+}
+
+/// The work of two bakes with defaults: occlusion, and light with a stated error of 1 %.
+typedef struct default_work {
+    alp_bake_work ao, light;
+} default_work;
+
+static alp_result estimate_work(session *s, default_work *work)
+{
+    alp_bake_options options = alp_bake_options_default();
+    options.progress = session_progress;
+    options.progress_user = s;
+    const alp_result result = alp_bake_estimate(s->scene, &options, &work->ao);
+    options.maps = ALP_MAP_LIGHT;
+    options.light.error = 0.01f;
+    return result == ALP_OK ? alp_bake_estimate(s->scene, &options, &work->light) : result;
+}
+
+static void print_work(const default_work *work)
+{
+    if (work->ao.texels > 0) {
+        printf("bake       --maps ao: ");
+        work_print(stdout, &work->ao);
+        printf("bake       --maps light: ");
+        work_print(stdout, &work->light);
     }
 }
 
@@ -221,12 +248,13 @@ static json_t *make_cameras(const alp_scene *scene, uint32_t count)
     return list;
 }
 
-static int print_json(const session *s, const alp_scene_info *info)
+static int print_json(const session *s, const alp_scene_info *info, const default_work *work)
 {
     json_t *document =
-        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
-                  make_scene(info), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
-                  make_lights(s->scene, info->lights), "cameras",
+        json_pack("{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
+                  make_scene(info), "work", "ao", work_json(&work->ao), "light",
+                  work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
+                  "lights", make_lights(s->scene, info->lights), "cameras",
                   make_cameras(s->scene, info->cameras), "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
@@ -247,12 +275,17 @@ int command_info(const command_line *a)
     if (code == EXIT_DONE) {
         code = session_end(&s, alp_scene_examine(s.scene, NULL, session_progress, &s));
     }
+    default_work work = {{0}, {0}};
+    if (code == EXIT_DONE) {
+        code = session_end(&s, estimate_work(&s, &work));
+    }
     if (code == EXIT_DONE) {
         alp_scene_info info = alp_scene_get_info(s.scene);
         if (a->values[OPTION_JSON].given) {
-            code = print_json(&s, &info);
+            code = print_json(&s, &info, &work);
         } else {
             print_scene(a->operands[0], &info);
+            print_work(&work);
             print_surfaces(s.scene, info.surfaces);
             print_lights(s.scene, &info);
         }

@@ -145,7 +145,8 @@ typedef struct alp_light_options {
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
-    /// more and more samples until it is stated. 0 (default): `samples` in one round.
+    /// more and more samples until it is stated. 0 (default): `samples` in one round; with a
+    /// time_limit or keep_partial in rounds that double.
     float error;
     uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
@@ -183,9 +184,16 @@ typedef struct alp_sampling_options {
     /// percentile below four times as much. Rounds of more and more rays until it is reached or
     /// occlusion.samples is. 0 (default): occlusion.samples rays in one round.
     float error;
-    double time_limit;     ///< seconds after which sampling ends with what it has; 0 = none
-    uint64_t memory_limit; ///< bytes of ours, the scene's apart; 0 = nine tenths of the machine's
-    bool keep_partial;     ///< a cancelled bake ends with what it has instead of with nothing
+    /// Seconds after which sampling ends with what it has; 0 = none. Light keeps its whole rounds;
+    /// with ALP_MAP_LIGHT occlusion ends after half of them.
+    double time_limit;
+    /// Bytes of ours, the scene's apart; 0 = nine tenths of the machine's. Light keeps the rays of
+    /// its blocks in what the rest leaves, and traces them again each pass where that is too
+    /// little.
+    uint64_t memory_limit;
+    /// A cancelled bake ends with what it has instead of with nothing; light has nothing before its
+    /// first round ends.
+    bool keep_partial;
 } alp_sampling_options;
 
 typedef struct alp_bake_options {
@@ -197,8 +205,8 @@ typedef struct alp_bake_options {
     /// Bits of alp_map, at least one; default ALP_MAP_AO. An asset needs ALP_MAP_AO, or
     /// ALP_MAP_LIGHT and lightmap_as: glTF has no place for the others. For BENT and OBSCURANCE
     /// occlusion is gathered and reported, and without ALP_MAP_AO not written. ALP_ATLAS_VERTEX:
-    /// ALP_MAP_AO alone. OBSCURANCE and LIGHT take no time_limit and no keep_partial; LIGHT no
-    /// ao_self; existing_ao changes ALP_MAP_AO alone.
+    /// ALP_MAP_AO alone. OBSCURANCE, and LIGHT but for ALP_GATHER_RAYS with bounces, take no
+    /// time_limit and no keep_partial; LIGHT no ao_self; existing_ao changes ALP_MAP_AO alone.
     unsigned maps;
     alp_existing_ao existing_ao; ///< ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
     alp_ao_into ao_into;         ///< ALP_ATLAS_VERTEX: SEPARATE
@@ -288,6 +296,23 @@ typedef struct alp_bake_report {
     uint64_t input_hash;
     uint64_t peak_memory_bytes; ///< of our own allocations
 } alp_bake_report;
+
+/// What a bake will take.
+typedef struct alp_bake_work {
+    uint64_t texels; ///< by areas: charts are not made
+    uint64_t rays;
+    uint64_t bytes; ///< of our own allocations, the scene and the tracer's structure apart
+    double seconds; ///< on this machine as busy as it is
+} alp_bake_work;
+
+/// Estimates the work of a bake before it: a guess, within ±50 % where charts, light and noise are
+/// like those of the truth table; all 0 with ALP_ATLAS_VERTEX or where there is nothing to bake.
+/// Lights 128 points, and makes the tracer, which the bake takes over.
+/// @param options NULL = default; outputs are not looked at
+/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match); OUT_OF_MEMORY; CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
+                                                   const alp_bake_options *options,
+                                                   alp_bake_work *work);
 
 /// Maps over the pages of an atlas, or values at vertices.
 typedef struct alp_lightmap alp_lightmap;

@@ -25,11 +25,14 @@ static bool is_by_hemicubes(const alpi_bake_job *job)
 }
 
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
-/// @param errors [texels] scratch: of each texel, root mean square over its channels
 static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
-                              const alpi_reference_value *values, float *errors)
+                              const alpi_reference_value *values)
 {
     double mean = 0.0, squares = 0.0, p99 = 0.0;
+    float *errors = ALPI_NEW(job->context, float, job->lightmap->texels.count);
+    if (errors == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
     for (uint32_t i = 0; i < count; i++) {
         const alpi_reference_value *v = &values[order[i]];
         double square = 0.0;
@@ -39,17 +42,18 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
             mean += (double)v->mean[k];
             square += (double)v->variance[k];
         }
-        errors[order[i]] = (float)sqrt(square / 3.0);
+        errors[order[i]] = (float)sqrt(square / 3.0); // of its channels
         squares += square;
     }
-    ALP_TRY(alpi_percentile(job->context, errors, order, count, 0.99, &p99));
+    const alp_result result = alpi_percentile(job->context, errors, order, count, 0.99, &p99);
+    alpi_release(job->context, errors);
     const double all = 3.0 * fmax((double)count, 1.0);
     alp_bake_report *r = &job->report;
     r->light_mean = mean / all;
     const bool told = mean > 0.0 && !is_by_hemicubes(job);
     r->light_relative_error = told ? sqrt(squares / all) / r->light_mean : (double)NAN;
     r->light_p99_error = told ? p99 / r->light_mean : (double)NAN;
-    return ALP_OK;
+    return result;
 }
 
 /// Light that comes straight from where it is made.
@@ -110,10 +114,8 @@ static alp_result gather_paths(alpi_bake_job *job, const alpi_light_task *t)
 static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
 {
     const uint32_t count = t->receivers->count;
-    t->progress.stage = "light";
     t->values = ALPI_NEW(job->context, alpi_reference_value, count);
-    float *errors = ALPI_NEW(job->context, float, count);
-    alp_result result = t->values != NULL && errors != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    alp_result result = t->values != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
         job->report.light_direct = job->options.light.bounces == 0;
         result = job->report.light_direct                        ? gather_direct(job, t)
@@ -121,10 +123,9 @@ static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
                                                                  : alpi_bake_radiosity(job, t);
     }
     if (result == ALP_OK) {
-        result = take_values(job, t->order, t->count, t->values, errors);
+        result = take_values(job, t->order, t->count, t->values);
     }
     alpi_release(job->context, t->values);
-    alpi_release(job->context, errors);
     return result;
 }
 
@@ -136,11 +137,19 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     if (job->irradiance == NULL) {
         return ALP_OK;
     }
+    alpi_scratch_destroy(&job->scratch); // of the rays of occlusion, which are done
     alpi_lighting *lighting = NULL;
     ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
+    alpi_task_progress told = *progress;
+    told.stage = "light";
+    alpi_light_clock clock = alpi_light_clock_start(job, &told);
+    told.callback = alpi_light_clock_goes_on;
+    told.user = &clock;
+    const alpi_watch former =
+        alpi_set_watch(job->context, (alpi_watch){.callback = told.callback, .user = &clock});
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
-    alp_result result = alpi_examine_light(tracer, filter, job->scene, lighting, progress->callback,
-                                           progress->user);
+    alp_result result =
+        alpi_examine_light(tracer, filter, job->scene, lighting, told.callback, told.user);
     alpi_light_task task = {.lighting = lighting,
                             .tracer = tracer,
                             .receivers = receivers,
@@ -148,10 +157,16 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
                             .count = count,
                             .lattice = lattice,
                             .directional = job->directional,
-                            .progress = *progress};
+                            .progress = told,
+                            .clock = &clock};
     if (result == ALP_OK) {
         result = gather(job, &task);
     }
+    alpi_set_watch(job->context, former);
     alpi_lighting_destroy(job->context, lighting);
+    if (result == ALP_ERROR_CANCELLED && !clock.refused && alpi_light_clock_is_late(&clock)) {
+        return alpi_fail(job->context, ALP_ERROR_LIMIT,
+                         "the time limit ended before any texel had light; allow more time");
+    }
     return result;
 }

@@ -55,6 +55,8 @@ typedef struct alpi_bake_job {
     alpi_directional *directional;                   // [texels] while sampling; NULL: not asked for
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
+    double sampling_began;                           // alpi_seconds()
+    uint64_t kept_limit;                             // bytes that the rays of blocks may take
     alpi_packing packing;
     alpi_light_asset light_asset;
     alpi_layer_plan layers;
@@ -97,9 +99,11 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
 /// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
-/// LIMIT when that is more than nine tenths of the machine's memory.
-alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
+uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
+                          const alp_bake_options *options);
+/// LIMIT when that is more than the limit or nine tenths of the machine's memory, even if no rays
+/// are kept; sets job->kept_limit.
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas);
 
 /// Fails before the long work if an output could not be written at its end. Asked for one page
 /// before the atlas is made, and for all of them after.

@@ -8,6 +8,31 @@
 #include "transport/directional.h"
 #include "transport/reference.h"
 
+/// The watch of the light: a progress callback and its user data. Time that is left is told by how
+/// long the part that runs takes, and what comes after it in times of that part.
+typedef struct alpi_light_clock {
+    alp_progress_fn *callback; // the user's, or NULL
+    void *user;
+    const char *stage;
+    double deadline;     // alpi_seconds(); HUGE_VAL: none
+    bool until_deadline; // all the time there is will be used
+    bool refused;        // by the user
+    bool ended;          // nobody is asked any more
+    bool one_loop;       // of the part: its progress is told as that of one loop
+    double began, part_began;
+    double after;             // what comes after the part, over the part
+    double base, share, loop; // of the part: done before this loop, done; of the loop: done
+    double told;              // of all of it
+} alpi_light_clock;
+
+alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
+                                        const alpi_task_progress *progress);
+/// Begins a part. @param after what comes after it, over the time it takes itself
+void alpi_light_clock_part(alpi_light_clock *clock, bool one_loop, double after);
+bool alpi_light_clock_is_late(const alpi_light_clock *clock);
+/// The callback; `user` is the clock.
+bool alpi_light_clock_goes_on(void *user, const alp_progress *progress);
+
 /// Where light is gathered, and what it becomes.
 typedef struct alpi_light_task {
     const alpi_lighting *lighting;
@@ -16,7 +41,8 @@ typedef struct alpi_light_task {
     const uint32_t *order;           // [count] those with light of their own
     uint32_t count;
     const alpi_lattice *lattice;
-    alpi_task_progress progress;
+    alpi_task_progress progress; // of the clock
+    alpi_light_clock *clock;
     alpi_reference_value *values;  // [receivers] out
     alpi_directional *directional; // [receivers] out, or NULL
 } alpi_light_task;
@@ -24,11 +50,16 @@ typedef struct alpi_light_task {
 /// Direct light and what surfaces make of it, by rays or hemicubes.
 alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task);
 
+/// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
+bool alpi_light_has_rounds(const alp_bake_options *options);
+/// Rays that a block gathers by.
+uint32_t alpi_light_block_rays(const alp_light_options *options);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
 /// Gathers the last bounce at the texels, in rounds until the wanted error is stated or the time is
-/// over, adds direct light, and fills task->values and the report.
+/// over, and takes what the rounds before gave where one is cut off; adds direct light, and fills
+/// task->values and the report.
 /// @param fixed the gatherer of texels, or NULL: cosine rays, as many as it takes
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,

@@ -20,37 +20,48 @@ enum {
     FIRST_RAYS = 64,   // of a bake that goes for an error
     FIRST_DIRECT = 16, // the same
     MOST_SAMPLES = 65536,
-    ROUND_LIMIT = 12
+    ROUND_LIMIT = 12,
+    TIMED_ROUND_LIMIT = 64 // each at most doubles what there is, or ends with the time
 };
+// Of the time that is left, what a round may take: how long it takes is a guess.
+static const double TIME_SHARE = 0.9;
 
 typedef struct rounds {
     alpi_bake_job *job;
     const alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
-    alpi_reference_value *fresh;         // [texels] of a later round
-    float (*fresh_skies)[3];             // [texels]
+    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;        // [texels] of a later round
+    float (*fresh_skies)[3];            // [texels]
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
-    uint8_t *states;                     // [texels]
-    uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
-    uint32_t *counts;                    // [texels] samples of direct light so far
-    uint32_t *list;                      // [texels]
-    uint8_t *noisy;                      // [texels]
-    uint32_t number;                     // of the round
-    double mean;                         // of all light, over texels and channels
-    double direct_error, bounced_error;  // root mean squares over the mean
+    uint8_t *states;                    // [texels]
+    uint32_t rays, direct;              // samples so far; direct: of the texels that have the most
+    uint32_t *counts;                   // [texels] samples of direct light so far
+    uint32_t *list;                     // [texels]
+    uint8_t *noisy;                     // [texels]
+    uint32_t number;                    // of the round
+    double ray_seconds, direct_seconds; // that a ray more of each texel took, and a direct sample
+    double mean;                        // of all light, over texels and channels
+    double direct_error, bounced_error; // root mean squares over the mean
 } rounds;
 
-static bool wants_error(const alpi_bake_job *job)
+bool alpi_light_has_rounds(const alp_bake_options *o)
 {
-    return job->options.light.error > 0.0f && job->options.light.gather == ALP_GATHER_RAYS;
+    const bool may_end = o->sampling.time_limit > 0.0 || o->sampling.keep_partial;
+    return (o->light.error > 0.0f || may_end) && o->light.gather == ALP_GATHER_RAYS;
+}
+
+/// The most rays of a texel.
+static uint32_t most_rays(const alp_light_options *o)
+{
+    return o->error > 0.0f ? MOST_SAMPLES : alpi_cosine_rays_samples(o->samples, REPLICATES);
 }
 
 uint32_t alpi_light_first_direct(const alpi_bake_job *job)
 {
     enum { DIRECT_SAMPLES = 64 };
-    return wants_error(job) ? FIRST_DIRECT : DIRECT_SAMPLES;
+    return alpi_light_has_rounds(&job->options) ? FIRST_DIRECT : DIRECT_SAMPLES;
 }
 
 // --- one round -----------------------------------------------------------------------------------
@@ -86,8 +97,10 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .adaptive = r->fixed == NULL && !job->options.light.denoise &&
                     job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
     };
-    alpi_bounced_report report = {0};
+    alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
+    const double began = alpi_seconds();
     ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, r->states, &report));
+    r->ray_seconds = (alpi_seconds() - began) / rays;
     job->report.light_samples = r->rays + gather.gatherer->packet_count * ALPI_PACKET;
     job->report.light_traced = report.traced;
     job->report.light_interpolated = report.interpolated;
@@ -180,19 +193,20 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
 
 /// Direct light by `factor` times the samples they have for the texels that are noisy, with
 /// `wanted` the root mean square that would do.
-static alp_result add_direct(rounds *r, double factor, double wanted)
+static alp_result add_direct(rounds *r, double more, double wanted)
 {
     const alpi_light_task *t = r->task;
     const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
     const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
-    const double most = fmin(factor * r->direct, (double)(MOST_SAMPLES - r->direct));
-    const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), 1);
+    const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), 1);
+    const double began = alpi_seconds();
     alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
     scale_layers(r, count, samples, false);
     ALP_TRY(
         alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
     scale_layers(r, count, samples, true);
     r->job->report.rays += output.rays;
+    r->direct_seconds = (alpi_seconds() - began) / samples;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t texel = r->list[i];
         merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
@@ -237,47 +251,83 @@ static double more_samples(double error, double wanted)
     return fmin(fmax(1.1 * error * error / (wanted * wanted) - 1.0, 1.0), 15.0);
 }
 
-/// One more round of what is too noisy. Each may have its share of the squared error: half of it,
-/// or what the other leaves. @param done out: nothing is, or nothing helps
-static alp_result improve(rounds *r, double wanted, bool *done)
+/// As many of `samples` as there is time for; 0 where they would be too few to help those there
+/// are.
+static double affordable(const rounds *r, double samples, double seconds_each, double there)
 {
-    const double half = sqrt(0.5) * wanted;
+    const double left = TIME_SHARE * (r->task->clock->deadline - alpi_seconds());
+    const double most = isinf(left) ? samples : fmin(samples, fmax(left, 0.0) / seconds_each);
+    return most < samples && most < there / 8.0 ? 0.0 : most;
+}
+
+/// What the next round goes for: the error that is wanted; else 2^−½ of what there is.
+static double aim_of(const rounds *r)
+{
+    const double wanted = (double)r->job->options.light.error;
+    return wanted > 0.0 ? wanted : sqrt(0.5) * hypot(r->direct_error, r->bounced_error);
+}
+
+/// One more round of what is too noisy. Each may have its share of the squared error: half of it,
+/// or what the other leaves. @param done out: nothing is, or nothing helps, or the time is over
+static alp_result improve(rounds *r, bool *done)
+{
+    const double aim = aim_of(r), half = sqrt(0.5) * aim;
     const double d = r->direct_error, b = r->bounced_error;
-    const double for_direct = sqrt(fmax(wanted * wanted - b * b, half * half));
-    const double for_bounced = sqrt(fmax(wanted * wanted - d * d, half * half));
-    const bool more_direct = d > for_direct && r->direct < MOST_SAMPLES;
-    const bool more_bounced = b > for_bounced && r->rays < MOST_SAMPLES;
-    *done = hypot(d, b) <= wanted || (!more_direct && !more_bounced);
+    const double for_direct = sqrt(fmax(aim * aim - b * b, half * half));
+    const double for_bounced = sqrt(fmax(aim * aim - d * d, half * half));
+    const uint32_t most = most_rays(&r->job->options.light);
+    double direct = d > for_direct && r->direct < most
+                        ? fmin(more_samples(d, for_direct) * r->direct, most - r->direct)
+                        : 0.0;
+    double rays = b > for_bounced && r->rays < most
+                      ? fmin(more_samples(b, for_bounced) * r->rays, most - r->rays)
+                      : 0.0;
+    *done = hypot(d, b) <= aim || (direct <= 0.0 && rays <= 0.0);
+    if (*done) {
+        return ALP_OK;
+    }
     r->number++;
-    if (!*done && more_direct) {
-        ALP_TRY(add_direct(r, more_samples(d, for_direct), for_direct * r->mean));
+    direct = affordable(r, direct, r->direct_seconds * (rays > 0.0 ? 2.0 : 1.0), r->direct);
+    if (direct > 0.0) {
+        alpi_light_clock_part(r->task->clock, true, rays > 0.0 ? 1.0 : 0.0);
+        ALP_TRY(add_direct(r, direct, for_direct * r->mean));
     }
-    if (!*done && more_bounced) {
-        const double most = fmin(more_samples(b, for_bounced) * r->rays, MOST_SAMPLES - r->rays);
-        ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(most, 1.0), REPLICATES)));
+    rays = affordable(r, rays, r->ray_seconds, r->rays);
+    if (rays > 0.0) {
+        alpi_light_clock_part(r->task->clock, true, 0.0);
+        ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), REPLICATES)));
     }
-    return *done ? ALP_OK : measure(r);
+    if (direct <= 0.0 && rays <= 0.0) { // no time for more
+        *done = r->job->report.cut_off = true;
+    }
+    return measure(r);
 }
 
 // --- all of them ---------------------------------------------------------------------------------
 
-static alp_result run_rounds(rounds *r)
+/// The first round, without which there is nothing.
+static alp_result begin(rounds *r)
 {
     alp_context *context = r->job->context;
     const uint32_t texels = r->task->receivers->count;
-    const double wanted = (double)r->job->options.light.error;
-    const uint32_t first =
-        wants_error(r->job) ? FIRST_RAYS
-                            : alpi_cosine_rays_samples(r->job->options.light.samples, REPLICATES);
+    const uint32_t most = most_rays(&r->job->options.light);
+    const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
     ALPI_TRY_NEW(context, r->skies, texels);
     ALPI_TRY_NEW(context, r->states, texels);
-    ALP_TRY(gather_bounced(r, first, r->task->values, r->skies, r->task->directional));
-    r->rays = first;
+    alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
+    ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies, r->task->directional));
+    r->rays = more ? FIRST_RAYS : most;
     r->direct = r->solution->options.direct_samples;
-    ALP_TRY(measure(r));
-    if (!wants_error(r->job)) {
-        return ALP_OK;
-    }
+    r->direct_seconds = r->solution->direct_seconds / r->direct;
+    return measure(r);
+}
+
+static alp_result go_on(rounds *r)
+{
+    alp_context *context = r->job->context;
+    const uint32_t texels = r->task->receivers->count;
+    const bool timed = !(r->job->options.light.error > 0.0f);
+    const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
     ALPI_TRY_NEW(context, r->fresh, texels);
     ALPI_TRY_NEW(context, r->fresh_skies, texels);
     if (r->task->directional != NULL) {
@@ -289,17 +339,52 @@ static alp_result run_rounds(rounds *r)
     for (uint32_t t = 0; t < texels; t++) {
         r->counts[t] = r->direct;
     }
-    for (bool done = false; !done && r->number < ROUND_LIMIT;) {
-        ALP_TRY(improve(r, wanted, &done));
-    }
-    if (hypot(r->direct_error, r->bounced_error) > wanted) {
-        alpi_warn(context, "error-not-reached", r->job->scene->name,
-                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
-                  "of each light, wanted %.2g %%",
-                  100.0 * hypot(r->direct_error, r->bounced_error), r->rays, r->direct,
-                  100.0 * wanted);
+    for (bool done = false; !done && r->number < limit;) {
+        ALP_TRY(improve(r, &done));
     }
     return ALP_OK;
+}
+
+/// Whether a round that was cut off may be left out.
+static bool may_be_dropped(const rounds *r)
+{
+    const alpi_light_clock *c = r->task->clock;
+    return c->refused ? r->job->options.sampling.keep_partial : alpi_light_clock_is_late(c);
+}
+
+static void warn_of_error(const rounds *r)
+{
+    const double wanted = (double)r->job->options.light.error;
+    const double error = hypot(r->direct_error, r->bounced_error);
+    if (r->job->report.cut_off) {
+        alpi_warn(r->job->context, "cut-off", r->job->scene->name,
+                  "light ended before its time, after %u rays a texel and %u samples of each "
+                  "light; the stated error is %.2g %%, and another run gives other bits",
+                  r->rays, r->direct, 100.0 * error);
+    } else if (wanted > 0.0 && error > wanted) {
+        alpi_warn(r->job->context, "error-not-reached", r->job->scene->name,
+                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
+                  "of each light, wanted %.2g %%",
+                  100.0 * error, r->rays, r->direct, 100.0 * wanted);
+    }
+}
+
+static alp_result run_rounds(rounds *r)
+{
+    ALP_TRY(begin(r));
+    if (!alpi_light_has_rounds(&r->job->options)) {
+        return ALP_OK;
+    }
+    alp_result result = go_on(r);
+    if (result == ALP_ERROR_CANCELLED && may_be_dropped(r)) {
+        r->job->report.cut_off = true;
+        r->task->clock->ended = true; // asked again it would cancel what it wanted kept
+        result = measure(r);
+    }
+    if (result == ALP_OK) {
+        warn_of_error(r);
+    }
+    return result;
 }
 
 // --- noise ---------------------------------------------------------------------------------------
@@ -358,11 +443,28 @@ static alp_result filter(rounds *r, denoise_arrays *a)
     return ALP_OK;
 }
 
+/// What only further rounds need.
+static void release_rounds(rounds *r)
+{
+    alp_context *context = r->job->context;
+    alpi_release(context, r->fresh);
+    alpi_release(context, r->fresh_skies);
+    alpi_release(context, r->counts);
+    alpi_release(context, r->list);
+    alpi_release(context, r->noisy);
+    r->fresh = NULL;
+    r->fresh_skies = NULL;
+    r->counts = r->list = NULL;
+    r->noisy = NULL;
+}
+
 /// Takes noise off the bounced light; direct light has edges that must stay.
 static alp_result denoise(rounds *r)
 {
     alp_context *context = r->job->context;
     denoise_arrays a = {0};
+    release_rounds(r);
+    r->task->clock->deadline = HUGE_VAL; // what is whole is filtered as a whole
     const alp_result result = filter(r, &a);
     alpi_release(context, a.means);
     alpi_release(context, a.variances);
@@ -412,11 +514,6 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
-    alpi_release(job->context, r.fresh);
-    alpi_release(job->context, r.fresh_skies);
-    alpi_release(job->context, r.fresh_directional);
-    alpi_release(job->context, r.counts);
-    alpi_release(job->context, r.list);
-    alpi_release(job->context, r.noisy);
+    release_rounds(&r);
     return result;
 }

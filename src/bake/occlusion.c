@@ -45,7 +45,7 @@ void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
     }
 }
 
-static void warn_of_error(const alpi_bake_job *job)
+static void warn_of_error(const alpi_bake_job *job, bool cut_off)
 {
     const alp_bake_report *r = &job->report;
     const double wanted = (double)job->options.sampling.error;
@@ -53,7 +53,7 @@ static void warn_of_error(const alpi_bake_job *job)
     if (isfinite(r->ao_relative_error)) {
         snprintf(error, sizeof error, "%.2g %%", 100.0 * r->ao_relative_error);
     }
-    if (r->cut_off) {
+    if (cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
                   "sampling ended before its time, after a round of %u rays a texel; the error is "
                   "%s, %llu texels have no value of their own, and another run gives other bits",
@@ -77,11 +77,11 @@ static alp_result fill_report(alpi_bake_job *job, const alpi_occlusion_map_repor
     r->unknown = map->unknown;
     r->ao_relative_error = map->relative;
     r->ao_p99_error = map->p99;
-    r->cut_off = map->cut_off;
+    r->cut_off = r->cut_off || map->cut_off;
     ALP_TRY(find_area_mean(lattice, &r->ao_mean));
     if (alpi_bake_wants_occlusion(job)) {
         alpi_bake_warn_of_darkness(job);
-        warn_of_error(job);
+        warn_of_error(job, map->cut_off);
     }
     return ALP_OK;
 }
@@ -90,10 +90,12 @@ static alp_result fill_report(alpi_bake_job *job, const alpi_occlusion_map_repor
 static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
 {
     const alp_sampling_options *s = &job->options.sampling;
+    const bool shared = (job->options.maps & ALP_MAP_LIGHT) != 0 && alpi_bake_wants_occlusion(job);
+    const double time = shared ? 0.5 * s->time_limit : s->time_limit; // light has the rest
     return (alpi_occlusion_map_options){
         .accuracy = s->accuracy,
         .error = s->error,
-        .deadline = s->time_limit > 0.0 ? alpi_seconds() + s->time_limit : HUGE_VAL,
+        .deadline = time > 0.0 ? job->sampling_began + time : HUGE_VAL,
         .keep_partial = s->keep_partial,
         .bent = job->bent,
         .progress = job->options.progress,
@@ -343,6 +345,7 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
 {
     ALP_TRY(alpi_bake_begin_stage(job, "build"));
     const double started = alpi_seconds();
+    job->sampling_began = started;
     alpi_lattice lattice;
     ALP_TRY(alpi_lattice_create(job->lightmap->atlas, &job->lightmap->texels, &lattice));
     alp_result result = alpi_bake_begin_side_maps(job);

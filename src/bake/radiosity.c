@@ -9,6 +9,13 @@
 
 enum { BLOCK_CUBE = 16 };
 
+uint32_t alpi_light_block_rays(const alp_light_options *options)
+{
+    // A face, four halves of one; coherent packets leave some rays unused.
+    return options->gather == ALP_GATHER_HEMICUBE ? 3 * BLOCK_CUBE * BLOCK_CUBE
+                                                  : ALPI_RADIOSITY_BLOCK_RAYS;
+}
+
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
     alpi_cosine_rays block_rays;
@@ -78,9 +85,11 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.bounces = o->light.bounces;
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
+    options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
     options.layers = alpi_bake_light_layers(job, direct != t->lighting);
     alpi_radiosity solution;
+    alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);

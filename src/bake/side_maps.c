@@ -73,11 +73,17 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
                          "says; bake one of them too, or give no output",
                          o->output);
     }
-    if ((o->maps & (ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT)) != 0 &&
+    const bool in_one_go = (o->maps & ALP_MAP_OBSCURANCE) != 0;
+    const bool light_in_one_go = (o->maps & ALP_MAP_LIGHT) != 0 &&
+                                 (o->light.gather != ALP_GATHER_RAYS || o->light.bounces == 0);
+    if ((in_one_go || light_in_one_go) &&
         (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
         return alpi_fail(job->context, code,
-                         "bake: %s is gathered in one go: no time limit, no partial result",
-                         (o->maps & ALP_MAP_LIGHT) != 0 ? "light" : "coloured obscurance");
+                         "bake: %s gathered in one go: no time limit, no partial result",
+                         in_one_go                             ? "coloured obscurance is"
+                         : o->light.bounces == 0               ? "direct light alone is"
+                         : o->light.gather == ALP_GATHER_PATHS ? "light by paths is"
+                                                               : "light by hemicubes is");
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0 && o->occluders != NULL) {
         return alpi_fail(job->context, code,

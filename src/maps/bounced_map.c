@@ -27,6 +27,7 @@ typedef struct bounced_job {
     float level; // mean light
     uint32_t pass;
     bool flood;
+    uint64_t gathered, expected; // texels, those held out too
 } bounced_job;
 
 static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
@@ -49,8 +50,13 @@ static alp_result gather_list(bounced_job *job, uint32_t count, alpi_gather_job 
 {
     gather.list = job->list;
     gather.count = count;
-    job->report->rays += (uint64_t)count * gather.gatherer->packet_count * ALPI_PACKET;
-    return alpi_gather_irradiance(&gather, &job->progress);
+    const double rays = (double)gather.gatherer->packet_count * ALPI_PACKET;
+    alpi_task_progress told = job->progress;
+    told.units_before = (double)job->report->rays;
+    told.units_total = fmax((double)job->expected, (double)job->gathered + count) * rays;
+    job->report->rays += (uint64_t)(count * rays);
+    job->gathered += count;
+    return alpi_gather_irradiance(&gather, &told);
 }
 
 /// Traces the texels that are wanted.
@@ -305,27 +311,31 @@ static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, 
 {
     alp_context *context = job->lattice.context;
     const uint32_t count = hold_out(job, interpolated);
-    alpi_reference_value *traced =
-        ALPI_NEW(context, alpi_reference_value, job->lattice.texels->count);
-    if (traced == NULL) {
+    alpi_reference_value *values = job->options->gather->values;
+    alpi_reference_value *kept = ALPI_NEW(context, alpi_reference_value, count);
+    if (kept == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
+    for (uint32_t i = 0; i < count; i++) { // the rays write into the map, which gets them back
+        kept[i] = values[job->list[i]];
+    }
     alpi_gather_job alone = *job->options->gather;
-    alone.values = traced;
     alone.skies = NULL;
     alone.directional = NULL;
     const alp_result result = gather_list(job, count, alone);
     for (int k = 0; k < 3; k++) {
         double sum = 0.0;
         for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
-            const alpi_reference_value *y = &traced[job->list[i]];
-            const double apart =
-                (double)job->options->gather->values[job->list[i]].mean[k] - (double)y->mean[k];
+            const alpi_reference_value *y = &values[job->list[i]];
+            const double apart = (double)kept[i].mean[k] - (double)y->mean[k];
             sum += apart * apart - (double)y->variance[k];
         }
         variance[k] = (float)fmax(sum / count, 0.0);
     }
-    alpi_release(context, traced);
+    for (uint32_t i = 0; i < count; i++) {
+        values[job->list[i]] = kept[i];
+    }
+    alpi_release(context, kept);
     return result;
 }
 
@@ -371,8 +381,12 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
                             const alpi_task_progress *progress, uint8_t *states,
                             alpi_bounced_report *report)
 {
+    const bool first = report->traced == 0 || !options->adaptive;
+    bounced_job job = {.options = options,
+                       .lattice = *lattice,
+                       .report = report,
+                       .expected = (first ? options->count : report->traced) + HELD_OUT};
     *report = (alpi_bounced_report){0};
-    bounced_job job = {.options = options, .lattice = *lattice, .report = report};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;
     job.lattice.values = NULL;

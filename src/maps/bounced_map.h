@@ -30,6 +30,7 @@ typedef struct alpi_bounced_report {
 /// texels are the mean square difference to independent rays from some of them, chosen at random,
 /// less the variance of those rays: it holds what interpolation misses, as a mean over all of them.
 /// @param states [texels] out: alpi_texel_state of those in the order
+/// @param report in: traced, those of a map like it, to tell progress by, or 0; out: all of it
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
                             const alpi_task_progress *progress, uint8_t *states,

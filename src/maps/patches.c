@@ -391,7 +391,7 @@ alpi_receivers alpi_patches_block_receivers(const alpi_patches *patches)
 
 // --- making --------------------------------------------------------------------------------------
 
-static bool has_double_sided(const alp_scene *scene)
+bool alpi_patches_are_two_sided(const alp_scene *scene)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
         if (scene->materials[i].double_sided) {
@@ -447,7 +447,7 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                               .texels = lattice->texels,
                               .lattice = lattice,
                               .near = rule->near,
-                              .two_sided = has_double_sided(atlas->scene)};
+                              .two_sided = alpi_patches_are_two_sided(atlas->scene)};
     const alp_result result = create(patches, order, count, rule->spacing);
     patches->near = NULL; // borrowed for this call
     if (result != ALP_OK) {

@@ -55,6 +55,8 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                                const uint32_t *order, uint32_t count,
                                const alpi_block_rule *rule, alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
+/// Whether those of a scene have backs.
+bool alpi_patches_are_two_sided(const alp_scene *scene);
 
 /// Texel, ALPI_NONE where there is none, that shows the light at a point.
 uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2);

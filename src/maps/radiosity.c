@@ -451,16 +451,34 @@ static alp_result allocate(solver *s)
                                            blocks, p->texels->count);
 }
 
+/// Direct light of backs has become what they reflect, and is not asked for again.
+static alp_result drop_backs(alpi_radiosity *r)
+{
+    const alpi_patches *p = &r->patches;
+    if (p->two_sided) {
+        void *fronts =
+            alpi_reallocate(r->options.context, r->direct, p->texels->count, sizeof *r->direct);
+        if (fronts == NULL) {
+            return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        r->direct = fronts;
+    }
+    return ALP_OK;
+}
+
 static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
 {
     ALP_TRY(allocate(s));
+    const double began = alpi_seconds();
     ALP_TRY(gather_direct(s, order, count, s->r->directional));
+    s->r->direct_seconds = alpi_seconds() - began;
     s->from = alpi_radiosity_scene(s->r);
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
     ALP_TRY(find_receivers(s));
     ALP_TRY(run_passes(s));
     find_energy(s->r);
-    return run_layers(s);
+    ALP_TRY(run_layers(s));
+    return drop_backs(s->r);
 }
 
 alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alpi_lattice *lattice,

@@ -61,7 +61,7 @@ typedef struct alpi_energy {
 typedef struct alpi_radiosity {
     alpi_radiosity_options options;
     alpi_patches patches;          // cells hold what the last bounce wanted brings
-    alpi_reference_value *direct;  // [sides × texels] E₀ with its variance, a soft sky apart
+    alpi_reference_value *direct;  // [texels] of fronts: E₀ with its variance, a soft sky apart
     alpi_directional *directional; // [texels] of direct light on fronts, or NULL
     float (*skies)[3];             // [sides × blocks] E of a soft sky
     alpi_reference_value *bounced; // [sides × blocks] E of the last pass
@@ -74,6 +74,7 @@ typedef struct alpi_radiosity {
         changes[ALPI_RADIOSITY_CHANGES]; // |Eₖ − Eₖ₋₁| over all light, by area; of the first passes
     bool kept;                           // rays were traced once
     uint64_t rays;
+    double direct_seconds; // that direct light took
     alpi_energy energy;
 } alpi_radiosity;
 

@@ -4,8 +4,6 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
-#include <string.h>
-
 enum { RAYS_PER_RANGE = 4096 };
 
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
@@ -17,15 +15,10 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
                                   uint32_t count, alpi_kept_rays *kept)
 {
     const uint32_t rays = gatherer->packet_count * ALPI_PACKET;
-    const size_t had = (size_t)kept->receivers * kept->rays;
-    uint32_t *cells = ALPI_NEW(context, uint32_t, (size_t)count * rays);
+    uint32_t *cells = alpi_reallocate(context, kept->cells, count, rays * sizeof *cells);
     if (cells == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    if (had > 0) {
-        memcpy(cells, kept->cells, had * sizeof *cells);
-    }
-    alpi_release(context, kept->cells);
     *kept = (alpi_kept_rays){context, count, rays, cells};
     return ALP_OK;
 }

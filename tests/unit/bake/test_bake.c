@@ -272,7 +272,7 @@ static void memory_is_known_beforehand(void **state)
     alp_bake_report report;
     alp_lightmap *lightmap = NULL;
     ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
-    double told = (double)alpi_bake_memory(&report.atlas, &options);
+    double told = (double)alpi_bake_memory(&report.atlas, scene, &options);
     print_message("memory: peak over told %.3f\n", (double)report.peak_memory_bytes / told);
     ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
     alp_lightmap_destroy(lightmap);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a bake will take, as the command tells it.
+#ifndef COMMAND_WORK_H
+#define COMMAND_WORK_H
+
+#include <alpenglow/bake.h>
+
+#include <jansson.h>
+#include <stdio.h>
+
+/// "about 47,000 texels, 12 Mrays, 40 MiB, 1 s"
+void work_print(FILE *stream, const alp_bake_work *work);
+/// {"texels", "rays", "bytes", "seconds"}
+json_t *work_json(const alp_bake_work *work);
+
+#endif
