@@ -235,7 +235,7 @@ static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_b
         rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, 2.0), 1.0);
     }
     const double share = o->sampling.accuracy == ALP_ADAPTIVE_OFF ? 1.0 : TRACED_SHARE;
-    rays = rays * share + (l->bounces > 0 ? alpi_light_block_rays(l) / 10.0 : 0.0);
+    rays = rays * share + (l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0);
     w->rays += (uint64_t)(texels * (rays + direct * p->rays));
     w->seconds += texels * (rays * p->ray_seconds + direct * p->direct_seconds);
 }

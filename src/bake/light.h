@@ -52,8 +52,8 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Rays that a block gathers by.
-uint32_t alpi_light_block_rays(const alp_light_options *options);
+/// Rays that a block gathers by, on a map of so many texels.
+uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 

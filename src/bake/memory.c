@@ -46,12 +46,13 @@ enum {
     SPACING = 4                    // texels along a block
 };
 
-/// Blocks of charts of the mean size: squares of the page that a chart has a part in.
+/// Blocks of charts of the mean size: squares of the page that a chart has a part in. Where surfaces
+/// meet they are smaller: about twice as many in all.
 static double count_blocks(const alp_atlas_info *atlas)
 {
     const double charts = fmax(atlas->charts, 1.0);
     const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
-    return fmin(charts * edge * edge, (double)atlas->texels);
+    return fmin(2.0 * charts * edge * edge, (double)atlas->texels);
 }
 
 /// Bytes that are held while light is gathered, beside what is kept all the time.
@@ -78,7 +79,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
                                                             : 0;
     m.solve += solution + DIRECT_BYTES * sides * texels;
     m.rounds += solution + (DIRECT_BYTES + GATHER_BYTES_PER_TEXEL + later) * texels;
-    m.kept = blocks * alpi_light_block_rays(o) * sizeof(uint32_t);
+    m.kept = blocks * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     return m;
 }
 

@@ -43,7 +43,7 @@ typedef struct alpi_radiosity_options {
 /// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
 /// filter, gatherer and seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
-enum { ALPI_RADIOSITY_BLOCK_RAYS = 512 }; // of cosine rays that gather for blocks
+enum { ALPI_RADIOSITY_BLOCK_RAYS = 64 }; // of cosine rays that gather for blocks
 
 /// Where the light goes: fluxes in W, means of the three channels, area integrals over the patches
 /// that were gathered for. They close to the noise of the rays:

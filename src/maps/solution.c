@@ -45,7 +45,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
                         alpi_solution *s)
 {
     s->rays = (alpi_cosine_rays){.context = s->context,
-                                 .samples = ALPI_RADIOSITY_BLOCK_RAYS,
+                                 .samples = 4 * ALPI_RADIOSITY_BLOCK_RAYS,
                                  .replicates = 1,
                                  .seed = o->seed};
     s->gatherer = alpi_cosine_rays_gatherer(&s->rays);
