@@ -127,8 +127,13 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
                             .receivers = &receivers,
                             .order = order,
                             .lattice = &question->map->lattice,
-                            .progress = {.stage = "light"},
                             .values = all};
+    const alpi_task_progress silent = {.stage = "light"};
+    alpi_light_clock clock = alpi_light_clock_start(&job, &silent);
+    task.progress = (alpi_task_progress){
+        .callback = alpi_light_clock_goes_on, .user = &clock, .stage = silent.stage};
+    task.clock = &clock;
+    job.kept_limit = UINT64_MAX;
     for (uint32_t i = 0; i < receivers.count; i++) {
         const uint32_t texel = question->map->lattice.order[i];
         if (!question->map->validity.dropped[texel]) {

@@ -302,6 +302,10 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
         return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
     }
+    if (o->layers && values[OPTION_ONLY].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are told apart where all surfaces are baked; "
+                                         "leave out --only");
+    }
     if (o->layers && o->denoise) {
         return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
     }

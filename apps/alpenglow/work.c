@@ -28,8 +28,13 @@ void work_print(FILE *stream, const alp_bake_work *work)
 {
     fputs("about ", stream);
     print_count(stream, two_digits((double)work->texels));
-    fprintf(stream, " texels, %.2g Mrays, %.0f MiB, %g s\n", two_digits(1e-6 * (double)work->rays),
-            ceil(two_digits((double)work->bytes / 0x1p20)), two_digits(work->seconds));
+    fprintf(stream, " texels, %.2g Mrays, %.0f MiB, ", two_digits(1e-6 * (double)work->rays),
+            ceil(two_digits((double)work->bytes / 0x1p20)));
+    if (work->seconds < 1.0) {
+        fputs("under 1 s\n", stream);
+    } else {
+        fprintf(stream, "%g s\n", two_digits(work->seconds));
+    }
 }
 
 json_t *work_json(const alp_bake_work *work)

@@ -31,19 +31,19 @@ typedef struct rounds {
     const alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                  // [texels] what of the bounced light is a soft sky's
-    alpi_reference_value *fresh;        // [texels] of a later round
-    float (*fresh_skies)[3];            // [texels]
+    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
+    alpi_reference_value *fresh;         // [texels] of a later round
+    float (*fresh_skies)[3];             // [texels]
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
-    uint8_t *states;                    // [texels]
-    uint32_t rays, direct;              // samples so far; direct: of the texels that have the most
-    uint32_t *counts;                   // [texels] samples of direct light so far
-    uint32_t *list;                     // [texels]
-    uint8_t *noisy;                     // [texels]
-    uint32_t number;                    // of the round
-    double ray_seconds, direct_seconds; // that a ray more of each texel took, and a direct sample
-    double mean;                        // of all light, over texels and channels
-    double direct_error, bounced_error; // root mean squares over the mean
+    uint8_t *states;                     // [texels]
+    uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
+    uint32_t *counts;                    // [texels] samples of direct light so far
+    uint32_t *list;                      // [texels]
+    uint8_t *noisy;                      // [texels]
+    uint32_t number;                     // of the round
+    double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
+    double mean;                         // of all light, over texels and channels
+    double direct_error, bounced_error;  // root mean squares over the mean
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -326,7 +326,8 @@ static alp_result begin(rounds *r)
     ALPI_TRY_NEW(context, r->skies, texels);
     ALPI_TRY_NEW(context, r->states, texels);
     alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
-    ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies, r->task->directional));
+    ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies,
+                           r->task->directional));
     r->rays = more ? FIRST_RAYS : most;
     r->direct = r->solution->options.direct_samples;
     r->direct_seconds = r->solution->direct_seconds / r->direct;

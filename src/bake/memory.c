@@ -46,8 +46,8 @@ enum {
     SPACING = 4                    // texels along a block
 };
 
-/// Blocks of charts of the mean size: squares of the page that a chart has a part in. Where surfaces
-/// meet they are smaller: about twice as many in all.
+/// Blocks of charts of the mean size: squares of the page that a chart has a part in. Where
+/// surfaces meet they are smaller: about twice as many in all.
 static double count_blocks(const alp_atlas_info *atlas)
 {
     const double charts = fmax(atlas->charts, 1.0);
@@ -154,10 +154,10 @@ static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *
         return 0;
     }
     const light_memory m = find_light_memory(atlas, job->scene, &job->options);
-    const double held =
-        (double)m.solve + (double)find_kept(atlas, job->scene, count_sides(&job->options)) +
-        (double)find_directional(atlas, &job->options) +
-        (double)alpi_bake_layers_memory(job, atlas);
+    const double held = (double)m.solve +
+                        (double)find_kept(atlas, job->scene, count_sides(&job->options)) +
+                        (double)find_directional(atlas, &job->options) +
+                        (double)alpi_bake_layers_memory(job, atlas);
     return limit > held ? (uint64_t)(limit - held) : 0;
 }
 

@@ -3,7 +3,9 @@
 #include "bake/layers.h"
 #include "bake/light.h"
 
+#include "base/memory.h"
 #include "maps/radiosity.h"
+#include "maps/solution.h"
 #include "transport/cosine_rays.h"
 #include "transport/hemicube.h"
 
@@ -115,6 +117,54 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
+/// Direct light of the baked texels in place of that of the solution's own.
+static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alpi_radiosity *r)
+{
+    const uint32_t texels = t->receivers->count;
+    alpi_release(job->context, r->direct);
+    alpi_release(job->context, r->directional);
+    r->direct = NULL;
+    r->directional = NULL;
+    r->texels = t->receivers;
+    r->options.direct_samples = alpi_light_first_direct(job);
+    ALPI_TRY_NEW(job->context, r->direct, texels);
+    if (t->directional != NULL) {
+        ALPI_TRY_NEW(job->context, r->directional, texels);
+    }
+    alpi_direct_output output = {.values = r->direct, .directional = r->directional};
+    ALP_TRY(alpi_radiosity_direct(r, t->order, t->count, r->options.direct_samples, r->options.seed,
+                                  &t->progress, &output));
+    r->rays += output.rays;
+    return ALP_OK;
+}
+
+/// Where only some surfaces are baked, light comes from all: it is solved for on an atlas of the
+/// whole scene, one page of the bake's size.
+static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
+                                const light_gatherers *g)
+{
+    alpi_solution_options options = {.scene = job->scene,
+                                     .tracer = t->tracer,
+                                     .lighting = t->lighting,
+                                     .atlas = alp_atlas_options_default(),
+                                     .one_sided = job->options.occlusion.one_sided,
+                                     .bounces = job->options.light.bounces,
+                                     .seed = job->options.occlusion.seed};
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.atlas.size = job->options.atlas.size;
+    alpi_solution *around = NULL;
+    alpi_light_clock_part(t->clock, false, 1.0);
+    ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));
+    alp_result result = light_texels(job, t, &around->radiosity);
+    if (result == ALP_OK) {
+        report_solution(job, &around->radiosity);
+        result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
+                                   &around->radiosity);
+    }
+    alpi_solution_destroy(around);
+    return result;
+}
+
 /// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
 /// mix the two.
 static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
@@ -128,6 +178,9 @@ static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
 static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
                                   const light_gatherers *g)
 {
+    if (job->only != NULL) {
+        return gather_around(job, t, g);
+    }
     if (!has_soft_sky(job, t->tracer)) {
         return gather_light(job, t, g, t->lighting);
     }

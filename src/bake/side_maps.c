@@ -42,6 +42,11 @@ static alp_result check_light(const alpi_bake_job *job)
     if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
         return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
     }
+    if (o->layers && job->options.only != NULL) {
+        return alpi_fail(job->context, code,
+                         "bake: layers are told apart where all surfaces are baked; leave out the "
+                         "choice of surfaces, or the layers");
+    }
     if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
         return alpi_fail(job->context, code,
                          "bake: only bounced light that rays gather can be denoised");

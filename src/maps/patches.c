@@ -249,8 +249,8 @@ static uint8_t nearest_in(const alpi_patches *p, const page_square *s)
 
 /// Blocks of one square of the page, or of its quarters, and theirs, where light changes fast: half
 /// the size near another surface, single texels where one touches.
-static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
-                         uint32_t spacing, uint32_t *placed)
+static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0, uint32_t spacing,
+                         uint32_t *placed)
 {
     page_square s;
     list_square(p, page, x0, y0, spacing, &s);
@@ -438,8 +438,8 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
 }
 
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count,
-                               const alpi_block_rule *rule, alpi_patches *patches)
+                               const uint32_t *order, uint32_t count, const alpi_block_rule *rule,
+                               alpi_patches *patches)
 {
     *patches = (alpi_patches){.context = lattice->context,
                               .scene = atlas->scene,

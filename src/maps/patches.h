@@ -52,8 +52,8 @@ typedef struct alpi_block_rule {
 
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count,
-                               const alpi_block_rule *rule, alpi_patches *patches);
+                               const uint32_t *order, uint32_t count, const alpi_block_rule *rule,
+                               alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
 /// Whether those of a scene have backs.
 bool alpi_patches_are_two_sided(const alp_scene *scene);

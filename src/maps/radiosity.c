@@ -64,7 +64,9 @@ alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t
         output->groups = o->layers->direct;
         output->part_groups = o->layers->part_layers;
     }
-    const alpi_receivers texels = alpi_patches_texel_receivers(&radiosity->patches);
+    const alpi_receivers texels = radiosity->texels != NULL
+                                      ? *radiosity->texels
+                                      : alpi_patches_texel_receivers(&radiosity->patches);
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result =
         alpi_direct_irradiance(direct, &texels, list, count, progress, output);

@@ -60,6 +60,7 @@ typedef struct alpi_energy {
 
 typedef struct alpi_radiosity {
     alpi_radiosity_options options;
+    const alpi_receivers *texels;  // whose direct light is asked for again; NULL: of the patches
     alpi_patches patches;          // cells hold what the last bounce wanted brings
     alpi_reference_value *direct;  // [texels] of fronts: E₀ with its variance, a soft sky apart
     alpi_directional *directional; // [texels] of direct light on fronts, or NULL

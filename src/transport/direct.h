@@ -62,15 +62,15 @@ const alpi_direct_part *alpi_direct_parts(const alpi_direct *direct, uint32_t *c
 
 /// What is written of each receiver.
 typedef struct alpi_direct_output {
-    alpi_reference_value *values; // [receivers] of all light together
-    alpi_reference_value *parts;  // [receivers][parts], or NULL. Their means, added as floats in
-                                  // order, are the mean of all; variances do not add up: parts
-                                  // share the points of a receiver
-    float (*const *groups)[3];    // [groups][receivers] or NULL: the mean of part p is added to
-    const uint32_t *part_groups;  // groups[part_groups[p]]. [parts]
+    alpi_reference_value *values;  // [receivers] of all light together
+    alpi_reference_value *parts;   // [receivers][parts], or NULL. Their means, added as floats in
+                                   // order, are the mean of all; variances do not add up: parts
+                                   // share the points of a receiver
+    float (*const *groups)[3];     // [groups][receivers] or NULL: the mean of part p is added to
+    const uint32_t *part_groups;   // groups[part_groups[p]]. [parts]
     alpi_directional *directional; // [receivers] of all light together, or NULL
-    uint64_t rays;                // that were sent from receivers; what goes on behind a pane
-                                  // is still the ray that met it and is not counted again
+    uint64_t rays;                 // that were sent from receivers; what goes on behind a pane
+                                   // is still the ray that met it and is not counted again
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased,

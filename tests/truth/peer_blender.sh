@@ -54,7 +54,7 @@ light() {
     for seed in 1 2; do
         cycles "$2" "$folder/$1.$seed.exr" --type diffuse --size 128 --samples 128 --bounces 8 \
             --world "$3" --seed $seed
-        "$command" bake "$2" --maps light --bounces 8 --samples 128 --atlas keep --size 128 \
+        "$command" bake "$2" --maps light --gather paths --bounces 8 --samples 128 --atlas keep --size 128 \
             --sky "$3" --seed $seed --maps-dir "$folder/$1.$seed" --progress off -q
     done
     printf '%s: ' "$1"

@@ -42,9 +42,8 @@ static void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_
             order[count++] = s->lattice.order[i];
         }
     }
-    ASSERT_OK(s->context,
-              alpi_patches_create(&s->lattice, s->atlas, order, count, &(alpi_block_rule){.spacing = spacing},
-                                  &s->patches));
+    ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, order, count,
+                                              &(alpi_block_rule){.spacing = spacing}, &s->patches));
 }
 
 static void close_setting(setting *s)
@@ -187,7 +186,7 @@ static void texels_without_light_have_stand_ins(void **state)
     open_setting(&s, make_ball(test_context(2), 4, 2), 32, 0.01f, 4, 1);
     alpi_patches none;
     ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, 0,
-                                              &(alpi_block_rule){.spacing = 4}, &none));
+                                             &(alpi_block_rule){.spacing = 4}, &none));
     for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
         assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
         const alpi_surface_point point = {t, 0.3f, 0.3f, {0, 1, 0}, false};
