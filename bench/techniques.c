@@ -75,7 +75,7 @@ static uint32_t list_blocks(const bench_question *question, uint32_t *list)
     return listed;
 }
 
-/// What `bake --maps light` does: the paths of neighbours are shared.
+/// What `bake --maps light --gather paths` does: the paths of neighbours are shared.
 static bool run_bake(const bench_question *question, uint32_t paths, alpi_reference_value *values)
 {
     const alpi_receivers receivers = alpi_texels_receivers(&question->map->texels);
@@ -149,22 +149,12 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
     return good;
 }
 
-/// What a bake does unless it is told otherwise: goes for an error of 1 %.
-static bool run_radiosity(const bench_question *question, uint32_t paths,
+/// What `bake --maps light --samples` does.
+static bool run_radiosity(const bench_question *question, uint32_t rays,
                           alpi_reference_value *values)
 {
-    (void)paths;
     alp_light_options light = alp_bake_options_default().light;
-    light.error = 0.01f;
-    return run_radiosity_with(question, &light, values);
-}
-
-static bool run_preview(const bench_question *question, uint32_t paths,
-                        alpi_reference_value *values)
-{
-    (void)paths;
-    alp_light_options light = alp_bake_options_default().light;
-    light.error = 0.04f;
+    light.samples = rays;
     return run_radiosity_with(question, &light, values);
 }
 
@@ -278,9 +268,9 @@ const bench_technique *bench_technique_at(int index)
         {"reference, 256 paths", run_reference, 256, true},
         // Neighbours' errors are alike: the mean's standard error, which takes them for
         // independent, says too little.
-        {"bake, 64 shared paths", run_bake, 64, false},
-        {"radiosity, error 1 %", run_radiosity, 0, false},
-        {"radiosity, error 4 %", run_preview, 0, false},
+        {"shared paths, 64", run_bake, 64, false},
+        {"radiosity, 64 rays", run_radiosity, 64, false},
+        {"radiosity, 256 rays", run_radiosity, 256, false},
         // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
         // too little of their own spread.
         {"without next event, 256 paths", run_by_chance, 256, false},
