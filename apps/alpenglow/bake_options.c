@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+// The options of alpenglow bake.
+#include "bake_options.h"
+
+#include "lighting.h"
+#include "output.h"
+
+#include <string.h>
+
+static int check_output_name(const char *path, alp_lightmap_as as)
+{
+    const bool viewer = as == ALP_LIGHTMAP_AS_THREE || as == ALP_LIGHTMAP_AS_BABYLON;
+    const char *ending = as == ALP_LIGHTMAP_AS_THREE ? ".json" : ".babylon";
+    if (viewer && path != NULL && !path_ends(path, ending)) {
+        return usage_error(COMMAND_BAKE, "-o %s: with --lightmap-as %s the name must end in %s",
+                           path, as == ALP_LIGHTMAP_AS_THREE ? "three" : "babylon", ending);
+    }
+    if (path == NULL || viewer || path_ends(path, ".glb") || path_ends(path, ".gltf")) {
+        return EXIT_DONE;
+    }
+    if (path_ends(path, ".json") || path_ends(path, ".babylon")) {
+        return usage_error(COMMAND_BAKE, "-o %s: needs --maps light --lightmap-as %s", path,
+                           path_ends(path, ".json") ? "three" : "babylon");
+    }
+    if (path_ends(path, ".dae") || path_ends(path, ".obj")) {
+        return usage_error(COMMAND_BAKE, "-o %s: %s is not built yet; write .glb or .gltf", path,
+                           path_ends(path, ".dae") ? ".dae" : ".obj");
+    }
+    return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb or .gltf", path);
+}
+
+/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+static int check_vertex_options(const option_value *values)
+{
+    static const struct {
+        option_id id;
+        const char *name;
+    } of_maps[] = {{OPTION_SIZE, "--size"},
+                   {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
+                   {OPTION_PADDING, "--padding"},
+                   {OPTION_EXISTING_AO, "--existing-ao"},
+                   {OPTION_AO_INTO, "--ao-into"},
+                   {OPTION_QUALITY, "--quality"},
+                   {OPTION_ERROR, "--error"},
+                   {OPTION_ADAPTIVE, "--adaptive"},
+                   {OPTION_TIME_LIMIT, "--time-limit"},
+                   {OPTION_KEEP_PARTIAL, "--keep-partial"},
+                   {OPTION_AO_BLEED, "--ao-bleed"},
+                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+    bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
+    for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
+        if (values[of_maps[i].id].given) {
+            return usage_error(COMMAND_BAKE,
+                               "%s: has no meaning with --atlas vertex, which makes no map and "
+                               "sends every vertex all rays",
+                               of_maps[i].name);
+        }
+    }
+    if (at_vertices && !values[OPTION_OUTPUT].given) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb or -o OUT.gltf");
+    }
+    if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
+        return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
+    }
+    return EXIT_DONE;
+}
+
+typedef struct named_option {
+    option_id id;
+    const char *name;
+} named_option;
+
+/// The first of these options that is given, or NULL.
+static const char *find_given(const option_value *values, const named_option *named, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (values[named[i].id].given) {
+            return named[i].name;
+        }
+    }
+    return NULL;
+}
+
+/// Options of light need light, those of occlusion need occlusion.
+static int check_light(const option_value *values, bool light, bool occlusion)
+{
+    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
+                                            {OPTION_BOUNCES, "--bounces"},
+                                            {OPTION_GATHER, "--gather"},
+                                            {OPTION_HEMICUBE, "--hemicube"},
+                                            {OPTION_DIRECT, "--direct"},
+                                            {OPTION_LAYERS, "--layers"},
+                                            {OPTION_DENOISE, "--denoise"},
+                                            {OPTION_SKY, "--sky"},
+                                            {OPTION_SKY_TURN, "--sky-turn"},
+                                            {OPTION_SUN, "--sun"},
+                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
+                                            {OPTION_SUN_SIZE, "--sun-size"},
+                                            {OPTION_LAMP, "--lamp"},
+                                            {OPTION_SPOT, "--spot"}};
+    static const named_option of_occlusion[] = {
+        {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
+        {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
+        {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
+    static const named_option not_of_light[] = {{OPTION_AO_SELF, "--ao-self"},
+                                                {OPTION_OCCLUDERS, "--occluders"}};
+    const char *name = find_given(values, of_light, sizeof of_light / sizeof *of_light);
+    if (name != NULL && !light) {
+        return usage_error(COMMAND_BAKE, "%s: needs --maps light", name);
+    }
+    name = find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
+    if (name != NULL && !occlusion) {
+        return usage_error(COMMAND_BAKE, "%s: is of occlusion; light has --samples", name);
+    }
+    name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
+    if (name != NULL && light) {
+        return usage_error(COMMAND_BAKE, "--maps light: falls on the whole scene; leave out %s",
+                           name);
+    }
+    return EXIT_DONE;
+}
+
+/// The bits of what --maps lists, whose choices are numbered in their order.
+static unsigned listed_maps(unsigned choices)
+{
+    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
+                                   ALP_MAP_DIRECTION};
+    unsigned bits = 0;
+    for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
+        bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;
+    }
+    return bits;
+}
+
+/// How light goes into the asset, and what that needs.
+static int read_lightmap(const option_value *values, alp_bake_options *o)
+{
+    const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
+    const option_value *format = &values[OPTION_LIGHTMAP_FORMAT];
+    if (!as->given) {
+        return units->given || format->given
+                   ? usage_error(COMMAND_BAKE, "%s: is of light in -o; needs --lightmap-as",
+                                 units->given ? "--units" : "--lightmap-format")
+                   : EXIT_DONE;
+    }
+    o->lightmap_as = (alp_lightmap_as)(as->choice + 1);
+    o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
+    o->lightmap_format = (alp_lightmap_format)format->choice;
+    if ((values[OPTION_MAPS].whole & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
+        return usage_error(COMMAND_BAKE, "--lightmap-as: puts light into -o; needs %s",
+                           o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
+    }
+    const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
+    if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+        return usage_error(COMMAND_BAKE, "--lightmap-format: is of --lightmap-as extras; %s %s",
+                           as->text, viewer ? "has its own" : "is a PNG inside the asset");
+    }
+    if (units->given && viewer) {
+        return usage_error(COMMAND_BAKE,
+                           "--units: has no meaning with --lightmap-as %s, whose "
+                           "viewer takes one kind",
+                           as->text);
+    }
+    if (viewer && (values[OPTION_MAPS].whole & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps ao: --lightmap-as %s holds light alone; give "
+                           "--maps-dir DIR",
+                           as->text);
+    }
+    if (o->ao_into == ALP_AO_INTO_ORM) {
+        return usage_error(COMMAND_BAKE, "--ao-into orm: light has coordinates of its own, which "
+                                         "occlusion shares; leave it out with --lightmap-as");
+    }
+    const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
+    if (units->given && o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
+        return usage_error(COMMAND_BAKE, "--units %s: what a material emits is radiance",
+                           units->text);
+    }
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
+        strcmp(values[OPTION_DIRECT].text, "off") == 0) {
+        return usage_error(COMMAND_BAKE, "--direct off: the black materials of --lightmap-as "
+                                         "emissive show no direct light; take moz or extras");
+    }
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
+        return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
+                                         "the albedo; give irradiance or irradiance/pi");
+    }
+    return EXIT_DONE;
+}
+
+/// --maps and --ao-bleed, and what cannot stand beside them.
+static int read_maps(const option_value *values, alp_bake_options *o)
+{
+    const bool bleed = values[OPTION_AO_BLEED].given;
+    o->maps = listed_maps((unsigned)values[OPTION_MAPS].whole) | (bleed ? ALP_MAP_OBSCURANCE : 0u);
+    const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
+    const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
+    const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
+    if ((sh || direction) && !light) {
+        return usage_error(COMMAND_BAKE, "--maps %s: is of light; add it: --maps light,%s",
+                           sh ? "sh" : "direction", sh ? "sh" : "direction");
+    }
+    if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps %s: --gather paths does not tell where light comes from; "
+                           "--gather rays or hemicube does",
+                           sh ? "sh" : "direction");
+    }
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
+        return usage_error(COMMAND_BAKE, "--maps %s: has no meaning with --atlas vertex",
+                           bent ? "bent" : "light");
+    }
+    const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
+    if (o->maps_folder == NULL && (bent || bleed || (light && !lit))) {
+        return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR%s",
+                           bent    ? "--maps bent"
+                           : light ? "--maps light"
+                                   : "--ao-bleed",
+                           light && !bent && o->output != NULL ? " or --lightmap-as" : "");
+    }
+    if (o->output != NULL && !ao && !lit) {
+        return usage_error(
+            COMMAND_BAKE,
+            "-o %s: glTF has no place for what is not ao; %s, or give --maps-dir "
+            "alone",
+            o->output, light ? "say --lightmap-as, bake --maps ao,light" : "bake --maps ao,bent");
+    }
+    if (values[OPTION_EXISTING_AO].given && !ao) {
+        return usage_error(COMMAND_BAKE, "--existing-ao: has no meaning without --maps ao");
+    }
+    if (bleed && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
+        return usage_error(COMMAND_BAKE,
+                           "--ao-bleed: is baked in one go; leave out --time-limit and "
+                           "--keep-partial");
+    }
+    return check_light(values, light, ao || bent || bleed);
+}
+
+/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
+/// unless it is given.
+static int read_sampling(const command_line *a, alp_bake_options *o)
+{
+    enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
+    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
+    enum { MOST_SAMPLES = 65536 };
+    const option_value *values = a->values;
+    const option_value *adaptive = &values[OPTION_ADAPTIVE];
+    alp_sampling_options *s = &o->sampling;
+    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
+        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
+                           values[OPTION_QUALITY].text,
+                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
+    }
+    if (values[OPTION_QUALITY].given) {
+        s->error = quality_errors[values[OPTION_QUALITY].choice];
+    } else if (values[OPTION_ERROR].given) {
+        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    }
+    s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
+    if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS &&
+        o->light.bounces > 0) {
+        const bool till_time = s->time_limit > 0.0 && !(s->error > 0.0f);
+        o->light.error = s->error > 0.0f ? s->error : till_time ? 0.0f : 0.01f;
+        o->light.samples = till_time ? MOST_SAMPLES : o->light.samples;
+    }
+    if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {
+        o->occlusion.samples = MOST_SAMPLES;
+    }
+    s->accuracy = adaptive->choice == ADAPTIVE_AUTO  ? ALP_ADAPTIVE_AUTO
+                  : adaptive->choice == ADAPTIVE_OFF ? ALP_ADAPTIVE_OFF
+                                                     : (float)adaptive->real;
+    s->memory_limit = values[OPTION_MEMORY_LIMIT].given ? values[OPTION_MEMORY_LIMIT].whole : 0;
+    s->keep_partial = values[OPTION_KEEP_PARTIAL].given;
+    return EXIT_DONE;
+}
+
+/// Which surfaces are baked and which occlude them.
+static int read_choice(const option_value *values, alp_bake_options *o)
+{
+    o->only = values[OPTION_ONLY].text;
+    o->occluders = values[OPTION_OCCLUDERS].text;
+    o->ao_self = values[OPTION_AO_SELF].given;
+    if (o->ao_self && o->occluders != NULL) {
+        return usage_error(COMMAND_BAKE, "--ao-self and --occluders: an object that is alone has "
+                                         "no other occluders; leave one of them out");
+    }
+    if (o->atlas.mode == ALP_ATLAS_VERTEX && (o->ao_self || o->only != NULL)) {
+        return usage_error(COMMAND_BAKE,
+                           "%s: with --atlas vertex all surfaces are baked, and "
+                           "together; use --atlas charts",
+                           o->ao_self ? "--ao-self" : "--only");
+    }
+    return EXIT_DONE;
+}
+
+static int check_layers(const option_value *values, const alp_light_options *o)
+{
+    if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
+        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
+    }
+    if (o->layers && values[OPTION_ONLY].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are told apart where all surfaces are baked; "
+                                         "leave out --only");
+    }
+    if (o->layers && o->denoise) {
+        return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
+    }
+    if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
+        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
+    }
+    return EXIT_DONE;
+}
+
+/// How irradiance is gathered, and which.
+static int read_light(const command_line *a, alp_light_options *o)
+{
+    enum { DIRECT_ON, DIRECT_OFF, DIRECT_ONLY, DIRECT_APART }; // the choices of --direct
+    const option_value *values = a->values;
+    const int direct = values[OPTION_DIRECT].choice;
+    o->gather = (alp_gather)values[OPTION_GATHER].choice;
+    o->bounces = direct == DIRECT_ONLY ? 0 : lighting_bounces(a);
+    o->samples = (uint32_t)values[OPTION_SAMPLES].whole;
+    o->hemicube = (uint32_t)values[OPTION_HEMICUBE].whole;
+    o->layers = values[OPTION_LAYERS].given;
+    o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
+                : direct == DIRECT_APART ? ALP_DIRECT_APART
+                                         : ALP_DIRECT_ON;
+    o->denoise = values[OPTION_DENOISE].choice == 1;
+    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
+        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
+    }
+    if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
+        return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
+                           values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
+    }
+    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
+        return usage_error(COMMAND_BAKE, "--direct %s: with --bounces 0 all light is direct",
+                           values[OPTION_DIRECT].text);
+    }
+    if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
+        return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
+                           values[OPTION_DIRECT].text);
+    }
+    if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
+        return usage_error(COMMAND_BAKE, "--hemicube: needs --gather hemicube");
+    }
+    if (o->gather == ALP_GATHER_HEMICUBE && o->hemicube % 2 != 0) {
+        return usage_error(COMMAND_BAKE, "--hemicube %u: give an even number", o->hemicube);
+    }
+    if (o->gather == ALP_GATHER_HEMICUBE && values[OPTION_SAMPLES].given) {
+        return usage_error(COMMAND_BAKE,
+                           "--samples: are of rays; hemicubes have pixels, --hemicube N");
+    }
+    return check_layers(values, o);
+}
+
+int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lamps)
+{
+    const option_value *values = a->values;
+    *o = alp_bake_options_default();
+    o->output = values[OPTION_OUTPUT].text;
+    o->maps_folder = values[OPTION_MAPS_FOLDER].text;
+    o->overwrite = values[OPTION_FORCE].given;
+    o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
+    o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
+    o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
+    o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
+    o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
+    const option_value *density = &values[OPTION_TEXELS_PER_METRE];
+    o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
+    int code = check_vertex_options(values);
+    if (code == EXIT_DONE) {
+        code = read_choice(values, o);
+    }
+    if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
+                                         "--maps-dir DIR");
+    }
+    code = code == EXIT_DONE ? read_lightmap(values, o) : code;
+    code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
+    code = code == EXIT_DONE ? read_maps(values, o) : code;
+    code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
+    code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;
+    code = code == EXIT_DONE ? read_light(a, &o->light) : code;
+    return code == EXIT_DONE ? read_sampling(a, o) : code;
+}

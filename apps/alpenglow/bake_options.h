@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The options of alpenglow bake, and what it says when it is done.
+#ifndef COMMAND_BAKE_OPTIONS_H
+#define COMMAND_BAKE_OPTIONS_H
+
+#include "lamps.h"
+#include "options.h"
+#include "session.h"
+
+#include <alpenglow/alpenglow.h>
+
+/// Reads all of them, and refuses what has no meaning together.
+/// @param lamps what the options borrow; released by the caller, also after a failure
+/// @return EXIT_DONE, or an exit code after a message
+int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lamps);
+
+void bake_summary_print(const session *s, const command_line *a, const alp_lightmap *lightmap,
+                        const alp_bake_options *o, const alp_bake_report *r);
+
+#endif

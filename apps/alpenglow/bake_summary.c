@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// What alpenglow bake says when it is done.
+#include "bake_options.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void print_atlas(const alp_atlas_info *atlas)
+{
+    printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
+           "%.4g texels per metre\n",
+           atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
+           atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+}
+
+static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
+{
+    static const struct {
+        alp_map map;
+        const char *files;
+    } of_maps[] = {{ALP_MAP_AO, "ao.exr, ao.png, ao.error.exr, ao.sampling.png"},
+                   {ALP_MAP_BENT, "bent.exr, bent.png"},
+                   {ALP_MAP_LIGHT, "irradiance.exr, irradiance.error.exr"},
+                   {ALP_MAP_DIRECT, "irradiance.direct.exr"},
+                   {ALP_MAP_BOUNCED, "irradiance.bounced.exr"},
+                   {ALP_MAP_SH, "sh.0.exr to sh.3.exr"},
+                   {ALP_MAP_DIRECTION, "direction.exr"},
+                   {ALP_MAP_OBSCURANCE, "obscurance.exr, obscurance.png"}};
+    const char *separator = "";
+    printf("maps       %s/", o->maps_folder);
+    for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++) {
+        if ((maps & (unsigned)of_maps[i].map) != 0) {
+            printf("%s%s", separator, of_maps[i].files);
+            separator = ", ";
+        }
+    }
+    printf("%s\n", pages > 1 ? " and further pages" : "");
+}
+
+static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("vertices   %u of different position or normal, %u triangles, values in %s\n",
+           r->vertices, r->scene.usable_triangles,
+           o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
+}
+
+static void print_occlusion(const command_line *a, const alp_bake_report *r)
+{
+    printf("occlusion  %u rays per %s, ", r->ao_samples,
+           r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
+    if (isinf(r->ao_distance)) {
+        printf("no distance limit");
+    } else {
+        const bool is_auto = a->values[OPTION_AO_DISTANCE].choice == 0;
+        const bool is_self = a->values[OPTION_AO_SELF].given;
+        printf("to %s%.4g m%s", is_auto && is_self ? "at most " : "", (double)r->ao_distance,
+               !is_auto  ? ""
+               : is_self ? " (auto: 20 % of each object's diagonal)"
+                         : " (auto: 20 % of the scene's diagonal)");
+    }
+    printf("; mean accessibility %.4f\n", r->ao_mean);
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return; // no texels, no stated error
+    }
+    printf("sampling   %llu texels traced, %llu interpolated", (unsigned long long)r->traced,
+           (unsigned long long)r->interpolated);
+    if (r->dropped > 0) {
+        printf(", %llu inside other objects filled", (unsigned long long)r->dropped);
+    }
+    if (r->unknown > 0) {
+        printf(", %llu without a value filled", (unsigned long long)r->unknown);
+    }
+    if (isfinite(r->ao_relative_error)) {
+        printf("; stated error %.2g %% of the mean, 99 %% of the texels within %.2g %%\n",
+               100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
+    } else {
+        printf("; error unknown\n");
+    }
+}
+
+static void print_light(const alp_bake_options *o, const alp_bake_report *r)
+{
+    printf("light      %u %s, ", r->light_samples,
+           r->light_direct                       ? "samples of each light per texel"
+           : o->light.gather == ALP_GATHER_PATHS ? "paths per texel"
+                                                 : "rays per texel");
+    if (r->light_direct) {
+        printf("no bounce");
+    } else if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
+        printf("all bounces");
+    } else {
+        printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
+    }
+    if (r->light_interpolated > 0) {
+        printf("; %.0f %% of the texels gathered, the rest interpolated",
+               100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
+    }
+    printf("; mean irradiance %.4g W/m2", r->light_mean);
+    if (isfinite(r->light_relative_error)) {
+        printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);
+    }
+    putchar('\n');
+    const alp_light_energy *e = &r->light_energy;
+    if (r->light_passes > 0 && e->known) {
+        printf(
+            "energy     emitted %.4g W; absorbed %.4g, escaped %.4g, behind surfaces %.4g, not yet "
+            "reflected %.2g; %+.2g %% off\n",
+            e->emitted, e->absorbed, e->escaped, e->behind, e->unshot,
+            100.0 * (e->absorbed + e->escaped + e->behind + e->unshot - e->emitted) /
+                (e->emitted > 0.0 ? e->emitted : 1.0));
+    }
+}
+
+static void print_layers(const alp_lightmap *lightmap)
+{
+    const uint32_t count = alp_lightmap_layer_count(lightmap);
+    for (uint32_t i = 0; i < count; i++) {
+        printf("%sirradiance.%s.exr%s", i == 0 ? "layers     " : ", ",
+               alp_lightmap_layer_name(lightmap, i), i + 1 == count ? "\n" : "");
+    }
+}
+
+void bake_summary_print(const session *s, const command_line *a, const alp_lightmap *lightmap,
+                        const alp_bake_options *o, const alp_bake_report *r)
+{
+    if (o->output != NULL) {
+        printf("wrote      %s\n", o->output);
+    }
+    if (o->maps_folder != NULL) {
+        print_maps(o, r->maps, r->atlas.pages);
+        print_layers(lightmap);
+    }
+    if (o->only != NULL) {
+        printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);
+    }
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        print_vertices(o, r);
+    } else {
+        print_atlas(&r->atlas);
+    }
+    if ((o->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0) {
+        print_occlusion(a, r);
+    }
+    if ((o->maps & ALP_MAP_LIGHT) != 0) {
+        print_light(o, r);
+    }
+    printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
+           s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
+           r->seconds_bake, r->seconds_write);
+    if (r->seconds_bake > 0.0 && (r->maps & ALP_MAP_LIGHT) == 0) { // paths are several rays each
+        printf("; %.3g Mrays/s", 1e-6 * (double)r->rays / r->seconds_bake);
+    }
+    putchar('\n');
+}
