@@ -256,6 +256,14 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     } else if (values[OPTION_ERROR].given) {
         s->error = (float)(values[OPTION_ERROR].real / 100.0);
     }
+    if (s->error > 0.0f && o->maps == ALP_MAP_LIGHT &&
+        (values[OPTION_SAMPLES].given || o->light.gather != ALP_GATHER_RAYS ||
+         o->light.bounces == 0)) {
+        return usage_error(COMMAND_BAKE,
+                           "--%s: light goes for an error by rays, with bounces and without "
+                           "--samples",
+                           values[OPTION_QUALITY].given ? "quality" : "error");
+    }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
     if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS &&
         o->light.bounces > 0) {
@@ -301,6 +309,10 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     if (o->layers && values[OPTION_ONLY].given) {
         return usage_error(COMMAND_BAKE, "--layers: are told apart where all surfaces are baked; "
                                          "leave out --only");
+    }
+    if (o->layers && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
+        return usage_error(COMMAND_BAKE, "--layers: are gathered to their end; leave out %s",
+                           values[OPTION_TIME_LIMIT].given ? "--time-limit" : "--keep-partial");
     }
     if (o->layers && o->denoise) {
         return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");

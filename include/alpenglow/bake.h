@@ -131,7 +131,7 @@ typedef enum alp_direct {
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
 /// Bias: within a block, light that has bounced is taken as even when it bounces again; docs/
-/// accuracy.md measures it.
+/// accuracy.md, "Techniques against the truth".
 ///
 /// PATHS: eight neighbouring texels share what their paths find after the first bounce, without
 /// bias. Their errors are then alike: the standard error of a texel holds, that of a mean over many

@@ -298,6 +298,7 @@ static alp_result improve(rounds *r, bool *done)
         return ALP_OK;
     }
     r->number++;
+    const double direct_asked = direct, rays_asked = rays;
     direct = affordable(r, direct, r->direct_seconds * (rays > 0.0 ? 2.0 : 1.0), r->direct);
     if (direct > 0.0) {
         alpi_light_clock_part(r->task->clock, true, rays > 0.0 ? 1.0 : 0.0);
@@ -307,6 +308,9 @@ static alp_result improve(rounds *r, bool *done)
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
         ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), REPLICATES)));
+    }
+    if (direct < direct_asked || rays < rays_asked) { // the clock had a say
+        r->job->report.cut_off = true;
     }
     if (direct <= 0.0 && rays <= 0.0) { // no time for more
         *done = r->job->report.cut_off = true;
@@ -461,9 +465,11 @@ static void release_rounds(rounds *r)
     alp_context *context = r->job->context;
     alpi_release(context, r->fresh);
     alpi_release(context, r->fresh_skies);
+    alpi_release(context, r->fresh_directional);
     alpi_release(context, r->counts);
     alpi_release(context, r->list);
     alpi_release(context, r->noisy);
+    r->fresh_directional = NULL;
     r->fresh = NULL;
     r->fresh_skies = NULL;
     r->counts = r->list = NULL;

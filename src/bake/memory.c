@@ -108,7 +108,7 @@ static uint64_t count_directional(const alp_bake_options *options)
 /// Light by direction while it is gathered: of the map, of direct light, and of later rounds.
 static uint64_t find_directional(const alp_atlas_info *atlas, const alp_bake_options *options)
 {
-    const uint64_t arrays = options->light.error > 0.0f ? 3u : 2u;
+    const uint64_t arrays = alpi_light_has_rounds(options) ? 3u : 2u;
     return count_directional(options) > 0 ? arrays * DIRECTIONAL_BYTES_PER_TEXEL * atlas->texels
                                           : 0u;
 }

@@ -18,9 +18,12 @@ enum { BLOCK_CUBE = 16 };
 // leave, which is about 16 / √samples percent.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 8, MOST_RAYS = 1024 };
+    enum { TEXELS_PER_BLOCK = 8, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
+    }
+    if (options->samples == MOST_SAMPLES) { // as many as there is time for: rounds come first
+        return ALPI_RADIOSITY_BLOCK_RAYS;
     }
     const double error =
         options->error > 0.0f ? (double)options->error : 0.16 / sqrt((double)options->samples);

@@ -123,7 +123,7 @@ void alpi_report_put_facts(alpi_page *page, const alp_scene *scene, const alp_ba
     alpi_page_put(page, "<section id=\"facts\"><h2>What was baked</h2>\n<dl class=\"facts\">\n");
     put_scene(page, scene, r);
     put_atlas(page, r);
-    if ((r->maps & ~(unsigned)ALP_MAP_LIGHT) != 0) {
+    if ((r->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0) {
         put_occlusion(page, r);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {

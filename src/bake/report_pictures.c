@@ -188,7 +188,7 @@ static alp_result measure_exposure(alpi_report_pictures *p)
 alp_result alpi_report_measure(const alp_bake_report *report, alpi_report_pictures *p)
 {
     const alp_lightmap *l = p->lightmap;
-    if ((report->maps & ~(unsigned)ALP_MAP_LIGHT) != 0) {
+    if ((report->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0) {
         measure_errors(p, ALPI_PICTURE_AO, ALPI_PICTURE_AO_ERROR, report->ao_p99_error);
     }
     if (l->irradiance_pages == NULL) {

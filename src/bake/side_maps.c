@@ -42,6 +42,12 @@ static alp_result check_light(const alpi_bake_job *job)
     if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
         return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
     }
+    const alp_sampling_options *s = &job->options.sampling;
+    if (o->layers && (s->time_limit > 0.0 || s->keep_partial)) {
+        return alpi_fail(
+            job->context, code,
+            "bake: layers are gathered to their end: no time limit, no partial result");
+    }
     if (o->layers && job->options.only != NULL) {
         return alpi_fail(job->context, code,
                          "bake: layers are told apart where all surfaces are baked; leave out the "

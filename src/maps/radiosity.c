@@ -148,6 +148,23 @@ static void see_backs(const solver *s)
     }
 }
 
+/// Calls the backs of double-sided emitters seen: the energy that leaves them is counted by their
+/// rays.
+static void see_shining_backs(const solver *s)
+{
+    const alpi_patches *p = &s->r->patches;
+    for (uint32_t b = 0; b < p->block_count && p->two_sided; b++) {
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            const uint32_t t = p->block_texels[k];
+            const float *e = p->emissions[t];
+            if (e[0] + e[1] + e[2] > 0.0f &&
+                alpi_surface_is_double_sided(p->scene, p->texels->triangles[t])) {
+                p->seen_backs[b] = ALPI_BACK_SEEN;
+            }
+        }
+    }
+}
+
 /// Adds the backs that were seen since to the receivers. @return how many
 static uint32_t add_seen_backs(solver *s)
 {
@@ -180,6 +197,7 @@ static alp_result find_receivers(solver *s)
         r->receivers[b] = s->new_receivers[b] = b;
     }
     r->receiver_count = p->block_count;
+    see_shining_backs(s);
     if (o->backs) {
         see_backs(s);
     }
@@ -390,6 +408,8 @@ static alp_result run_layers(solver *s)
 static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
                              double surface_emitted[3], alpi_energy *e)
 {
+    const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
+                                                                 r->patches.texels->triangles[t]);
     const alpi_patches *p = &r->patches;
     const double area = (double)p->texels->areas[t];
     const float *direct = r->direct[back * p->texels->count + t].mean;
@@ -397,7 +417,7 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     const double escaped = (double)r->lost[receiver][0], behind = (double)r->lost[receiver][1];
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
-        const double emitted = back ? 0.0 : ALPI_PI * (double)p->emissions[t][k];
+        const double emitted = !gives ? 0.0 : ALPI_PI * (double)p->emissions[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
         const double shot = albedo * (first + (double)before[k]) + emitted;
         e->received += share * first;
@@ -453,11 +473,11 @@ static alp_result allocate(solver *s)
                                            blocks, p->texels->count);
 }
 
-/// Direct light of backs has become what they reflect, and is not asked for again.
+/// Direct light of backs has become what they reflect, and is not asked for again, but by layers.
 static alp_result drop_backs(alpi_radiosity *r)
 {
     const alpi_patches *p = &r->patches;
-    if (p->two_sided) {
+    if (p->two_sided && r->options.layers == NULL) {
         void *fronts =
             alpi_reallocate(r->options.context, r->direct, p->texels->count, sizeof *r->direct);
         if (fronts == NULL) {

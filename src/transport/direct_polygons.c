@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { STREAM_POLYGON = 8, USE_PLACE = 0, USE_POLYGON = 1 };
+enum { STREAM_POLYGON = 13, USE_PLACE = 0, USE_POLYGON = 1 };
 enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
 _Static_assert(CHUNK % R == 0 && SCOUTS % R == 0, "replicates take turns");
 /// Means of form factors over a half's replicates are uneven where their range is more of their

@@ -131,7 +131,7 @@ static void hemicubes_find_what_rays_find(void **state)
         gather(&r, &p, &gatherer, truth);
         const double coarse = hemicube_error(&r, &p, 64, truth, &noise);
         const double fine = hemicube_error(&r, &p, 128, truth, &noise);
-        printf("accuracy: bounced light by hemicubes against %u rays, %s: 64² %.2f %%, 128² %.2f "
+        printf("accuracy: bounced light by hemicubes against %d rays, %s: 64² %.2f %%, 128² %.2f "
                "%% (rays %.2f %%)\n",
                RAYS, scenes[i].name, 100.0 * coarse, 100.0 * fine, 100.0 * noise);
         assert_true(noise < 6e-3);

@@ -137,7 +137,7 @@ static alpi_reference_value gather_one(const test_probe *p, const alpi_gatherer 
 {
     const test_patches all = {.count = 1, .patches = patch, .offset = 1e-6f};
     const alpi_receivers receivers = test_patches_receivers(&all);
-    alpi_reference_value value;
+    alpi_reference_value value = {{0.0f}, {0.0f}};
     const alpi_gather_job job = {.context = context,
                                  .from = &p->options.from,
                                  .gatherer = g,
