@@ -156,7 +156,7 @@ static uint32_t list_noisy(const rounds *r, double variance)
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
         const float *v = r->solution->direct[t].variance;
-        r->noisy[t] = fmax(v[0], fmax(v[1], v[2])) > variance;
+        r->noisy[t] = (double)fmaxf(v[0], fmaxf(v[1], v[2])) > variance;
     }
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];

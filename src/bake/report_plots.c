@@ -48,7 +48,7 @@ typedef struct decades {
 
 static decades find_decades(const float *changes, uint32_t count)
 {
-    double least = INFINITY, most = 0.0;
+    double least = HUGE_VAL, most = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const double change = (double)changes[i];
         if (change > 0.0 && isfinite(change)) {

@@ -101,11 +101,12 @@ static void mean_channels(alp_context *context, const alp_lightmap *lightmap, co
 
 /// E/π after 8 bounces, by a gatherer: the mean of each channel within .5 %; and what is left of
 /// the difference when both noises are taken off it within `most` of the mean: for paths 1 %, for
-/// rays 2
-/// %, as what they interpolate has errors alike in many texels. Ours is what the bake states of
-/// itself, the peer's is 1.2 % (measured where it was made). The square of ours is known to 2 %: a
-/// few thousand blocks of eight texels have errors of their own; three times that is allowed.
-static void hold_light(alp_gather gather, double most)
+/// rays 2 %, as what they interpolate has errors alike in many texels. Ours is what the bake states
+/// of itself, the peer's is 1.2 % (measured where it was made).
+/// @param doubt how well the square of ours is known: 2 % of paths, of which a few thousand blocks
+///              of eight texels have errors of their own; of rays, by the thousand texels that were
+///              held out and whose errors differ much, 10 %. Three times that is allowed
+static void hold_light(alp_gather gather, double most, double doubt)
 {
     alp_context *context = test_context(2);
     alp_scene *scene = load_cornell(context);
@@ -121,7 +122,7 @@ static void hold_light(alp_gather gather, double most)
     const double scale = 1.0 / 3.14159265358979, peer = 0.012;
     const alp_image_difference d = compare(context, lightmap, ALP_MAP_LIGHT, stored, scale);
     const double own = report.light_relative_error, all = d.rmse / d.mean_second;
-    const double rest = all * all - own * own - peer * peer, known = 0.02 * own * own;
+    const double rest = all * all - own * own - peer * peer, known = doubt * own * own;
     print_message("of the mean: difference %.2f %%, our noise %.2f %%, left %.2f %%\n", 100.0 * all,
                   100.0 * own, 100.0 * sqrt(fmax(rest, 0.0)));
     assert_true(rest < most * most + 3.0 * known && rest > -3.0 * known);
@@ -139,8 +140,8 @@ static void hold_light(alp_gather gather, double most)
 static void cornell_box_light(void **state)
 {
     (void)state;
-    hold_light(ALP_GATHER_PATHS, 0.01);
-    hold_light(ALP_GATHER_RAYS, 0.02);
+    hold_light(ALP_GATHER_PATHS, 0.01, 0.02);
+    hold_light(ALP_GATHER_RAYS, 0.02, 0.1);
 }
 
 int main(void)
