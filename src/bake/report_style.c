@@ -2,6 +2,7 @@
 // How the page about a bake looks: dark on light, on paper too, and on a narrow screen.
 #include "bake/report_parts.h"
 
+// One text. NOLINTNEXTLINE(readability-function-size)
 void alpi_report_put_style(alpi_page *page)
 {
     alpi_page_put(

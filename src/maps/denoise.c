@@ -135,11 +135,12 @@ static float find_likeness(const denoise_job *job, const alpi_site *centre, cons
 /// centre itself counts as a neighbour.
 static void find_circle(const denoise_job *job, const alpi_site *centre, float radius, circle *c)
 {
-    uint32_t found = NEIGHBOUR_LIMIT + 1;
-    for (; found > NEIGHBOUR_LIMIT && radius > 1.0f; radius *= 0.7f) {
+    uint32_t found = 0;
+    do {
         found = alpi_neighbours_around(job->neighbours, centre, radius * centre->side,
                                        NEIGHBOUR_LIMIT, c->sites);
-    }
+        radius *= 0.7f;
+    } while (found > NEIGHBOUR_LIMIT && radius > 1.0f);
     found = found > NEIGHBOUR_LIMIT ? NEIGHBOUR_LIMIT : found;
     vec3 t, b;
     vec3_frame(centre->normal, &t, &b);

@@ -56,8 +56,9 @@ static void find_material(const alpi_patches *p, uint32_t texel)
     double albedo[3] = {0.0}, emission[3] = {0.0};
     uint32_t met = 0;
     for (uint32_t i = 0; i < strata * strata; i++) {
-        const float at[2] = {((float)(i % strata) + 0.5f) / (float)strata,
-                             ((float)(i / strata) + 0.5f) / (float)strata};
+        const uint32_t column = i % strata, row = i / strata;
+        const float at[2] = {((float)column + 0.5f) / (float)strata,
+                             ((float)row + 0.5f) / (float)strata};
         alpi_texel_spot s;
         alpi_texels_spot(p->texels, texel, at, &s);
         if (is_masked_out(p->scene, &s)) {

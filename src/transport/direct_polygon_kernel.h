@@ -24,6 +24,7 @@ typedef struct alpi_polygon {
 } alpi_polygon;
 
 /// Samples [0, count) of eight receivers side by side: lane i is receiver i.
+// In the order of its use. NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
 typedef struct alpi_polygon_wave {
     uint32_t count;
     uint32_t scouts; // the last of them count in no sum

@@ -176,6 +176,7 @@ static bool is_inside(const job *j, const view *views, int x, int y)
         uint32_t other = views[row * SIDE + column].triangle;
         if (other == ALPI_NONE ||
             j->scene->triangle_surface[other] != j->scene->triangle_surface[t] ||
+            // The very same normal. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
             memcmp(j->scene->normals[j->scene->triangles[other][0]],
                    j->scene->normals[j->scene->triangles[t][0]], 3 * sizeof(float)) != 0) {
             return false;

@@ -296,7 +296,7 @@ static void three_holds_the_scene(void **state)
     room r;
     room_create(&r);
     json_t *root = encode(&r, false);
-    const char *materials[PAGES + 1];
+    const char *materials[PAGES + 1] = {NULL};
     check_meshes(&r, root, three_mesh, materials);
     check_three_page(&r, root, 0, 1.0);
     // 0.37 + 574 · 1621 is between 14 and 15 times the largest half.
@@ -373,7 +373,7 @@ static void babylon_holds_the_scene(void **state)
     room r;
     room_create(&r);
     json_t *root = encode(&r, true);
-    const char *materials[PAGES + 1];
+    const char *materials[PAGES + 1] = {NULL};
     check_meshes(&r, root, babylon_mesh, materials);
     assert_true(json_is_true(get(root, "useRightHandedSystem")));
     for (size_t k = 0; k < 3; k++) {
