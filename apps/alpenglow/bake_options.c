@@ -137,6 +137,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
     const option_value *format = &values[OPTION_LIGHTMAP_FORMAT];
+    const unsigned maps = listed_maps((unsigned)values[OPTION_MAPS].whole);
     if (!as->given) {
         return units->given || format->given
                    ? usage_error(COMMAND_BAKE, "%s: is of light in -o; needs --lightmap-as",
@@ -146,7 +147,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     o->lightmap_as = (alp_lightmap_as)(as->choice + 1);
     o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
     o->lightmap_format = (alp_lightmap_format)format->choice;
-    if ((values[OPTION_MAPS].whole & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
+    if ((maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
         return usage_error(COMMAND_BAKE, "--lightmap-as: puts light into -o; needs %s",
                            o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
     }
@@ -161,7 +162,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
                            "viewer takes one kind",
                            as->text);
     }
-    if (viewer && (values[OPTION_MAPS].whole & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
+    if (viewer && (maps & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE,
                            "--maps ao: --lightmap-as %s holds light alone; give "
                            "--maps-dir DIR",

@@ -191,7 +191,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
-/// The map that --with lightmap shows: irradiance alone, baked as bake does it.
+/// The map that --with lightmap shows: irradiance alone, baked as bake --samples does it.
 static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
                              alp_lightmap **lightmap)
 {

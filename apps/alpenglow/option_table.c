@@ -271,8 +271,8 @@ static const option options[] = {
              "standard errors, over the mean of the map) is at most this, and its 99th percentile "
              "at most four times this. --ao-samples is then the most rays a texel may get, 65536 "
              "when it is not given. Half the error takes about 2.7 times the rays. Light: without "
-             "--samples it goes for 1 percent, or for this; half the error takes four times the "
-             "rays."},
+             "--samples it goes for 1 percent, or for this, whatever its 99th percentile; half the "
+             "error takes four times the rays."},
     {.id = OPTION_TIME_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -385,7 +385,7 @@ static const option options[] = {
      .maximum = 65536,
      .unit = "rays per texel",
      .initial = "256",
-     .help = "Of --with lightmap, as --samples of bake."},
+     .help = "Of --with lightmap, as --samples of bake; no error is gone for."},
     {.id = OPTION_SAMPLES,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,

@@ -144,6 +144,32 @@ static json_t *make_layers(const alp_lightmap *lightmap)
     return names;
 }
 
+/// Where the light goes, in W.
+static json_t *make_energy(const alp_light_energy *e)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "emitted", json_number(e->emitted), "absorbed",
+                     json_number(e->absorbed), "escaped", json_number(e->escaped), "behind",
+                     json_number(e->behind), "unshot", json_number(e->unshot));
+}
+
+static json_t *make_light(const alp_bake_report *r)
+{
+    const char *samples = r->light_direct       ? "samples_per_light"
+                          : r->light_passes > 0 ? "rays_per_texel"
+                                                : "paths_per_texel";
+    json_t *light = json_pack("{s:I, s:o}", samples, (json_int_t)r->light_samples,
+                              "mean_irradiance", json_number(r->light_mean));
+    if (r->light_passes > 0) {
+        json_object_set_new(light, "passes", json_integer((json_int_t)r->light_passes));
+        json_object_set_new(light, "traced", json_integer((json_int_t)r->light_traced));
+        json_object_set_new(light, "interpolated", json_integer((json_int_t)r->light_interpolated));
+    }
+    if (r->light_energy.known) {
+        json_object_set_new(light, "energy", make_energy(&r->light_energy));
+    }
+    return light;
+}
+
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r)
 {
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
@@ -163,10 +189,7 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
         json_object_clear(error);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        json_object_set_new(
-            document, "light",
-            json_pack("{s:I, s:o}", r->light_direct ? "samples_per_light" : "paths_per_texel",
-                      (json_int_t)r->light_samples, "mean_irradiance", json_number(r->light_mean)));
+        json_object_set_new(document, "light", make_light(r));
         if (alp_lightmap_layer_count(lightmap) > 0) {
             json_object_set_new(json_object_get(document, "light"), "layers",
                                 make_layers(lightmap));

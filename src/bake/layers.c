@@ -197,10 +197,7 @@ uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info 
         PAGE_BYTES = 16
     };
     const uint64_t count = job->layers.light.count;
-    uint64_t sides = 1;
-    for (uint32_t m = 0; m < job->scene->material_count; m++) {
-        sides = job->scene->materials[m].double_sided ? 2 : sides;
-    }
+    const uint64_t sides = alpi_patches_are_two_sided(job->scene) ? 2 : 1;
     const uint64_t pixels = (uint64_t)atlas->width * atlas->height * atlas->pages;
     return count == 0 ? 0
                       : (count * (BYTES + SIDE_BYTES * sides) + SHARED_BYTES) * atlas->texels +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
 // larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
-// their own; what they find is averaged by their numbers of samples.
+// their own; what they find is averaged by their numbers of samples. So are its variances: the part
+// of them that interpolation is to blame for is alike in all rounds, and stated a little low.
 #include "bake/layers.h"
 #include "bake/light.h"
 
@@ -101,7 +102,6 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
     const double began = alpi_seconds();
     ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, r->states, &report));
     r->ray_seconds = (alpi_seconds() - began) / rays;
-    job->report.light_samples = r->rays + gather.gatherer->packet_count * ALPI_PACKET;
     job->report.light_traced = report.traced;
     job->report.light_interpolated = report.interpolated;
     job->report.rays += report.rays;
@@ -143,6 +143,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
         }
     }
     r->rays += rays;
+    r->job->report.light_samples = r->rays;
     return ALP_OK;
 }
 
@@ -191,8 +192,8 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
     }
 }
 
-/// Direct light by `factor` times the samples they have for the texels that are noisy, with
-/// `wanted` the root mean square that would do.
+/// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
+/// root mean square that would do.
 static alp_result add_direct(rounds *r, double more, double wanted)
 {
     const alpi_light_task *t = r->task;
@@ -333,6 +334,8 @@ static alp_result begin(rounds *r)
     ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies,
                            r->task->directional));
     r->rays = more ? FIRST_RAYS : most;
+    r->job->report.light_samples =
+        r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
     r->direct = r->solution->options.direct_samples;
     r->direct_seconds = r->solution->direct_seconds / r->direct;
     return measure(r);

@@ -113,6 +113,21 @@ static uint64_t find_directional(const alp_atlas_info *atlas, const alp_bake_opt
                                           : 0u;
 }
 
+/// Where only some surfaces are baked: the solution of the whole scene, on a page of its own.
+static uint64_t find_around(const alp_atlas_info *atlas, const alp_scene *scene,
+                            const alp_bake_options *options)
+{
+    if (options->only == NULL || (options->maps & ALP_MAP_LIGHT) == 0 ||
+        options->light.gather == ALP_GATHER_PATHS || options->light.bounces == 0) {
+        return 0;
+    }
+    alp_atlas_info around = *atlas;
+    around.width = around.height = options->atlas.size;
+    around.pages = 1;
+    around.texels = (uint64_t)around.width * around.height;
+    return find_kept(&around, scene, 0) + find_light_memory(&around, scene, options).solve;
+}
+
 /// @param rays of the blocks that are kept, or UINT64_MAX: as many as there are
 static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                             const alp_bake_options *options, uint64_t kept_rays)
@@ -138,7 +153,7 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
     const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
     const uint64_t most = rays > store ? rays : store;
     return find_kept(atlas, scene, sides) + find_directional(atlas, options) +
-           (most > store + light ? most : store + light);
+           find_around(atlas, scene, options) + (most > store + light ? most : store + light);
 }
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -157,6 +172,7 @@ static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *
     const double held = (double)m.solve +
                         (double)find_kept(atlas, job->scene, count_sides(&job->options)) +
                         (double)find_directional(atlas, &job->options) +
+                        (double)find_around(atlas, job->scene, &job->options) +
                         (double)alpi_bake_layers_memory(job, atlas);
     return limit > held ? (uint64_t)(limit - held) : 0;
 }

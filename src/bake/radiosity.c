@@ -4,6 +4,7 @@
 #include "bake/light.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 #include "maps/radiosity.h"
 #include "maps/solution.h"
 #include "transport/cosine_rays.h"
@@ -135,14 +136,16 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
         ALPI_TRY_NEW(job->context, r->directional, texels);
     }
     alpi_direct_output output = {.values = r->direct, .directional = r->directional};
+    const double began = alpi_seconds();
     ALP_TRY(alpi_radiosity_direct(r, t->order, t->count, r->options.direct_samples, r->options.seed,
                                   &t->progress, &output));
+    r->direct_seconds = alpi_seconds() - began;
     r->rays += output.rays;
     return ALP_OK;
 }
 
 /// Where only some surfaces are baked, light comes from all: it is solved for on an atlas of the
-/// whole scene, one page of the bake's size.
+/// whole scene, one page of the bake's size, always by cosine rays.
 static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
                                 const light_gatherers *g)
 {
@@ -155,6 +158,9 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
                                      .seed = job->options.occlusion.seed};
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.atlas.size = job->options.atlas.size;
+    options.block_rays = alpi_light_block_rays(&job->options.light,
+                                               (uint64_t)options.atlas.size * options.atlas.size);
+    options.kept_limit = job->kept_limit > 0 ? job->kept_limit : 1;
     alpi_solution *around = NULL;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));

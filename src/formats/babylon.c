@@ -25,22 +25,11 @@ typedef struct writer {
     alpi_bytes text;
 } writer;
 
-static void print_float(alpi_bytes *text, const char *name, float value)
-{
-    alpi_bytes_print(text, ",\"%s\":", name);
-    alpi_bytes_float(text, value);
-}
-
 static void print_floats(alpi_bytes *text, const char *name, const float *values, size_t count)
 {
     alpi_bytes_print(text, ",\"%s\":[", name);
     alpi_lightmap_print_floats(text, values, count);
     alpi_bytes_print(text, "]");
-}
-
-static const char *comma(uint32_t index)
-{
-    return index > 0 ? "," : "";
 }
 
 // --- materials -----------------------------------------------------------------------------------
@@ -82,11 +71,11 @@ static void print_alpha(alpi_bytes *text, const alpi_material *material)
 {
     alpi_bytes_print(text, ",\"transparencyMode\":%d", (int)material->alpha_mode);
     if (material->alpha_mode != ALPI_ALPHA_OPAQUE) {
-        print_float(text, "alpha", material->base_color[3]);
+        alpi_lightmap_print_float(text, "alpha", material->base_color[3]);
         alpi_bytes_print(text, ",\"useAlphaFromAlbedoTexture\":true");
     }
     if (material->alpha_mode == ALPI_ALPHA_MASK) {
-        print_float(text, "alphaCutOff", material->alpha_cutoff);
+        alpi_lightmap_print_float(text, "alphaCutOff", material->alpha_cutoff);
     }
 }
 
@@ -123,7 +112,7 @@ static alp_result print_materials(writer *w)
 {
     alpi_bytes_print(&w->text, ",\"materials\":[");
     for (uint32_t i = 0; i < w->parts.slot_count; i++) {
-        alpi_bytes_print(&w->text, "%s", comma(i));
+        alpi_bytes_print(&w->text, "%s", alpi_lightmap_comma(i));
         ALP_TRY(print_material(w, i));
     }
     alpi_bytes_print(&w->text, "]");
@@ -174,7 +163,7 @@ static void print_meshes(writer *w)
     for (uint32_t i = 0; i < w->parts.part_count; i++) {
         const alpi_lightmap_part *part = &w->parts.parts[i];
         const char *name = w->scene->surfaces[part->surface].name;
-        alpi_bytes_print(text, "%s{\"id\":\"mesh %u\",\"name\":", comma(i), i);
+        alpi_bytes_print(text, "%s{\"id\":\"mesh %u\",\"name\":", alpi_lightmap_comma(i), i);
         alpi_bytes_quote(text, name != NULL ? name : "");
         alpi_bytes_print(text,
                          ",\"materialId\":\"material %u\",\"position\":[0,0,0],"
@@ -202,13 +191,13 @@ static void print_cameras(writer *w)
         float far = alpi_lightmap_far(w->scene, camera);
         alpi_bytes_print(text,
                          "%s{\"type\":\"FreeCamera\",\"id\":\"camera %u\",\"name\":\"camera %u\"",
-                         comma(i), i, i);
+                         alpi_lightmap_comma(i), i, i);
         print_floats(text, "position", camera->position, 3);
         print_floats(text, "target", camera->target, 3);
         print_floats(text, "upVector", camera->up, 3);
-        print_float(text, "fov", camera->vertical_fov);
-        print_float(text, "minZ", far / 10000.0f);
-        print_float(text, "maxZ", far);
+        alpi_lightmap_print_float(text, "fov", camera->vertical_fov);
+        alpi_lightmap_print_float(text, "minZ", far / 10000.0f);
+        alpi_lightmap_print_float(text, "maxZ", far);
         alpi_bytes_print(text, "}");
     }
     alpi_bytes_print(text, "]%s",

@@ -208,6 +208,17 @@ void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t co
     }
 }
 
+void alpi_lightmap_print_float(alpi_bytes *text, const char *name, float value)
+{
+    alpi_bytes_print(text, ",\"%s\":", name);
+    alpi_bytes_float(text, value);
+}
+
+const char *alpi_lightmap_comma(uint32_t index)
+{
+    return index > 0 ? "," : "";
+}
+
 void alpi_lightmap_print_vertices(alpi_bytes *text, const alpi_lightmap_parts *parts,
                                   const alpi_lightmap_part *part, const float *values, size_t width)
 {

@@ -54,6 +54,10 @@ void alpi_lightmap_print_indices(alpi_bytes *text, const alpi_lightmap_parts *pa
                                  const alpi_lightmap_part *part, bool clockwise);
 /// `count` numbers with commas between, each as short as brings the float back.
 void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t count);
+/// A member of an object that is not its first.
+void alpi_lightmap_print_float(alpi_bytes *text, const char *name, float value);
+/// What stands before an item of a list: nothing before the first.
+const char *alpi_lightmap_comma(uint32_t index);
 
 /// The material of a slot, or a plain one where it has none (ρ = .5).
 alpi_material alpi_lightmap_material(const alp_scene *scene, const alpi_lightmap_slot *slot);

@@ -26,18 +26,6 @@ typedef struct writer {
     alpi_bytes text;
 } writer;
 
-static void print_float(alpi_bytes *text, const char *name, float value)
-{
-    alpi_bytes_print(text, ",\"%s\":", name);
-    alpi_bytes_float(text, value);
-}
-
-/// Where a comma is needed before all but the first.
-static const char *comma(uint32_t index)
-{
-    return index > 0 ? "," : "";
-}
-
 // --- geometries ----------------------------------------------------------------------------------
 
 static void begin_attribute(alpi_bytes *text, const char *before, const char *name, int width)
@@ -93,7 +81,7 @@ static void print_geometries(writer *w)
         alpi_bytes_print(&w->text,
                          "%s{\"uuid\":\"geometry %u\",\"type\":\"BufferGeometry\",\"data\":{"
                          "\"attributes\":{",
-                         comma(i), i);
+                         alpi_lightmap_comma(i), i);
         print_attributes(w, &w->parts.parts[i]);
         alpi_bytes_print(&w->text, "},\"index\":{\"type\":\"Uint32Array\",\"array\":[");
         alpi_lightmap_print_indices(&w->text, &w->parts, &w->parts.parts[i], false);
@@ -122,7 +110,7 @@ static void print_emission(alpi_bytes *text, const float emission[3])
     if (most > 0.0f) {
         vec3 color = vec3_scale(vec3_load(emission), 1.0f / most);
         alpi_bytes_print(text, ",\"emissive\":%u", hex_color(color));
-        print_float(text, "emissiveIntensity", most);
+        alpi_lightmap_print_float(text, "emissiveIntensity", most);
     }
 }
 
@@ -131,9 +119,9 @@ static void print_alpha(alpi_bytes *text, const alpi_material *material)
     if (material->alpha_mode == ALPI_ALPHA_OPAQUE) {
         return;
     }
-    print_float(text, "opacity", material->base_color[3]);
+    alpi_lightmap_print_float(text, "opacity", material->base_color[3]);
     if (material->alpha_mode == ALPI_ALPHA_MASK) {
-        print_float(text, "alphaTest", material->alpha_cutoff);
+        alpi_lightmap_print_float(text, "alphaTest", material->alpha_cutoff);
     } else {
         alpi_bytes_print(text, ",\"transparent\":true");
     }
@@ -157,7 +145,7 @@ static void print_material(writer *w, uint32_t index)
     }
     if (slot->page != ALPI_NONE) {
         alpi_bytes_print(text, ",\"lightMap\":\"light %u\"", slot->page);
-        print_float(text, "lightMapIntensity", w->scales[slot->page]);
+        alpi_lightmap_print_float(text, "lightMapIntensity", w->scales[slot->page]);
     }
     print_alpha(text, &material);
     alpi_bytes_print(text, "%s%s}", slot->colored ? ",\"vertexColors\":true" : "",
@@ -168,7 +156,7 @@ static void print_materials(writer *w)
 {
     alpi_bytes_print(&w->text, ",\"materials\":[");
     for (uint32_t i = 0; i < w->parts.slot_count; i++) {
-        alpi_bytes_print(&w->text, "%s", comma(i));
+        alpi_bytes_print(&w->text, "%s", alpi_lightmap_comma(i));
         print_material(w, i);
     }
     alpi_bytes_print(&w->text, "]");
@@ -205,8 +193,8 @@ static alp_result print_textures(writer *w)
                          "\"wrap\":[%d,%d],\"format\":%d,\"type\":%d,"
                          "\"colorSpace\":\"srgb-linear\",\"minFilter\":%d,\"magFilter\":%d,"
                          "\"generateMipmaps\":false,\"flipY\":false}",
-                         comma(p), p, p, CHANNEL_LIGHT, WRAP_CLAMP, WRAP_CLAMP, FORMAT_RGBA,
-                         TYPE_HALF, FILTER_LINEAR, FILTER_LINEAR);
+                         alpi_lightmap_comma(p), p, p, CHANNEL_LIGHT, WRAP_CLAMP, WRAP_CLAMP,
+                         FORMAT_RGBA, TYPE_HALF, FILTER_LINEAR, FILTER_LINEAR);
     }
     bool *seen = ALPI_NEW(w->context, bool, w->scene->material_count);
     if (seen == NULL) {
@@ -253,7 +241,7 @@ static void print_page(writer *w, uint32_t page)
     alpi_bytes_print(&w->text,
                      "%s{\"uuid\":\"page %u\",\"url\":{\"width\":%u,\"height\":%u,"
                      "\"type\":\"Uint16Array\",\"data\":[",
-                     comma(page), page, w->light->width, w->light->height);
+                     alpi_lightmap_comma(page), page, w->light->width, w->light->height);
     for (size_t i = 0; i < texels; i++) {
         uint32_t half[3];
         for (size_t k = 0; k < 3; k++) {
@@ -295,9 +283,10 @@ static void print_camera(writer *w, uint32_t index)
                      "{\"uuid\":\"camera %u\",\"type\":\"PerspectiveCamera\","
                      "\"name\":\"camera %u\",\"aspect\":1",
                      index, index);
-    print_float(&w->text, "fov", (float)((double)camera->vertical_fov * 180.0 / ALPI_PI));
-    print_float(&w->text, "near", far / 10000.0f);
-    print_float(&w->text, "far", far);
+    alpi_lightmap_print_float(&w->text, "fov",
+                              (float)((double)camera->vertical_fov * 180.0 / ALPI_PI));
+    alpi_lightmap_print_float(&w->text, "near", far / 10000.0f);
+    alpi_lightmap_print_float(&w->text, "far", far);
     alpi_bytes_print(&w->text, ",\"matrix\":[");
     alpi_lightmap_print_floats(&w->text, matrix, 16);
     alpi_bytes_print(&w->text, "]}");
@@ -310,13 +299,14 @@ static void print_objects(writer *w)
     for (uint32_t i = 0; i < w->parts.part_count; i++) {
         const alpi_lightmap_part *part = &w->parts.parts[i];
         const char *name = w->scene->surfaces[part->surface].name;
-        alpi_bytes_print(text, "%s{\"uuid\":\"mesh %u\",\"type\":\"Mesh\",\"name\":", comma(i), i);
+        alpi_bytes_print(
+            text, "%s{\"uuid\":\"mesh %u\",\"type\":\"Mesh\",\"name\":", alpi_lightmap_comma(i), i);
         alpi_bytes_quote(text, name != NULL ? name : "");
         alpi_bytes_print(text, ",\"geometry\":\"geometry %u\",\"material\":\"material %u\"}", i,
                          part->slot);
     }
     for (uint32_t i = 0; i < w->scene->camera_count; i++) {
-        alpi_bytes_print(text, "%s", comma(w->parts.part_count + i));
+        alpi_bytes_print(text, "%s", alpi_lightmap_comma(w->parts.part_count + i));
         print_camera(w, i);
     }
     alpi_bytes_print(text, "]}}");

@@ -64,20 +64,6 @@ void alpi_bounced_again_destroy(alpi_bounced_again *again)
     *again = (alpi_bounced_again){0};
 }
 
-static void interpolate(const alpi_bounced_again *a, uint32_t texel, const alpi_stencil *s)
-{
-    alpi_reference_value *values = a->options.gather->values;
-    float light[3] = {0.0f, 0.0f, 0.0f};
-    for (uint32_t i = 0; i < s->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            light[k] += s->weights[i] * values[s->texels[i]].mean[k];
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        values[texel].mean[k] = fmaxf(light[k], 0.0f); // a cubic may overshoot
-    }
-}
-
 alp_result alpi_bounced_again_gather(alpi_bounced_again *again, const alpi_task_progress *progress)
 {
     const alpi_gather_job job = job_of(again);
@@ -94,7 +80,7 @@ alp_result alpi_bounced_again_gather(alpi_bounced_again *again, const alpi_task_
             if (again->lattice.states[t] == ALPI_TEXEL_INTERPOLATED &&
                 alpi_lattice_pass(again->lattice.texels->pixels[t]) == pass &&
                 alpi_lattice_stencil(&again->lattice, t, &stencil)) {
-                interpolate(again, t, &stencil);
+                alpi_bounced_interpolate(again->options.gather, t, &stencil);
             }
         }
     }

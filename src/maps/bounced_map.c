@@ -183,9 +183,8 @@ static uint32_t count_traced(const bounced_job *job)
 
 // --- what is interpolated ------------------------------------------------------------------------
 
-static void interpolate(const bounced_job *job, uint32_t t, const alpi_stencil *s)
+void alpi_bounced_interpolate(const alpi_gather_job *g, uint32_t t, const alpi_stencil *s)
 {
-    const alpi_gather_job *g = job->options->gather;
     float light[3] = {0.0f, 0.0f, 0.0f}, sky[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < s->count; i++) {
         for (int k = 0; k < 3; k++) {
@@ -232,7 +231,7 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
             alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
             alpi_lattice_stencil(l, t, &stencil)) {
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
-            interpolate(job, t, &stencil);
+            alpi_bounced_interpolate(job->options->gather, t, &stencil);
             if (job->options->gather->directional != NULL) {
                 interpolate_directional(job->options->gather->directional, t, &stencil);
             }

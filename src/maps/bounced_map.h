@@ -36,4 +36,8 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
                             const alpi_task_progress *progress, uint8_t *states,
                             alpi_bounced_report *report);
 
+/// The means of an interpolated texel, not below 0, and the sky's part of them.
+void alpi_bounced_interpolate(const alpi_gather_job *gather, uint32_t texel,
+                              const alpi_stencil *stencil);
+
 #endif

@@ -42,7 +42,6 @@ typedef struct alpi_patches {
     uint8_t *seen_backs; // [blocks] alpi_back, if two_sided; rays of many threads say SEEN
 } alpi_patches;
 
-/// @param order   [count] texels with light of their own, neighbours together
 /// How texels are put together.
 typedef struct alpi_block_rule {
     uint32_t spacing;    // side of a block in texels, [1, 16]; 1: each texel is one
@@ -50,6 +49,7 @@ typedef struct alpi_block_rule {
                          // light changes fast, blocks are half as long, where one touches, texels
 } alpi_block_rule;
 
+/// @param order [count] texels with light of their own, neighbours together
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
                                const uint32_t *order, uint32_t count, const alpi_block_rule *rule,

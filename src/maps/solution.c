@@ -45,7 +45,8 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
                         alpi_solution *s)
 {
     s->rays = (alpi_cosine_rays){.context = s->context,
-                                 .samples = 4 * ALPI_RADIOSITY_BLOCK_RAYS,
+                                 .samples = o->block_rays > 0 ? o->block_rays
+                                                              : 4 * ALPI_RADIOSITY_BLOCK_RAYS,
                                  .replicates = 1,
                                  .seed = o->seed};
     s->gatherer = alpi_cosine_rays_gatherer(&s->rays);
@@ -58,6 +59,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.direct = o->lighting;
     options.filter = (alpi_trace_filter){.one_sided = o->one_sided};
     options.gatherer = &s->gatherer;
+    options.kept_limit = o->kept_limit > 0 ? o->kept_limit : options.kept_limit;
     options.bounces = o->bounces;
     options.backs = true;
     options.seed = o->seed;
