@@ -10,6 +10,9 @@
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
+/// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
+alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
+
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,
@@ -44,6 +47,23 @@ typedef struct alpi_gltf_images {
 /// The same for a patch with other images than occlusion.
 alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                    const char *path, bool overwrite);
+
+/// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
+/// triangles without area left out. Baked coordinates take the place of vt, and textures that need
+/// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd where
+/// that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed images are
+/// UNSUPPORTED). Nothing is overwritten unless asked; all files are put in place together.
+alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                  const char *path, bool overwrite);
+/// Every file that it would make is checked before the long work.
+alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                  const char *path, bool overwrite);
+
+/// The two for any ending that is written: .obj, else glTF.
+alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                    const char *path, bool overwrite);
+alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                    const char *path, bool overwrite);
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.

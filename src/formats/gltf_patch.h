@@ -244,6 +244,8 @@ typedef struct alpi_gltf_files {
 /// Takes over path and owned, also on failure.
 alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file);
 void alpi_gltf_files_destroy(alpi_gltf_files *files);
+/// Writes them: nothing is renamed before the last byte of the last file is on its way to the disk.
+alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite);
 
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {

@@ -52,8 +52,7 @@ static alp_result open_files(const alpi_gltf_files *files, bool overwrite,
     return ALP_OK;
 }
 
-/// Nothing is renamed before the last byte of the last file is on its way to the disk.
-static alp_result write_files(const alpi_gltf_files *files, bool overwrite)
+alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite)
 {
     alpi_file_writer *writers = ALPI_NEW(files->context, alpi_file_writer, files->count);
     if (writers == NULL) {
@@ -330,7 +329,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite
         result = make_folders(&w->files);
     }
     if (result == ALP_OK) {
-        result = write_files(&w->files, overwrite);
+        result = alpi_gltf_files_write(&w->files, overwrite);
     }
     alpi_patcher_destroy(&w->patcher);
     return result;

@@ -32,7 +32,7 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
         return refuse_kind(context, path, "COLLADA");
     }
     if (alpi_path_has_ending(path, ".obj")) {
-        return refuse_kind(context, path, "OBJ");
+        return alpi_obj_read_scene(context, path, scene);
     }
     return alpi_gltf_read_scene(context, path, scene); // .glb and .gltf are told apart by content
 }
