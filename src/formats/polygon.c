@@ -12,7 +12,8 @@
 
 enum {
     CELL_SIDE_LIMIT = 1024,
-    STEPS_PER_CORNER = 1024, // a comb of a million teeth takes a quarter of it
+    STEPS_PER_CORNER = 2048, // a comb of a million teeth takes a third of it
+    PATIENCE = 256,          // steps to look into a triangle before smaller ones are tried
     FREE_STEPS = 1 << 14     // so that small faces are never given up
 };
 
@@ -32,7 +33,7 @@ typedef struct clipper {
     uint32_t side;                       // cells along each axis
     point low;
     double cells_x, cells_y; // per unit of length
-    uint64_t steps, limit;
+    uint64_t steps, limit, patience;
     uint32_t (*triangles)[3];
     uint32_t made;
 } clipper;
@@ -109,6 +110,13 @@ static void release(clipper *c, uint32_t corner)
 
 // --- cells ---------------------------------------------------------------------------------------
 
+/// Cells along a side for so many corners.
+static size_t cell_side(size_t corners)
+{
+    size_t side = 1 + (size_t)sqrt((double)corners);
+    return side < CELL_SIDE_LIMIT ? side : CELL_SIDE_LIMIT;
+}
+
 static uint32_t cell_along(double place, double cells, uint32_t side)
 {
     double cell = place * cells; // not NaN: the extent is finite
@@ -172,8 +180,10 @@ static uint32_t find_in_cell(clipper *c, uint32_t cell, const uint32_t triangle[
     return c->count;
 }
 
+/// A corner that lies in the triangle, or count; `triangle[1]` itself when patience ends before.
 static uint32_t find_blocker(clipper *c, const uint32_t triangle[3])
 {
+    const uint64_t end = c->steps + c->patience;
     point a = c->points[triangle[0]], b = c->points[triangle[1]], d = c->points[triangle[2]];
     double x0 = fmin(a.x, fmin(b.x, d.x)), x1 = fmax(a.x, fmax(b.x, d.x));
     double y0 = fmin(a.y, fmin(b.y, d.y)), y1 = fmax(a.y, fmax(b.y, d.y));
@@ -186,8 +196,10 @@ static uint32_t find_blocker(clipper *c, const uint32_t triangle[3])
             if (found != c->count) {
                 return found;
             }
+            if (++c->steps > end) {
+                return triangle[1];
+            }
         }
-        c->steps += right - left + 1;
     }
     return c->count;
 }
@@ -244,17 +256,24 @@ static void cut_fan(clipper *c, uint32_t first)
 static bool cut_ears(clipper *c)
 {
     const uint32_t queue = 2 * c->count;
-    uint32_t last = 0; // a corner that is left
+    uint32_t last = 0;            // a corner that is left
+    uint32_t put_off = c->count; // the first since the last ear whose triangle took too long
+    c->patience = PATIENCE;
     while (c->left > 3 && c->link_behind[queue] != queue && c->steps < c->limit) {
         uint32_t corner = c->link_behind[queue];
         const uint32_t triangle[3] = {c->before[corner], corner, c->behind[corner]};
         uint32_t blocker = find_blocker(c, triangle);
         c->steps++;
-        if (blocker != c->count) {
+        if (blocker == corner) { // small ears first: they make this triangle smaller or go away
+            move(c, corner, queue);
+            c->patience *= put_off == corner ? 4 : 1; // once round without an ear
+            put_off = put_off == c->count ? corner : put_off;
+        } else if (blocker != c->count) {
             move(c, corner, c->count + blocker);
         } else {
             last = triangle[0];
             cut_off(c, corner);
+            put_off = c->count;
         }
     }
     const bool clean = c->left == 3;
@@ -280,8 +299,7 @@ static void start(clipper *c)
             move(c, i, 2 * c->count);
         }
     }
-    uint32_t side = (uint32_t)sqrt((double)blocking);
-    fill_cells(c, side < 1 ? 1 : side < CELL_SIDE_LIMIT ? side : CELL_SIDE_LIMIT);
+    fill_cells(c, (uint32_t)cell_side(blocking));
 }
 
 // --- the face ------------------------------------------------------------------------------------
@@ -296,8 +314,7 @@ static void *take(uint8_t *base, size_t *used, size_t count, size_t size)
 /// Lays the arrays out from `base` (NULL: only to see how much they take). @return bytes
 static size_t lay_out(clipper *c, uint8_t *base)
 {
-    size_t used = 0, n = c->count, side = (size_t)sqrt((double)n);
-    side = side < CELL_SIDE_LIMIT ? side : CELL_SIDE_LIMIT;
+    size_t used = 0, n = c->count, side = cell_side(n);
     c->points = take(base, &used, n, sizeof *c->points);
     c->before = take(base, &used, n, sizeof *c->before);
     c->behind = take(base, &used, n, sizeof *c->behind);
