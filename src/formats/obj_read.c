@@ -214,6 +214,13 @@ static alp_result read_face(parser *p)
 
 // --- statements ----------------------------------------------------------------------------------
 
+/// "a/b/chair.obj" → "chair": the name of faces that stand in no object and no group.
+static alpi_obj_word file_stem(const char *path)
+{
+    const char *name = alpi_path_name(path), *dot = strrchr(name, '.');
+    return (alpi_obj_word){name, dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name)};
+}
+
 static alp_result read_name(parser *p, alpi_obj_word keyword)
 {
     const alpi_obj_word name = alpi_obj_take_rest(&p->text);
@@ -226,7 +233,7 @@ static alp_result read_name(parser *p, alpi_obj_word keyword)
                                                    &p->material, &added);
     }
     if (*keyword.text == 'o') {
-        p->object = name;
+        p->object = name.size > 0 ? name : file_stem(p->obj->path);
         p->group.size = 0;
     } else { // "default" is what the format calls no group
         p->group = alpi_obj_word_is(name, "default") ? (alpi_obj_word){name.text, 0} : name;
@@ -296,13 +303,6 @@ static void tell(const parser *p)
                   "mtllib are read",
                   (unsigned long long)p->unknown, p->unknown_word);
     }
-}
-
-/// "a/b/chair.obj" → "chair": the name of faces that stand in no object and no group.
-static alpi_obj_word file_stem(const char *path)
-{
-    const char *name = alpi_path_name(path), *dot = strrchr(name, '.');
-    return (alpi_obj_word){name, dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name)};
 }
 
 alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t *bytes, size_t size,
