@@ -79,16 +79,16 @@ static bool is_gltf_path(const char *path)
 static alp_result check_obj_options(const alpi_bake_job *job)
 {
     const alp_bake_options *o = &job->options;
-    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
-                       : job->packing.count > 0          ? "occlusion packed into an image"
-                       : o->lightmap_as == ALP_LIGHTMAP_AS_MOZ ||
-                               o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS
-                           ? "a light map other than emission"
-                           : NULL;
-    return what == NULL ? ALP_OK
-                        : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                                    "%s: an .obj has no place for %s; write .glb or .gltf",
-                                    o->output, what);
+    const char *what =
+        o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
+        : job->packing.count > 0          ? "occlusion packed into an image"
+        : o->lightmap_as == ALP_LIGHTMAP_AS_MOZ || o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS
+            ? "a light map other than emission"
+            : NULL;
+    return what == NULL
+               ? ALP_OK
+               : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                           "%s: an .obj has no place for %s; write .glb or .gltf", o->output, what);
 }
 
 static alp_result check_map(alp_context *context, const char *folder, uint32_t page, map_kind kind,

@@ -50,9 +50,10 @@ alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_image
 
 /// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
 /// triangles without area left out. Baked coordinates take the place of vt, and textures that need
-/// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd where
-/// that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed images are
-/// UNSUPPORTED). Nothing is overwritten unless asked; all files are put in place together.
+/// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd
+/// where that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed
+/// images are UNSUPPORTED). Nothing is overwritten unless asked; all files are put in place
+/// together.
 alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                   const char *path, bool overwrite);
 /// Every file that it would make is checked before the long work.

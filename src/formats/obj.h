@@ -37,9 +37,9 @@ typedef struct alpi_obj {
     char *folder; // with a slash, or ""
     float (*positions)[3];
     float (*normals)[3];
-    float (*uvs)[2];         // v = 0 at the top, as everywhere in the scene
-    uint32_t (*corners)[3];  // position, uv, normal: from 0, ALPI_NONE = not given
-    alpi_obj_face *faces;    // [face_count + 1], the last only ends the corners
+    float (*uvs)[2];        // v = 0 at the top, as everywhere in the scene
+    uint32_t (*corners)[3]; // position, uv, normal: from 0, ALPI_NONE = not given
+    alpi_obj_face *faces;   // [face_count + 1], the last only ends the corners
     alpi_obj_surface *surfaces;
     uint32_t position_count, normal_count, uv_count, corner_count, face_count, surface_count;
     size_t position_capacity, normal_capacity, uv_capacity, corner_capacity, face_capacity,
@@ -51,8 +51,8 @@ typedef struct alpi_obj {
 } alpi_obj;
 
 /// Reads the statements of a file; destroy also after a failure.
-alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t *bytes,
-                          size_t size, alpi_obj *obj);
+alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t *bytes, size_t size,
+                          alpi_obj *obj);
 void alpi_obj_destroy(alpi_obj *obj);
 
 /// A scene from an OBJ whose bytes are there; textures and libraries are read beside `path`.

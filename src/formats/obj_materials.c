@@ -103,8 +103,9 @@ static void show(alpi_obj_word word, char text[128])
 
 static bool word_is_number(alpi_obj_word word)
 {
-    return word.size > 0 && (word.text[0] == '-' || word.text[0] == '+' || word.text[0] == '.' ||
-                             (unsigned)(word.text[0] - '0') < 10) &&
+    return word.size > 0 &&
+           (word.text[0] == '-' || word.text[0] == '+' || word.text[0] == '.' ||
+            (unsigned)(word.text[0] - '0') < 10) &&
            !(word.text[0] == '-' && (word.size == 1 || (word.text[1] | 0x20) >= 'a'));
 }
 
@@ -183,8 +184,7 @@ static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, al
                   t->path, (unsigned long long)t->line, shown, what + 4);
         return ALP_OK;
     }
-    alp_result result =
-        alpi_obj_names_add(r->images, path, strlen(path), &texture->image, &added);
+    alp_result result = alpi_obj_names_add(r->images, path, strlen(path), &texture->image, &added);
     alpi_release(r->obj->context, path);
     return result;
 }

@@ -85,8 +85,8 @@ static alp_result allocate(builder *b)
     if (triangles > EXPANSION_LIMIT || o->surface_count > SURFACE_LIMIT) {
         return alpi_fail(o->context, ALP_ERROR_LIMIT,
                          "%s: %llu triangles in %u surfaces, more than the limits of %d and %d",
-                         o->path, (unsigned long long)triangles, o->surface_count,
-                         EXPANSION_LIMIT, SURFACE_LIMIT);
+                         o->path, (unsigned long long)triangles, o->surface_count, EXPANSION_LIMIT,
+                         SURFACE_LIMIT);
     }
     for (uint32_t c = 0; c < o->corner_count && !b->has_uvs; c++) {
         b->has_uvs = o->corners[c][1] != ALPI_NONE;
@@ -199,8 +199,8 @@ static alp_result cut_face(builder *b, const uint32_t (*corners)[3], uint32_t si
     for (uint32_t i = 0; i < size; i++) {
         memcpy(b->points[i], b->obj->positions[corners[i][0]], sizeof *b->points);
     }
-    ALP_TRY(
-        alpi_polygon_triangulate(&b->scratch, size, (const float(*)[3])b->points, b->parts, &clean));
+    ALP_TRY(alpi_polygon_triangulate(&b->scratch, size, (const float(*)[3])b->points, b->parts,
+                                     &clean));
     b->crossed += !clean;
     return ALP_OK;
 }
@@ -254,16 +254,14 @@ static alp_result add_surface(builder *b, uint32_t index, const uint32_t *scene_
     ALP_TRY(clear_table(b, corners));
     alp_scene *s = b->scene;
     alpi_surface *surface = &s->surfaces[s->surface_count++];
-    *surface = (alpi_surface){.name = alpi_copy_string(o->context,
-                                                       alpi_obj_name(&o->objects, from->object)),
-                              .node = from->object,
-                              .mesh = from->object,
-                              .primitive = primitive,
-                              .material = from->material == ALPI_NONE
-                                              ? ALPI_NONE
-                                              : scene_materials[from->material],
-                              .first_vertex = s->vertex_count,
-                              .first_triangle = s->triangle_count};
+    *surface = (alpi_surface){
+        .name = alpi_copy_string(o->context, alpi_obj_name(&o->objects, from->object)),
+        .node = from->object,
+        .mesh = from->object,
+        .primitive = primitive,
+        .material = from->material == ALPI_NONE ? ALPI_NONE : scene_materials[from->material],
+        .first_vertex = s->vertex_count,
+        .first_triangle = s->triangle_count};
     if (surface->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }

@@ -74,11 +74,10 @@ alp_result alpi_obj_names_add(alpi_obj_names *names, const void *bytes, size_t s
     }
     void *begins = names->begins, *sizes = names->sizes;
     size_t needed = (size_t)names->count + 1;
-    ALP_TRY(alpi_grow(names->context, &begins, &names->begin_capacity, needed,
-                      sizeof *names->begins));
-    names->begins = begins;
     ALP_TRY(
-        alpi_grow(names->context, &sizes, &names->size_capacity, needed, sizeof *names->sizes));
+        alpi_grow(names->context, &begins, &names->begin_capacity, needed, sizeof *names->begins));
+    names->begins = begins;
+    ALP_TRY(alpi_grow(names->context, &sizes, &names->size_capacity, needed, sizeof *names->sizes));
     names->sizes = sizes;
     size_t begin = names->text.size;
     alpi_bytes_add(&names->text, bytes, size);

@@ -108,10 +108,11 @@ static const char *read_index(const char *at, const char *end, uint32_t count, u
 static alp_result fail_corner(const parser *p, alpi_obj_word word)
 {
     enum { SHOWN = 40 };
-    return alpi_obj_fail(&p->text,
-                         "f: \"%.*s\" is no corner: it must be v, v/vt, v//vn or v/vt/vn, each from "
-                         "1, or negative and not before the first",
-                         (int)(word.size < SHOWN ? word.size : SHOWN), word.text);
+    return alpi_obj_fail(
+        &p->text,
+        "f: \"%.*s\" is no corner: it must be v, v/vt, v//vn or v/vt/vn, each from "
+        "1, or negative and not before the first",
+        (int)(word.size < SHOWN ? word.size : SHOWN), word.text);
 }
 
 /// v, v/vt, v//vn or v/vt/vn
@@ -162,9 +163,9 @@ static alp_result name_object(parser *p, uint32_t *number)
     alpi_bytes_add(&name, a.text, a.size);
     alpi_bytes_add(&name, "/", 1);
     alpi_bytes_add(&name, b.text, b.size);
-    alp_result result = name.failed ? ALP_ERROR_OUT_OF_MEMORY
-                                    : alpi_obj_names_add(&p->obj->objects, name.bytes, name.size,
-                                                         number, &added);
+    alp_result result =
+        name.failed ? ALP_ERROR_OUT_OF_MEMORY
+                    : alpi_obj_names_add(&p->obj->objects, name.bytes, name.size, number, &added);
     alpi_bytes_destroy(&name);
     return result;
 }
@@ -247,9 +248,9 @@ static alp_result read_other(parser *p, alpi_obj_word keyword)
     uint32_t number;
     if (alpi_obj_word_is(keyword, "mtllib")) {
         const alpi_obj_word name = alpi_obj_take_rest(&p->text);
-        return name.size == 0 ? ALP_OK
-                              : alpi_obj_names_add(&p->obj->libraries, name.text, name.size,
-                                                   &number, &added);
+        return name.size == 0
+                   ? ALP_OK
+                   : alpi_obj_names_add(&p->obj->libraries, name.text, name.size, &number, &added);
     }
     if (alpi_obj_word_is(keyword, "usemtl")) {
         return read_name(p, keyword);

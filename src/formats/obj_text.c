@@ -160,9 +160,8 @@ bool alpi_obj_word_is(alpi_obj_word word, const char *name)
 /// Fails unless a number ends here as a word does ("1.#IND" is none).
 static alp_result check_number(alpi_obj_text *t, const char *what, const char *behind)
 {
-    if (behind != NULL &&
-        (behind == t->end || is_blank(*behind) || *behind == '\n' || *behind == '\r' ||
-         continuation(behind, t->end) > 0)) {
+    if (behind != NULL && (behind == t->end || is_blank(*behind) || *behind == '\n' ||
+                           *behind == '\r' || continuation(behind, t->end) > 0)) {
         t->at = behind;
         return ALP_OK;
     }

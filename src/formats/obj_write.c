@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene and its bake as an OBJ: world space, an object for each surface's name, positions, normals
-// and coordinates that are alike written once a surface.
+// A scene and its bake as an OBJ: world space, an object for each surface's name, positions,
+// normals and coordinates that are alike written once a surface.
 #include "formats/obj_write.h"
 
 #include "base/file.h"
@@ -204,20 +204,20 @@ static void print_triangle(alpi_obj_writer *w, const part *p, uint32_t index)
     alpi_bytes_add(&w->obj, "f", 1);
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t corner = 3 * index + k;
-        const uint32_t vertex = w->scene->triangles[p->surface->first_triangle + index][k] -
-                                p->surface->first_vertex;
-        int length = snprintf(text, sizeof text, " %llu",
-                              (unsigned long long)w->vertex_count + p->positions.numbers[vertex] +
-                                  1);
+        const uint32_t vertex =
+            w->scene->triangles[p->surface->first_triangle + index][k] - p->surface->first_vertex;
+        int length =
+            snprintf(text, sizeof text, " %llu",
+                     (unsigned long long)w->vertex_count + p->positions.numbers[vertex] + 1);
         if (p->has_uv[index]) {
             length += snprintf(text + length, sizeof text - (size_t)length, "/%llu",
                                (unsigned long long)w->uv_count + p->uvs.numbers[corner] + 1);
         }
         if (p->has_normals) {
-            length += snprintf(text + length, sizeof text - (size_t)length, "%s%llu",
-                               p->has_uv[index] ? "/" : "//",
-                               (unsigned long long)w->normal_count + p->normals.numbers[vertex] +
-                                   1);
+            length +=
+                snprintf(text + length, sizeof text - (size_t)length, "%s%llu",
+                         p->has_uv[index] ? "/" : "//",
+                         (unsigned long long)w->normal_count + p->normals.numbers[vertex] + 1);
         }
         alpi_bytes_add(&w->obj, text, (size_t)length);
     }
@@ -404,9 +404,9 @@ static alp_result check_files(const alp_scene *scene, const alpi_gltf_images *im
             check_file(context, alpi_obj_image_path(context, stem, "ao", p, ".png"), overwrite));
     }
     for (uint32_t p = 0; p < images->light; p++) {
-        ALP_TRY(check_file(
-            context, alpi_obj_image_path(context, stem, "light", p, images->light_ending),
-            overwrite));
+        ALP_TRY(check_file(context,
+                           alpi_obj_image_path(context, stem, "light", p, images->light_ending),
+                           overwrite));
     }
     for (uint32_t i = 0; i < scene->image_count; i++) {
         if (scene->images[i] != NULL) { // it may be written

@@ -16,11 +16,11 @@ typedef struct alpi_obj_writer {
     alp_context *context;
     const alp_scene *scene;
     const alpi_mesh_patch *patch;
-    char *stem;           // path without its ending
-    bool kept_is_first;   // the kept set has the coordinates of set 0
+    char *stem;         // path without its ending
+    bool kept_is_first; // the kept set has the coordinates of set 0
     alpi_bytes obj, mtl;
-    alpi_obj_names uses;  // alpi_obj_use as bytes, in the order of first use
-    alpi_obj_names names; // of the written materials: name i is that of use i
+    alpi_obj_names uses;             // alpi_obj_use as bytes, in the order of first use
+    alpi_obj_names names;            // of the written materials: name i is that of use i
     bool *image_used, *texture_lost; // [image_count], [material_count]
     bool *page_used, *light_used;    // [page_count]
     uint64_t vertex_count, uv_count, normal_count; // written so far

@@ -117,8 +117,7 @@ static void print_colors(alpi_obj_writer *w, alpi_obj_use use, const alpi_materi
         emission[k] = m->emission[k];
     }
     if (lit) {
-        const uint32_t index =
-            use.material == ALPI_NONE ? w->scene->material_count : use.material;
+        const uint32_t index = use.material == ALPI_NONE ? w->scene->material_count : use.material;
         emission[0] = emission[1] = emission[2] = w->patch->light->scales[index];
     }
     print_color(w, "Ka", (const float[3]){1.0f, 1.0f, 1.0f});
@@ -223,10 +222,10 @@ alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_gltf_files *files)
         }
         if (w->light_used[p]) {
             ALP_TRY(alpi_gltf_files_add(
-                files, (alpi_gltf_file){alpi_obj_image_path(w->context, w->stem, "light", p,
-                                                            patch->light->ending),
-                                        patch->light->pages[p], patch->light->page_sizes[p],
-                                        NULL}));
+                files,
+                (alpi_gltf_file){
+                    alpi_obj_image_path(w->context, w->stem, "light", p, patch->light->ending),
+                    patch->light->pages[p], patch->light->page_sizes[p], NULL}));
         }
     }
     for (uint32_t i = 0; i < w->scene->image_count; i++) {
@@ -235,9 +234,9 @@ alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_gltf_files *files)
             size_t size = 0;
             ALP_TRY(alpi_png_encode(w->scene->images[i], &png, &size));
             ALP_TRY(alpi_gltf_files_add(
-                files, (alpi_gltf_file){alpi_obj_image_path(w->context, w->stem, "image", i,
-                                                            ".png"),
-                                        png, size, png}));
+                files,
+                (alpi_gltf_file){alpi_obj_image_path(w->context, w->stem, "image", i, ".png"), png,
+                                 size, png}));
         }
     }
     return ALP_OK;

@@ -22,15 +22,15 @@ typedef struct point {
 } point;
 
 typedef struct clipper {
-    uint32_t count, left; // corners, and those not cut off yet
-    point *points;        // [count] in the plane, counter-clockwise
+    uint32_t count, left;      // corners, and those not cut off yet
+    point *points;             // [count] in the plane, counter-clockwise
     uint32_t *before, *behind; // [count] the ring of what is left
     // Every corner left is in one circular list at most: that of the ones to be asked, whose head
     // is node 2 · count, or of those that corner c blocks, whose head is node count + c.
     uint32_t *link_before, *link_behind; // [2 · count + 1]
-    uint32_t *cell_first, *cell_next;    // [cells], [count] corners that are not convex, count = end
-    bool *convex, *gone;                 // [count]
-    uint32_t side;                       // cells along each axis
+    uint32_t *cell_first, *cell_next; // [cells], [count] corners that are not convex, count = end
+    bool *convex, *gone;              // [count]
+    uint32_t side;                    // cells along each axis
     point low;
     double cells_x, cells_y; // per unit of length
     uint64_t steps, limit, patience;
@@ -230,8 +230,7 @@ static void look_again(clipper *c, uint32_t corner)
 static void cut_off(clipper *c, uint32_t corner)
 {
     uint32_t before = c->before[corner], behind = c->behind[corner];
-    memcpy(c->triangles[c->made++], (uint32_t[3]){before, corner, behind},
-           sizeof *c->triangles);
+    memcpy(c->triangles[c->made++], (uint32_t[3]){before, corner, behind}, sizeof *c->triangles);
     c->behind[before] = behind;
     c->before[behind] = before;
     c->gone[corner] = true;
@@ -256,7 +255,7 @@ static void cut_fan(clipper *c, uint32_t first)
 static bool cut_ears(clipper *c)
 {
     const uint32_t queue = 2 * c->count;
-    uint32_t last = 0;            // a corner that is left
+    uint32_t last = 0;           // a corner that is left
     uint32_t put_off = c->count; // the first since the last ear whose triangle took too long
     c->patience = PATIENCE;
     while (c->left > 3 && c->link_behind[queue] != queue && c->steps < c->limit) {
@@ -368,7 +367,8 @@ static bool is_fan(uint32_t count, const float (*corners)[3], const double norma
 }
 
 alp_result alpi_polygon_triangulate(alpi_polygon_scratch *scratch, uint32_t count,
-                            const float (*corners)[3], uint32_t (*triangles)[3], bool *clean)
+                                    const float (*corners)[3], uint32_t (*triangles)[3],
+                                    bool *clean)
 {
     double normal[3];
     find_normal(count, corners, normal);

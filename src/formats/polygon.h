@@ -22,6 +22,7 @@ void alpi_polygon_scratch_destroy(alpi_polygon_scratch *scratch);
 /// about as count^1.5 where half of the corners are dents, and end at 2048 a corner.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_polygon_triangulate(alpi_polygon_scratch *scratch, uint32_t count,
-                            const float (*corners)[3], uint32_t (*triangles)[3], bool *clean);
+                                    const float (*corners)[3], uint32_t (*triangles)[3],
+                                    bool *clean);
 
 #endif

@@ -150,8 +150,7 @@ static void edges(void **state)
     for (size_t i = 0; i < sizeof partly / sizeof *partly; i++) {
         double d;
         const char *text = partly[i].text;
-        assert_ptr_equal(alpi_decimal_double(text, text + strlen(text), &d),
-                         text + partly[i].size);
+        assert_ptr_equal(alpi_decimal_double(text, text + strlen(text), &d), text + partly[i].size);
     }
 }
 

@@ -14,7 +14,8 @@
 /// A picture of 2 × 2 texels: red, green above; blue, white below.
 static void write_png(alp_context *context, const char *path)
 {
-    static const uint8_t texels[2][2][3] = {{{255, 0, 0}, {0, 255, 0}}, {{0, 0, 255}, {255, 255, 255}}};
+    static const uint8_t texels[2][2][3] = {{{255, 0, 0}, {0, 255, 0}},
+                                            {{0, 0, 255}, {255, 255, 255}}};
     alp_image *image = NULL;
     uint8_t *bytes = NULL;
     size_t size = 0;
@@ -130,11 +131,20 @@ static void paths(void **state)
     static const struct {
         const char *name;
         bool inside;
-    } cases[] = {{"w.png", true},           {"./w.png", true},     {".\\w.png", true},
-                 {"../w.png", true},        {"..\\..\\w.png", false}, {"../../w.png", false},
-                 {"/etc/w.png", false},     {"C:\\w.png", false},  {"\\\\host\\w.png", false},
-                 {"a/../../w.png", true},   {"a/../../../w.png", false}, {"..", false},
-                 {"w.png/", false},         {"-w.png", true}};
+    } cases[] = {{"w.png", true},
+                 {"./w.png", true},
+                 {".\\w.png", true},
+                 {"../w.png", true},
+                 {"..\\..\\w.png", false},
+                 {"../../w.png", false},
+                 {"/etc/w.png", false},
+                 {"C:\\w.png", false},
+                 {"\\\\host\\w.png", false},
+                 {"a/../../w.png", true},
+                 {"a/../../../w.png", false},
+                 {"..", false},
+                 {"w.png/", false},
+                 {"-w.png", true}};
     alp_context *context = test_context(1);
     const char *folder = test_folder();
     mkdir(test_path(folder, "sub"), 0777);
@@ -144,8 +154,8 @@ static void paths(void **state)
         snprintf(library, sizeof library, "newmtl a\nmap_Kd %s\n", cases[i].name);
         test_write_text(test_path(folder, "sub/b.mtl"), library);
         test_log_clear();
-        ASSERT_OK(context, test_obj_read(context, folder,
-                                         "mtllib sub/b.mtl\nusemtl a\n" TRIANGLE, &scene));
+        ASSERT_OK(context,
+                  test_obj_read(context, folder, "mtllib sub/b.mtl\nusemtl a\n" TRIANGLE, &scene));
         // none of them is there: inside, that is said when it is opened
         const bool refused = strstr(test_log_text(), "leaves the asset's folder") != NULL;
         if (refused == cases[i].inside || !test_log_has("image")) {
@@ -200,11 +210,11 @@ static void occlusion(void **state)
     const char *folder = test_folder();
     write_png(context, test_path(folder, "o.png"));
     write_png(context, test_path(folder, "c.png"));
-    alp_scene *scene = read_with(
-        context, folder,
-        "newmtl a\nKd .5 .5 .5\nalpenglow_occlusion map_Ka\nmap_Ka o.png\nmap_Kd o.png\n"
-        "newmtl b\nalpenglow_occlusion map_Ka\nmap_Ka o.png\nmap_Kd c.png\n",
-        "mtllib a.mtl\nusemtl a\n" TRIANGLE "usemtl b\nf 1 2 3\n");
+    alp_scene *scene =
+        read_with(context, folder,
+                  "newmtl a\nKd .5 .5 .5\nalpenglow_occlusion map_Ka\nmap_Ka o.png\nmap_Kd o.png\n"
+                  "newmtl b\nalpenglow_occlusion map_Ka\nmap_Ka o.png\nmap_Kd c.png\n",
+                  "mtllib a.mtl\nusemtl a\n" TRIANGLE "usemtl b\nf 1 2 3\n");
     const alpi_material *a = material_of(scene, 0), *b = material_of(scene, 1);
     float accessibility = -1.0f;
     assert_int_equal(a->base_color_texture.image, ALPI_NONE);
@@ -247,7 +257,7 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colours),   cmocka_unit_test(pictures), cmocka_unit_test(paths),
+        cmocka_unit_test(colours),   cmocka_unit_test(pictures),  cmocka_unit_test(paths),
         cmocka_unit_test(libraries), cmocka_unit_test(occlusion), cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,7 +22,7 @@ static void ways_to_say_it(void **state)
         "# v 9 9 9 \\\nv 0 0 0 # a\nv 1 0 0 # b\nv 0 1 0\nf 1 2 3 # f 3 2 1\n",
         "v 0 0 \\\n0\nv 1 \\\r\n 0 0\nv 0 1 0\nf 1 \\\n2 \\\n\\\n3\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
-        "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", // before its vertices
+        "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n",                    // before its vertices
         "v 0 0 0 1.0\nv 1 0 0 0.5 0.25 1\nv 0 1 0 nan\nf 1 2 3\n", // weights and colours
         "v +0 -0 0.\nv 1e0 .0 0E5\nv 0 10.0e-1 0\nfo 1/ 2/ 3//\n",
         "vt 0 0\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2/1 3/1/1\n",
@@ -52,9 +52,9 @@ static void normals_and_coordinates(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = test_obj_scene(
-        context, SQUARE "vt 0.25 0.125 7\nvt 1\nvt -2 1.5\nvn 0 0 2\nvn 0 1 0\n"
-                        "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4//2\n");
+    alp_scene *scene =
+        test_obj_scene(context, SQUARE "vt 0.25 0.125 7\nvt 1\nvt -2 1.5\nvn 0 0 2\nvn 0 1 0\n"
+                                       "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4//2\n");
     assert_int_equal(scene->vertex_count, 4); // alike in all three indices
     assert_int_equal(scene->surfaces[0].uv_sets, 2);
     assert_false(scene->surfaces[0].normals_generated);
@@ -140,16 +140,15 @@ static void many_corners(void **state)
 static void objects_and_groups(void **state)
 {
     (void)state;
-    static const char text[] = SQUARE
-        "f 1 2 3\no My chair\nf 1 2 3\ng legs\nusemtl red wood\nf 1 2 3\nf 1 3 4\n"
-        "usemtl blue\nf 1 2 3\ng default\nf 1 3 4\no table\ng table\nf 1 2 3\n"
-        "o My chair\ng legs\nusemtl red wood\nf 2 3 4\ng a  b\nf 1 2 3\n";
+    static const char text[] =
+        SQUARE "f 1 2 3\no My chair\nf 1 2 3\ng legs\nusemtl red wood\nf 1 2 3\nf 1 3 4\n"
+               "usemtl blue\nf 1 2 3\ng default\nf 1 3 4\no table\ng table\nf 1 2 3\n"
+               "o My chair\ng legs\nusemtl red wood\nf 2 3 4\ng a  b\nf 1 2 3\n";
     static const struct {
         const char *name;
         uint32_t triangles, node, primitive;
-    } wanted[] = {{"test", 1, 0, 0},           {"My chair", 1, 1, 0},
-                  {"My chair/legs", 3, 2, 0},  {"My chair/legs", 1, 2, 1},
-                  {"My chair", 1, 1, 1},       {"table", 1, 3, 0},
+    } wanted[] = {{"test", 1, 0, 0},          {"My chair", 1, 1, 0}, {"My chair/legs", 3, 2, 0},
+                  {"My chair/legs", 1, 2, 1}, {"My chair", 1, 1, 1}, {"table", 1, 3, 0},
                   {"My chair/a  b", 1, 4, 0}};
     alp_context *context = test_context(1);
     test_log_clear();
@@ -205,7 +204,9 @@ static void refused(void **state)
         const char *text, *words;
     } cases[] = {
         {"", "test.obj: nothing to bake: it holds no vertices"},
-        {"\x7f" "ELF\x02\x01\n\n", "is it an OBJ file?"},
+        {"\x7f"
+         "ELF\x02\x01\n\n",
+         "is it an OBJ file?"},
         {"v 1 2\n", "line 1: v has too few numbers"},
         {"\n\nv 1 nan 2\n", "line 3: v: \"nan\" is no finite decimal number"},
         {"v 1 2 -inf\n", "line 1: v: \"-inf\" is no"},
@@ -263,10 +264,14 @@ static void many_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ways_to_say_it),     cmocka_unit_test(normals_and_coordinates),
-        cmocka_unit_test(relative_indices),   cmocka_unit_test(many_corners),
-        cmocka_unit_test(objects_and_groups), cmocka_unit_test(left_out),
-        cmocka_unit_test(refused),            cmocka_unit_test(many_names),
+        cmocka_unit_test(ways_to_say_it),
+        cmocka_unit_test(normals_and_coordinates),
+        cmocka_unit_test(relative_indices),
+        cmocka_unit_test(many_corners),
+        cmocka_unit_test(objects_and_groups),
+        cmocka_unit_test(left_out),
+        cmocka_unit_test(refused),
+        cmocka_unit_test(many_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,7 +87,17 @@ static void small_shapes(void **state)
         {"triangle with two on one edge", 5, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 3}}, 4.5},
         {"cross",
          12,
-         {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1},
+         {{1, 0},
+          {2, 0},
+          {2, 1},
+          {3, 1},
+          {3, 2},
+          {2, 2},
+          {2, 3},
+          {1, 3},
+          {1, 2},
+          {0, 2},
+          {0, 1},
           {1, 1}},
          5},
         {"a hole with a bridge",
@@ -96,7 +106,17 @@ static void small_shapes(void **state)
          12},
         {"spiral",
          12,
-         {{0, 0}, {7, 0}, {7, 7}, {0, 7}, {0, 2}, {5, 2}, {5, 5}, {2, 5}, {2, 4}, {4, 4}, {4, 3},
+         {{0, 0},
+          {7, 0},
+          {7, 7},
+          {0, 7},
+          {0, 2},
+          {5, 2},
+          {5, 5},
+          {2, 5},
+          {2, 4},
+          {4, 4},
+          {4, 3},
           {1, 3}},
          0},
     };
@@ -253,16 +273,17 @@ static void failing_memory(void **state)
     alpi_polygon_scratch scratch = {.context = context};
     bool clean;
     for (uint32_t i = 0; i < 8; i++) {
-        put(i, (i % 2 ? 1.0 : 3.0) * cos(ALPI_PI * i / 4), (i % 2 ? 1.0 : 3.0) * sin(ALPI_PI * i / 4));
+        put(i, (i % 2 ? 1.0 : 3.0) * cos(ALPI_PI * i / 4),
+            (i % 2 ? 1.0 : 3.0) * sin(ALPI_PI * i / 4));
     }
     left = 0;
-    assert_int_equal(alpi_polygon_triangulate(&scratch, 8, (const float(*)[3])corners, triangles,
-                                              &clean),
-                     ALP_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(
+        alpi_polygon_triangulate(&scratch, 8, (const float(*)[3])corners, triangles, &clean),
+        ALP_ERROR_OUT_OF_MEMORY);
     left = 1;
-    assert_int_equal(alpi_polygon_triangulate(&scratch, 8, (const float(*)[3])corners, triangles,
-                                              &clean),
-                     ALP_OK);
+    assert_int_equal(
+        alpi_polygon_triangulate(&scratch, 8, (const float(*)[3])corners, triangles, &clean),
+        ALP_OK);
     assert_true(clean);
     alpi_polygon_scratch_destroy(&scratch);
     alp_context_destroy(context);
