@@ -10,6 +10,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                    {"OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png",
                     "What an OUT.gltf refers to: geometry, what the bake adds to it, and the map's "
                     "pages."},
+                   {"OUT.obj, OUT.mtl, OUT.ao.png", "The same as OBJ, its materials and the map."},
                    {"DIR/ao.exr, DIR/ao.png, DIR/ao.1.exr", "The map's pages as files."}},
          .examples =
              {{"Bake a scene for a viewer:", "alpenglow bake scene.glb -o baked.glb"},
@@ -52,7 +53,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                        "alpenglow bench transport --scene scene.glb"}}},
     [COMMAND_COUNT] = {.failed =
                            "The command failed; a message on standard error says what and where.",
-                       .files = {{"*.gltf, *.glb", "Scenes, read and written."},
+                       .files = {{"*.gltf, *.glb, *.obj", "Scenes, read and written."},
                                  {"*.exr", "Maps and pictures in linear float."},
                                  {"*.png", "Maps and pictures of 8 bits."}},
                        .examples = {{"From a scene to a picture of it with its occlusion baked:",
