@@ -54,6 +54,7 @@ typedef struct gather {
     arrival givens[RAY_LIMIT];
     alpi_rays packets[ALPI_TRACE_BATCH];
     alpi_polygon_gather polygons;
+    alpi_emitter_choice choice;
 } gather;
 
 /// Sample i of the chunk, for one use; the replicates take turns.
@@ -465,11 +466,11 @@ static void add_surfaces(gather *g)
     if (d->emitters.all.count == 0 && d->sky == NULL) {
         return;
     }
-    const alpi_emitter_choice choice =
-        alpi_emitter_choose(&d->emitters, g->points, g->job->receivers->extended ? count : 1);
+    alpi_emitter_choose(&d->emitters, g->points, g->job->receivers->extended ? count : 1,
+                        &g->choice);
     for (uint32_t i = 0; i < count; i++) {
         const alpi_receiver_point *p = &g->points[i];
-        views[i] = alpi_emitter_view_from(&choice, ray_start(p), p->shading_normal);
+        views[i] = alpi_emitter_view_from(&g->choice, ray_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
     flush(g, false);
