@@ -102,6 +102,15 @@ static void half_way(void **state)
         compare(text);
         at[-1] = at[-1] == '0' ? '0' : (char)(at[-1] - 1);
         compare(text);
+        // near 1, cut to so few digits that the fast way is taken and the double is half way
+        bits = 0x3f000000u + (uint32_t)(draw(&seed) % 0x1000000u);
+        memcpy(&low, &bits, sizeof low);
+        bits++;
+        memcpy(&high, &bits, sizeof high);
+        for (int digits = 15; digits <= 16; digits++) {
+            snprintf(text, sizeof text, "%.*g", digits, ((double)low + (double)high) / 2.0);
+            compare(text);
+        }
     }
 }
 
