@@ -322,7 +322,7 @@ static const option options[] = {
      .kind = KIND_FLAG,
      .name = "--keep-partial",
      .help = "Ctrl-C ends sampling and writes what there is, instead of nothing; exit code 130. "
-             "Light has nothing before its first round is whole."},
+             "Light has nothing before its first round is whole, and is not denoised any more."},
 
     {.id = OPTION_WITH,
      .commands = IN_RENDER,

@@ -447,8 +447,9 @@ static alp_result filter(rounds *r, denoise_arrays *a)
                                         .positions = (const float(*)[3])a->positions,
                                         .normals = (const float(*)[3])a->normals,
                                         .sides = a->sides};
-    ALP_TRY(alpi_denoise(context, r->task->tracer, &texels, &r->task->progress, a->means,
-                         a->variances));
+    alpi_task_progress told = r->task->progress;
+    told.stage = "denoise";
+    ALP_TRY(alpi_denoise(context, r->task->tracer, &texels, &told, a->means, a->variances));
     for (uint32_t i = 0; i < count; i++) {
         alpi_reference_value *v = &r->task->values[r->task->order[i]];
         float *sky = r->skies[r->task->order[i]];
@@ -486,6 +487,7 @@ static alp_result denoise(rounds *r)
     denoise_arrays a = {0};
     release_rounds(r);
     r->task->clock->deadline = HUGE_VAL; // what is whole is filtered as a whole
+    r->task->clock->ended = false;       // unless the user says no
     const alp_result result = filter(r, &a);
     alpi_release(context, a.means);
     alpi_release(context, a.variances);
@@ -493,6 +495,26 @@ static alp_result denoise(rounds *r)
     alpi_release(context, a.normals);
     alpi_release(context, a.sides);
     return result;
+}
+
+/// Takes noise off where that is asked for. Whoever ends the bake before, or meanwhile, and keeps
+/// what there is, gets the light as it was gathered: no texel is changed before all are known.
+static alp_result finish_bounced(rounds *r)
+{
+    alpi_light_clock *clock = r->task->clock;
+    if (!r->job->options.light.denoise) {
+        return ALP_OK;
+    }
+    const alp_result result = clock->refused ? ALP_ERROR_CANCELLED : denoise(r);
+    if (result != ALP_ERROR_CANCELLED || !clock->refused ||
+        !r->job->options.sampling.keep_partial) {
+        return result;
+    }
+    r->job->report.cut_off = true;
+    clock->ended = true; // asked again it would cancel what it wanted kept
+    alpi_warn(r->job->context, "not-denoised", r->job->scene->name,
+              "light was interrupted before its noise was taken off; it is as its rays left it");
+    return ALP_OK;
 }
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
@@ -527,8 +549,8 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
 {
     rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
     alp_result result = run_rounds(&r);
-    if (result == ALP_OK && job->options.light.denoise) {
-        result = denoise(&r);
+    if (result == ALP_OK) {
+        result = finish_bounced(&r);
     }
     if (result == ALP_OK) {
         put_together(&r);
