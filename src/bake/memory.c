@@ -41,7 +41,7 @@ enum {
     BLOCK_BYTES = 64,  // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
     // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
     GATHER_BYTES_PER_TEXEL = 34,
-    ROUND_BYTES_PER_TEXEL = 45,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
+    ROUND_BYTES_PER_TEXEL = 46,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 2
     DENOISE_BYTES_PER_TEXEL = 256, // in their place, measured
     SPACING = 4                    // texels along a block
 };
