@@ -238,6 +238,16 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
     }
 }
 
+/// What rays meet from now on reflects the direct light that is known now: the few samples of the
+/// first round make noise in corners, where a texel sees few others, that no number of rays takes
+/// off. What blocks gathered stays. Where only some surfaces are baked, rays meet other texels.
+static alp_result show_direct(const rounds *r)
+{
+    return r->solution->texels != NULL
+               ? ALP_OK
+               : alpi_radiosity_show(r->solution, ALPI_NONE, &r->task->progress);
+}
+
 /// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
 /// root mean square that would do.
 static alp_result add_direct(rounds *r, double more, double wanted)
@@ -261,7 +271,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
         r->counts[texel] += samples;
     }
     r->direct += samples;
-    return ALP_OK;
+    return show_direct(r);
 }
 
 // --- errors --------------------------------------------------------------------------------------

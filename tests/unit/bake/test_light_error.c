@@ -191,11 +191,30 @@ static void rounds_state_what_interpolation_misses(void **state)
     alp_scene_destroy(scene);
 }
 
+/// In corners texels are lit by few others. What direct light those reflect is found by few samples
+/// at first, and by more in later rounds, which must show: maps of other seeds were 2.3 times as
+/// far from each other as stated while rays met the first samples for ever.
+static void corners_reflect_direct_light_as_it_becomes_known(void **state)
+{
+    (void)state;
+    alp_scene *scene = load("builtin:teapot-room");
+    light_map truth = find_truth(scene, 0.02f, NULL);
+    const judgement j = judge(scene, 1024, NULL, &truth);
+    printf("accuracy: error of light in rounds, teapot room, 64x64: stated %.2f %%, of other seeds "
+           "%.2f %%\n",
+           100.0 * j.stated, 100.0 * j.spread);
+    assert_true(j.spread < 1.7 * j.stated); // blocks gather with noise of their own, which is not
+                                            // stated
+    release(&truth);
+    alp_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_report_says_what_the_map_says),
         cmocka_unit_test(rounds_state_what_interpolation_misses),
+        cmocka_unit_test(corners_reflect_direct_light_as_it_becomes_known),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
