@@ -39,7 +39,7 @@ static alp_scene *load(const char *name)
     return scene;
 }
 
-static alp_bake_options light_options(uint32_t samples, uint64_t seed)
+static alp_bake_options light_options(uint32_t samples)
 {
     alp_bake_options options = alp_bake_options_default();
     options.atlas.size = SIZE;
@@ -47,7 +47,6 @@ static alp_bake_options light_options(uint32_t samples, uint64_t seed)
     options.maps = ALP_MAP_LIGHT;
     options.light.samples = samples;
     options.sampling.keep_partial = true; // rounds that double
-    options.occlusion.seed = seed;
     return options;
 }
 
@@ -88,15 +87,13 @@ typedef struct judgement {
 } judgement;
 
 /// @param truth with errors of its own, which are taken off
-static judgement judge(const alp_scene *scene, uint32_t samples, const char *only,
-                       const light_map *truth)
+static judgement judge(const alp_scene *scene, alp_bake_options options, const light_map *truth)
 {
     light_map maps[SEEDS];
     judgement j = {0.0, 0.0, 0.0};
     double mean = 0.0;
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
-        alp_bake_options options = light_options(samples, 1 + seed);
-        options.only = only;
+        options.occlusion.seed = 1 + seed;
         maps[seed] = bake(scene, &options);
         assert_int_equal(maps[seed].count, truth->count);
     }
@@ -126,7 +123,8 @@ static judgement judge(const alp_scene *scene, uint32_t samples, const char *onl
 /// Every texel by its own rays.
 static light_map find_truth(const alp_scene *scene, float error, const char *only)
 {
-    alp_bake_options options = light_options(65536, 99);
+    alp_bake_options options = light_options(65536);
+    options.occlusion.seed = 99;
     options.sampling.accuracy = ALP_ADAPTIVE_OFF;
     options.light.error = error;
     options.only = only;
@@ -146,7 +144,7 @@ static void the_report_says_what_the_map_says(void **state)
 {
     (void)state;
     alp_scene *scene = load("builtin:cornell");
-    const alp_bake_options options = light_options(256, 1);
+    const alp_bake_options options = light_options(256);
     light_map m = bake(scene, &options);
     const uint32_t texels = m.count / 3;
     double mean = 0.0, squares = 0.0;
@@ -180,7 +178,7 @@ static void rounds_state_what_interpolation_misses(void **state)
     (void)state;
     alp_scene *scene = load("builtin:cornell");
     light_map truth = find_truth(scene, 0.006f, NULL);
-    const judgement j = judge(scene, 1024, NULL, &truth);
+    const judgement j = judge(scene, light_options(1024), &truth);
     const double real = hypot(j.spread, j.bias);
     printf("accuracy: error of light in rounds, Cornell box, 64x64: stated %.2f %%, true %.2f %%, "
            "of it bias %.2f %%\n",
@@ -199,12 +197,33 @@ static void corners_reflect_direct_light_as_it_becomes_known(void **state)
     (void)state;
     alp_scene *scene = load("builtin:teapot-room");
     light_map truth = find_truth(scene, 0.02f, NULL);
-    const judgement j = judge(scene, 1024, NULL, &truth);
+    const judgement j = judge(scene, light_options(1024), &truth);
     printf("accuracy: error of light in rounds, teapot room, 64x64: stated %.2f %%, of other seeds "
            "%.2f %%\n",
            100.0 * j.stated, 100.0 * j.spread);
     assert_true(j.spread < 1.7 * j.stated); // blocks gather with noise of their own, which is not
                                             // stated
+    release(&truth);
+    alp_scene_destroy(scene);
+}
+
+/// Where only some surfaces are baked, the light that they meet is known as well as they are to be:
+/// with 16 samples of direct light on all others, for ever, maps were twice as far from the truth
+/// as stated.
+static void some_surfaces_err_as_stated(void **state)
+{
+    (void)state;
+    const char *const only = "*block";
+    alp_scene *scene = load("builtin:cornell");
+    alp_bake_options options = light_options(65536);
+    light_map truth = find_truth(scene, 0.01f, only);
+    options.only = only;
+    options.light.error = 0.005f;
+    const judgement j = judge(scene, options, &truth);
+    printf("accuracy: error of light on some surfaces, Cornell box, 64x64: stated %.2f %%, of "
+           "other seeds %.2f %%, bias %.2f %%\n",
+           100.0 * j.stated, 100.0 * j.spread, 100.0 * j.bias);
+    ASSERT_NEAR(j.stated / j.spread, 1.0, 0.2); // blocks' own noise is not stated
     release(&truth);
     alp_scene_destroy(scene);
 }
@@ -215,6 +234,7 @@ int main(void)
         cmocka_unit_test(the_report_says_what_the_map_says),
         cmocka_unit_test(rounds_state_what_interpolation_misses),
         cmocka_unit_test(corners_reflect_direct_light_as_it_becomes_known),
+        cmocka_unit_test(some_surfaces_err_as_stated),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
