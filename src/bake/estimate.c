@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake will take, told before it: texels by areas, rays and seconds by a few points that are
 // lit as the texels will be.
+#include "bake/layers.h"
 #include "bake/light.h"
 
 #include "base/memory.h"
@@ -263,11 +264,13 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     double area;
     uint32_t count = 0;
     pilot p;
+    uint32_t lights;
     ALP_TRY(alpi_bake_choose(job));
+    ALP_TRY(alpi_bake_find_layers(job, &lights));
     const alp_atlas_info atlas = guess_atlas(job, &area);
     ALP_TRY(run_pilot(job, area, &p, &count));
     work->texels = atlas.texels;
-    work->bytes = alpi_bake_memory(&atlas, job->scene, o);
+    work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
     work->seconds = (double)atlas.texels * TEXEL_SECONDS;
     if (alpi_bake_wants_occlusion(job)) {
         add_occlusion(o, &p, work);
@@ -296,6 +299,7 @@ alp_result alp_bake_estimate(const alp_scene *scene, const alp_bake_options *opt
         return ALP_OK;
     }
     const alp_result result = estimate(&job, work);
+    alpi_bake_release_layers(&job);
     alpi_release(job.context, job.only);
     alpi_release(job.context, job.occluders);
     alpi_release(job.context, job.originals);
