@@ -190,7 +190,7 @@ static void rounds_state_what_interpolation_misses(void **state)
 }
 
 /// In corners texels are lit by few others. What direct light those reflect is found by few samples
-/// at first, and by more in later rounds, which must show: maps of other seeds were 2.3 times as
+/// at first, and by more in later rounds, which must show: maps of other seeds were 3.6 times as
 /// far from each other as stated while rays met the first samples for ever.
 static void corners_reflect_direct_light_as_it_becomes_known(void **state)
 {
@@ -201,8 +201,8 @@ static void corners_reflect_direct_light_as_it_becomes_known(void **state)
     printf("accuracy: error of light in rounds, teapot room, 64x64: stated %.2f %%, of other seeds "
            "%.2f %%\n",
            100.0 * j.stated, 100.0 * j.spread);
-    assert_true(j.spread < 1.7 * j.stated); // blocks gather with noise of their own, which is not
-                                            // stated
+    // What blocks gathered, of the first samples and by few rays, is not stated.
+    assert_true(j.spread < 2.6 * j.stated);
     release(&truth);
     alp_scene_destroy(scene);
 }
