@@ -75,7 +75,7 @@ static const option rows[] = {
      .kind = KIND_FLAG,
      .name = "--keep-partial",
      .help = "Ctrl-C ends sampling and writes what there is, instead of nothing; exit code 130. "
-             "Light has nothing before its first round is whole."},
+             "Light has nothing before its first round is whole, and is not denoised any more."},
 };
 
 const option_part option_part_stop = {rows, sizeof rows / sizeof *rows};

@@ -192,7 +192,7 @@ typedef struct alp_sampling_options {
     /// little.
     uint64_t memory_limit;
     /// A cancelled bake ends with what it has instead of with nothing; light has nothing before its
-    /// first round ends.
+    /// first round ends, and is not denoised any more (a warning "not-denoised").
     bool keep_partial;
 } alp_sampling_options;
 
@@ -238,9 +238,9 @@ typedef struct alp_bake_options {
     /// ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
-    /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work
-    /// may stay unheard.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "write".
+    /// With ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short
+    /// work may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;

@@ -30,6 +30,19 @@ static bool make_room(alpi_bytes *bytes, size_t size)
     return !bytes->failed;
 }
 
+void alpi_bytes_reserve(alpi_bytes *bytes, size_t more)
+{
+    if (bytes->failed || more > SIZE_MAX - 1 - bytes->size ||
+        bytes->size + more + 1 <= bytes->capacity) {
+        return; // the size is known to be too much, or comes out where it is added
+    }
+    const size_t capacity = bytes->size + more + 1;
+    void *moved = alpi_reallocate(bytes->context, bytes->bytes, capacity, 1);
+    bytes->failed = moved == NULL;
+    bytes->bytes = moved != NULL ? moved : bytes->bytes;
+    bytes->capacity = moved != NULL ? capacity : bytes->capacity;
+}
+
 void alpi_bytes_add(alpi_bytes *bytes, const void *data, size_t size)
 {
     if (make_room(bytes, size)) {

@@ -23,6 +23,8 @@ static inline alpi_bytes alpi_bytes_create(alp_context *context)
     return (alpi_bytes){.context = context};
 }
 void alpi_bytes_destroy(alpi_bytes *bytes);
+/// Makes room for `more` bytes and no others: what is added within them moves nothing.
+void alpi_bytes_reserve(alpi_bytes *bytes, size_t more);
 void alpi_bytes_add(alpi_bytes *bytes, const void *data, size_t size);
 void alpi_bytes_print(alpi_bytes *bytes, const char *format, ...) ALP_PRINTF(2, 3);
 /// A finite number with a point as decimal sign whatever the locale; `digits` significant.

@@ -125,6 +125,61 @@ static void what_is_cancelled_may_be_kept(void **state)
     alp_context_destroy(context);
 }
 
+/// Refuses the `left`-th time it is told of a stage.
+typedef struct distaste {
+    const char *stage;
+    int left;
+} distaste;
+
+static bool dislike(void *user, const alp_progress *progress)
+{
+    distaste *d = user;
+    assert_true(d->left > 0); // nobody who refused is asked again
+    d->left -= strcmp(progress->stage, d->stage) == 0;
+    return d->left > 0;
+}
+
+/// The map before noise is taken off is whole: it is kept, bit by bit, and it is said which it is.
+static void light_that_is_not_denoised_is_kept(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:cornell");
+    alp_bake_options options = light_options(SIZE);
+    options.light.samples = 128;
+    options.sampling.keep_partial = true;
+    options.sampling.accuracy = ALP_ADAPTIVE_OFF; // as what is to be denoised
+    uint32_t width, height;
+    alp_lightmap *before = NULL, *after = NULL, *kept = NULL;
+    alp_bake_report report;
+    ASSERT_OK(context, alp_bake(scene, &options, &before, NULL));
+    options.light.denoise = true;
+    ASSERT_OK(context, alp_bake(scene, &options, &after, &report));
+    assert_false(report.cut_off);
+    test_log_clear();
+    distaste d = {.stage = "denoise", .left = 1};
+    options.progress = dislike;
+    options.progress_user = &d;
+    ASSERT_OK(context, alp_bake(scene, &options, &kept, &report));
+    assert_true(report.cut_off && d.left == 0);
+    assert_true(test_log_has("not-denoised"));
+    check_map(kept, &report);
+    const float *pages[] = {alp_lightmap_map_page(before, ALP_MAP_LIGHT, 0, &width, &height),
+                            alp_lightmap_map_page(kept, ALP_MAP_LIGHT, 0, &width, &height),
+                            alp_lightmap_map_page(after, ALP_MAP_LIGHT, 0, &width, &height)};
+    const size_t size = (size_t)4 * width * height * sizeof *pages[0];
+    assert_memory_equal(pages[0], pages[1], size);
+    assert_true(memcmp(pages[1], pages[2], size) != 0);
+    d.left = 1;
+    options.sampling.keep_partial = false;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
+    alp_lightmap_destroy(before);
+    alp_lightmap_destroy(after);
+    alp_lightmap_destroy(kept);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// Rounds that double until the samples are there have the same mean as one round of them.
 static void rounds_agree_with_one(void **state)
 {
@@ -151,6 +206,7 @@ int main(void)
         cmocka_unit_test(time_limit_ends_with_whole_rounds),
         cmocka_unit_test(no_time_is_no_light),
         cmocka_unit_test(what_is_cancelled_may_be_kept),
+        cmocka_unit_test(light_that_is_not_denoised_is_kept),
         cmocka_unit_test(rounds_agree_with_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
