@@ -80,6 +80,9 @@ alp_result alpi_png_decode(alp_context *context, const char *name, const uint8_t
                            size_t size, alp_image **image);
 alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_t *bytes,
                             size_t size, alp_image **image);
+/// Three channels, or four where it has alpha; animated ones are UNSUPPORTED.
+alp_result alpi_webp_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                            size_t size, alp_image **image);
 alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);
 /// Three channels; an exposure that the header states is taken out again.

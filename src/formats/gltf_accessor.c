@@ -154,7 +154,10 @@ static alp_result find_layout(const alpi_gltf_document *document, size_t index, 
     found->values.normalized = json_is_true(json_object_get(accessor, "normalized")) &&
                                type != COMPONENT_FLOAT && type != COMPONENT_U32;
     found->element_size = found->values.components * (size_t)found->values.component_size;
-    if (json_object_get(accessor, "bufferView") != NULL) {
+    if (index < document->decoded_count && document->decoded[index].values.bytes != NULL) {
+        found->values.count = document->decoded[index].values.count; // a strip comes as triangles
+        found->base = (byte_run){document->decoded[index].values.bytes, found->element_size};
+    } else if (json_object_get(accessor, "bufferView") != NULL) {
         ALP_TRY(find_run(document, accessor, owner, count, found->element_size, &found->base));
     } else if (count > ZEROS_LIMIT) {
         return alpi_fail(document->context, ALP_ERROR_LIMIT,
