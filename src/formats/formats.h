@@ -14,6 +14,7 @@ typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,
     ALPI_IMAGE_ENCODING_JPEG,
+    ALPI_IMAGE_ENCODING_WEBP,
     ALPI_IMAGE_ENCODING_OTHER // or not readable, or of a scene without a document
 } alpi_image_encoding;
 typedef struct alpi_image_source {

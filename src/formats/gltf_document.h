@@ -10,7 +10,7 @@
 
 typedef struct alpi_gltf_buffer {
     const uint8_t *bytes; // NULL: a fallback for readers that do not decompress, never read
-    size_t size;          // ≥ the buffer's byteLength
+    size_t size;          // ≥ the buffer's byteLength; 0 of a fallback
     uint8_t *owned;       // released with the document, or NULL (inside file_bytes)
 } alpi_gltf_buffer;
 
@@ -30,10 +30,10 @@ typedef struct alpi_gltf_document {
     json_t *root; // an object
     alpi_gltf_buffer *buffers;
     size_t buffer_count;
-    uint8_t **decoded_views;                // [bufferViews] what compressed ones hold, NULL = plain
-    struct alpi_gltf_decoded *decoded;      // [accessors] of compressed primitives; NULL = none
+    uint8_t **decoded_views;           // [bufferViews] what compressed ones hold, NULL = plain
+    struct alpi_gltf_decoded *decoded; // [accessors] of compressed primitives; NULL = none
     size_t decoded_view_count, decoded_count; // as many as there are, once anything is decoded
-    uint64_t decoded_size;                  // bytes of all of them
+    uint64_t decoded_size;                    // bytes of all of them
 } alpi_gltf_document;
 
 /// Reads and checks the container and the JSON, then every buffer. Sizes are checked before memory

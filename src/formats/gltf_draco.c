@@ -36,18 +36,17 @@ static alp_result needs_decoding(const alpi_gltf_document *document, const packe
 {
     json_t *attributes = json_object_get(from->primitive, "attributes");
     size_t accessor;
-    *needed = from->indices != ALPI_GLTF_NONE &&
-              json_object_get(alpi_gltf_item(document, "accessors", from->indices),
-                              "bufferView") == NULL;
+    *needed =
+        from->indices != ALPI_GLTF_NONE &&
+        json_object_get(alpi_gltf_item(document, "accessors", from->indices), "bufferView") == NULL;
     const char *name;
     json_t *id;
     json_object_foreach(json_object_get(from->extension, "attributes"), name, id)
     {
-        ALP_TRY(
-            alpi_gltf_index(document, attributes, name, "accessors", from->owner, &accessor));
-        *needed |= accessor != ALPI_GLTF_NONE &&
-                   json_object_get(alpi_gltf_item(document, "accessors", accessor),
-                                   "bufferView") == NULL;
+        ALP_TRY(alpi_gltf_index(document, attributes, name, "accessors", from->owner, &accessor));
+        *needed |=
+            accessor != ALPI_GLTF_NONE &&
+            json_object_get(alpi_gltf_item(document, "accessors", accessor), "bufferView") == NULL;
     }
     return ALP_OK;
 }
@@ -114,8 +113,10 @@ static alp_result read_shape(const alpi_gltf_document *document, size_t accessor
         values->components = strcmp(shape, types[i]) == 0 ? i : values->components;
     }
     if (values->components == 0 || type < 5120 || type > 5126 || sizes[type - 5120] == 0) {
-        return alpi_gltf_fail(document, owner, "componentType %zu with type \"%.20s\" cannot be "
-                              "decoded", type, shape != NULL ? shape : "");
+        return alpi_gltf_fail(document, owner,
+                              "componentType %zu with type \"%.20s\" cannot be "
+                              "decoded",
+                              type, shape != NULL ? shape : "");
     }
     if (count > 3 * (size_t)FACE_LIMIT) {
         return alpi_fail(document->context, ALP_ERROR_LIMIT,
@@ -154,9 +155,8 @@ static alp_result take_indices(alpi_gltf_document *document, const packed *from,
     }
     alpi_gltf_values values;
     ALP_TRY(read_shape(document, from->indices, &values));
-    if (values.components != 1 ||
-        (values.component_type != 5121 && values.component_type != 5123 &&
-         values.component_type != 5125)) {
+    if (values.components != 1 || (values.component_type != 5121 && values.component_type != 5123 &&
+                                   values.component_type != 5125)) {
         return alpi_gltf_fail(document, from->owner,
                               "its indices (accessor %zu) are not unsigned integer scalars",
                               from->indices);
@@ -203,8 +203,8 @@ static alp_result take_attribute(alpi_gltf_document *document, const packed *fro
                               name, accessor, values.count, from->view,
                               alpi_draco_vertex_count(mesh));
     }
-    values.normalized = json_is_true(json_object_get(alpi_gltf_item(document, "accessors", accessor),
-                                                     "normalized"));
+    values.normalized = json_is_true(
+        json_object_get(alpi_gltf_item(document, "accessors", accessor), "normalized"));
     ALP_TRY(make_place(document, from, accessor, number, &values));
     if (number > UINT32_MAX ||
         !alpi_draco_attribute(mesh, (uint32_t)number, values.components, values.component_type,
@@ -271,8 +271,7 @@ static alp_result decode_packed(alpi_gltf_document *document, const packed *from
         return alpi_gltf_fail(document, from->owner,
                               "the %zu compressed bytes of bufferView %zu cannot be decoded: %s "
                               "(%u vertices and %u triangles are stated)",
-                              view.size, from->view, fault, source.vertex_count,
-                              source.face_count);
+                              view.size, from->view, fault, source.vertex_count, source.face_count);
     }
     alp_result result = take_all(document, from, mesh);
     alpi_draco_close(mesh);

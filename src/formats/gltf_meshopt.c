@@ -115,8 +115,10 @@ static alp_result check_packed(const alpi_gltf_document *document, json_t *view,
     ALP_TRY(alpi_gltf_size(document, view, "byteLength", from->owner, &length));
     ALP_TRY(alpi_gltf_size_or(document, view, "byteStride", from->owner, from->stride, &stride));
     if (!is_one_of(from->mode, modes, 3) || !is_one_of(from->filter, filters, 4)) {
-        return alpi_gltf_fail(document, from->owner, "mode \"%.20s\" with filter \"%.20s\" is none "
-                              "that " ALPI_GLTF_MESHOPT " knows", from->mode, from->filter);
+        return alpi_gltf_fail(document, from->owner,
+                              "mode \"%.20s\" with filter \"%.20s\" is none "
+                              "that " ALPI_GLTF_MESHOPT " knows",
+                              from->mode, from->filter);
     }
     if (!stride_fits(from) || stride != from->stride) {
         return alpi_gltf_fail(document, from->owner,
@@ -151,8 +153,8 @@ static int unpack(const packed *from, uint8_t *bytes)
         return meshopt_decodeIndexSequence(bytes, from->count, from->stride, from->bytes,
                                            from->size);
     }
-    int fault = meshopt_decodeVertexBuffer(bytes, from->count, from->stride, from->bytes,
-                                           from->size);
+    int fault =
+        meshopt_decodeVertexBuffer(bytes, from->count, from->stride, from->bytes, from->size);
     if (fault != 0 || strcmp(from->filter, "NONE") == 0) {
         return fault;
     }

@@ -92,8 +92,7 @@ static alp_result find_cycles(const alpi_gltf_reader *reader, const uint32_t *pa
 
 // --- transforms ---------------------------------------------------------------------------------
 
-/// Translation · rotation (unit quaternion x y z w) · scale.
-static mat4 compose(const double t[3], const double q[4], const double s[3])
+mat4 alpi_gltf_compose(const double t[3], const double q[4], const double s[3])
 {
     double x = q[0], y = q[1], z = q[2], w = q[3];
     return (mat4){{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + w * z),
@@ -130,7 +129,7 @@ static alp_result read_transform(const alpi_gltf_reader *reader, uint32_t node, 
     for (int k = 0; k < 4; k++) {
         q[k] /= length;
     }
-    *local = compose(t, q, s);
+    *local = alpi_gltf_compose(t, q, s);
     return ALP_OK;
 }
 
@@ -190,6 +189,7 @@ static alp_result walk(alpi_gltf_reader *reader, const uint32_t *parent, node_st
         reader->world[node] =
             parent[node] == ALPI_NONE ? local : mat4_multiply(&reader->world[parent[node]], &local);
         reader->order[reader->order_count++] = node;
+        reader->placed[node] = true;
         json_t *children;
         ALP_TRY(read_children(reader, node, &children));
         for (size_t k = json_array_size(children); k-- > 0;) {
@@ -216,6 +216,7 @@ static alp_result read_trees(alpi_gltf_reader *reader, work *w)
     ALPI_TRY_NEW(reader->context, w->stack.nodes, count);
     ALPI_TRY_NEW(reader->context, reader->world, count);
     ALPI_TRY_NEW(reader->context, reader->order, count);
+    ALPI_TRY_NEW(reader->context, reader->placed, count);
     ALP_TRY(find_parents(reader, w->parent));
     ALP_TRY(find_cycles(reader, w->parent, w->marks));
     ALP_TRY(push_roots(reader, w->parent, w->seen, &w->stack));

@@ -61,6 +61,7 @@ alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene
     result = fill_scene(&reader);
     alpi_release(reader.context, reader.world);
     alpi_release(reader.context, reader.order);
+    alpi_release(reader.context, reader.placed);
     alpi_release(reader.context, reader.material_used);
     if (result != ALP_OK) {
         alp_scene_destroy(reader.scene);

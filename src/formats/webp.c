@@ -9,7 +9,8 @@
 static alp_result fail(alp_context *context, const char *name, VP8StatusCode status)
 {
     if (status == VP8_STATUS_OUT_OF_MEMORY) {
-        return alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "%s: WebP: no memory to decode it", name);
+        return alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "%s: WebP: no memory to decode it",
+                         name);
     }
     return alpi_fail(context, ALP_ERROR_INVALID_DATA, "%s: WebP: %s", name,
                      status == VP8_STATUS_NOT_ENOUGH_DATA       ? "ends too early"
@@ -22,8 +23,8 @@ static alp_result check(alp_context *context, const char *name,
 {
     uint64_t pixels = (uint64_t)features->width * (uint64_t)features->height;
     if (features->has_animation != 0) {
-        return alpi_fail(context, ALP_ERROR_UNSUPPORTED, "%s: WebP: moves; only still ones are read",
-                         name);
+        return alpi_fail(context, ALP_ERROR_UNSUPPORTED,
+                         "%s: WebP: moves; only still ones are read", name);
     }
     if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
         return alpi_fail(context, ALP_ERROR_LIMIT, "%s: WebP: has %d x %d pixels, more than 2^28",
@@ -53,9 +54,8 @@ alp_result alpi_webp_decode(alp_context *context, const char *name, const uint8_
     size_t row_size = (size_t)info.width * info.channels;
     config.output.colorspace = alpha ? MODE_RGBA : MODE_RGB;
     config.output.is_external_memory = 1;
-    config.output.u.RGBA = (WebPRGBABuffer){.rgba = alp_image_bytes(made),
-                                            .stride = (int)row_size,
-                                            .size = row_size * info.height};
+    config.output.u.RGBA = (WebPRGBABuffer){
+        .rgba = alp_image_bytes(made), .stride = (int)row_size, .size = row_size * info.height};
     status = WebPDecode(bytes, size, &config);
     WebPFreeDecBuffer(&config.output); // ours stays
     if (status != VP8_STATUS_OK) {
