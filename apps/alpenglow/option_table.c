@@ -759,6 +759,14 @@ static const option options[] = {
      .name = "--quick",
      .help =
          "Small sizes and one round, in a second: shows that it runs. The figures mean nothing."},
+    {.id = OPTION_SCENE,
+     .commands = SCENE_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--scene",
+     .value = "N|NAME",
+     .help = "Which scene of a .gltf or .glb that holds several: its number from 0, or its name. "
+             "Without it the one that viewers show first."},
     {.id = OPTION_BENCH_SCENE,
      .commands = IN_BENCH,
      .group = GROUP_WHAT,

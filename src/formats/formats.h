@@ -9,6 +9,9 @@
 
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
+/// The same with one of its scenes, by number or name; NULL = the one it shows first.
+alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
+                                 alp_scene **scene);
 
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel

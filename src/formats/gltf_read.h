@@ -10,7 +10,8 @@
 typedef struct alpi_gltf_reader {
     alp_context *context;
     const alpi_gltf_document *document;
-    alp_scene *scene; // being filled
+    const char *choice; // number or name of the scene to read; NULL = the file's first
+    alp_scene *scene;   // being filled
     uint32_t node_count;
     mat4 *world;     // [node_count] node → world, of the nodes in `order`
     uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
