@@ -50,7 +50,8 @@ double wave_distance(const alp_scene *a, const alp_scene *b);
 double wave_occlusion_difference(const alp_scene *a, const alp_scene *b);
 
 /// Patches a file with a map of its own for every triangle or chart, writes it, reads it again and
-/// asks for its validation: positions must be the same to the bit. The scene that was written.
-alp_scene *pack_patch(alp_context *context, const char *path, const char *ending);
+/// asks for its validation. Positions must be the same within `distance`. The scene that was
+/// written.
+alp_scene *pack_patch(alp_context *context, const char *path, const char *ending, double distance);
 
 #endif

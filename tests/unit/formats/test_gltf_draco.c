@@ -188,7 +188,7 @@ static void patched_is_plain(void **state)
         alp_scene *scene = pack_patch(context,
                                       write_wave(&input, i == 0 ? "" : "'mode':5,",
                                                  i == 0 ? input.index_count : WAVE_TRIANGLES + 2),
-                                      endings[i]);
+                                      endings[i], 0.0);
         assert_true(test_log_has("compression"));
         const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
         assert_int_equal(document->decoded_count, 0);

@@ -195,7 +195,7 @@ static void patched_is_plain(void **state)
     static const char *const endings[] = {".glb", ".gltf"};
     for (int i = 0; i < 2; i++) {
         test_log_clear();
-        alp_scene *scene = pack_patch(context, write_wave(false, 2), endings[i]);
+        alp_scene *scene = pack_patch(context, write_wave(false, 2), endings[i], 0.0);
         assert_true(test_log_has("compression"));
         const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
         json_t *mesh = alpi_gltf_item(document, "meshes", 0);
@@ -240,7 +240,7 @@ static void fallback_is_not_needed(void **state)
     ASSERT_OK(context, alp_scene_load(context, test_path(folder, "a.gltf"), &scene));
     assert_true(wave_distance(plain, scene) == 0.0);
     // Into one GLB: the fallback stays a buffer of its own.
-    again = pack_patch(context, test_path(folder, "a.gltf"), ".glb");
+    again = pack_patch(context, test_path(folder, "a.gltf"), ".glb", 0.0);
     assert_true(wave_distance(plain, again) == 0.0);
     const alpi_gltf_document *document = again->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
     assert_int_equal(document->buffer_count, 2);
