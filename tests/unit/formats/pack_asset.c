@@ -82,27 +82,42 @@ int pack_accessor(pack_asset *asset, int view, int component_type, size_t count,
     return asset->accessor_count++;
 }
 
-const char *pack_write(pack_asset *asset, const char *rest)
+static void write_bytes(const char *path, const void *bytes, size_t size)
 {
-    static char path[1024], json[3 * PACK_TEXT_LIMIT];
-    char fallback[160] = "";
-    if (asset->fallback_size > 0) {
-        snprintf(fallback, sizeof fallback,
-                 ",{'byteLength':%zu,'extensions':{'EXT_meshopt_compression':{'fallback':true}}}",
-                 asset->fallback_size);
-    }
-    snprintf(json, sizeof json,
-             "{'asset':{'version':'2.0'},'buffers':[{'byteLength':%zu}%s],'bufferViews':[%s],"
-             "'accessors':[%s],%s}",
-             asset->bin_size, fallback, asset->views, asset->accessors, rest);
-    alp_context *context = test_context(1);
-    size_t size;
-    uint8_t *bytes = test_glb(context, json, asset->bin, asset->bin_size, &size);
-    snprintf(path, sizeof path, "%s/packed.glb", quad_folder());
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     fclose(file);
+}
+
+const char *pack_write(pack_asset *asset, const char *rest)
+{
+    static char path[1024], json[3 * PACK_TEXT_LIMIT];
+    const char *folder = quad_folder();
+    char fallback[200] = "";
+    if (asset->fallback_size > 0) {
+        snprintf(fallback, sizeof fallback,
+                 ",{%s'byteLength':%zu,'extensions':{'EXT_meshopt_compression':{'fallback':true}}}",
+                 asset->as_gltf ? "'uri':'none.bin'," : "", asset->fallback_size);
+    }
+    snprintf(json, sizeof json,
+             "{'asset':{'version':'2.0'},'buffers':[{%s'byteLength':%zu}%s],'bufferViews':[%s],"
+             "'accessors':[%s],%s}",
+             asset->as_gltf ? "'uri':'packed.bin'," : "", asset->bin_size, fallback, asset->views,
+             asset->accessors, rest);
+    snprintf(path, sizeof path, "%s/packed.%s", folder, asset->as_gltf ? "gltf" : "glb");
+    if (asset->as_gltf) {
+        for (char *c = json; *c != '\0'; c++) {
+            *c = *c == '\'' ? '"' : *c;
+        }
+        write_bytes(path, json, strlen(json));
+        write_bytes(test_path(folder, "packed.bin"), asset->bin, asset->bin_size);
+        return path;
+    }
+    alp_context *context = test_context(1);
+    size_t size;
+    uint8_t *bytes = test_glb(context, json, asset->bin, asset->bin_size, &size);
+    write_bytes(path, bytes, size);
     alpi_release(context, bytes);
     alp_context_destroy(context);
     return path;

@@ -15,6 +15,7 @@ typedef struct pack_asset {
     size_t bin_size, fallback_size;
     char views[PACK_TEXT_LIMIT], accessors[PACK_TEXT_LIMIT];
     int view_count, accessor_count;
+    bool as_gltf; // beside "packed.bin", with a fallback "none.bin" that is not there
 } pack_asset;
 
 /// An empty one, in static storage.
@@ -27,7 +28,8 @@ int pack_meshopt(pack_asset *asset, const void *encoded, size_t size, const char
 /// An accessor; its index. @param view −1 = none @param more members, with a comma before, or ""
 int pack_accessor(pack_asset *asset, int view, int component_type, size_t count, const char *type,
                   const char *more);
-/// Writes a GLB with these further members of the root ("'" stands for '"'); its path (static).
+/// Writes a GLB (or a .gltf) with these further members of the root ("'" stands for '"'); its path
+/// (static).
 const char *pack_write(pack_asset *asset, const char *rest);
 
 /// A wavy grid over the square of side 1, with a wall along one side, so that corners are dark.
