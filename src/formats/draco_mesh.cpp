@@ -49,10 +49,11 @@ const char *fault_of_head(const alpi_draco_source &source)
         return "their metadata are damaged";
     }
     uint32_t faces = 0, vertices = 0;
-    bool good = method == SEQUENTIAL
-                    ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&vertices, &buffer)
-                    : buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer) &&
-                          draco::DecodeVarint(&faces, &buffer);
+    bool good =
+        method == SEQUENTIAL
+            ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&vertices, &buffer)
+            : buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer) &&
+                  draco::DecodeVarint(&faces, &buffer);
     if (!good) {
         return "they end too early";
     }

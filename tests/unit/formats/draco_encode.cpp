@@ -6,8 +6,8 @@
 #include <cstring>
 #include <memory>
 
-static void add_attribute(draco::Mesh &mesh, draco::GeometryAttribute::Type type, const float *values,
-                          int8_t components, uint32_t count)
+static void add_attribute(draco::Mesh &mesh, draco::GeometryAttribute::Type type,
+                          const float *values, int8_t components, uint32_t count)
 {
     draco::GeometryAttribute shape;
     const int64_t size = static_cast<int64_t>(sizeof(float)) * components;
@@ -36,8 +36,7 @@ size_t draco_encode(const draco_input *input, uint8_t *bytes, size_t capacity,
                   input->vertex_count);
     add_attribute(mesh, draco::GeometryAttribute::NORMAL, input->normals[0], 3,
                   input->vertex_count);
-    add_attribute(mesh, draco::GeometryAttribute::TEX_COORD, input->uvs[0], 2,
-                  input->vertex_count);
+    add_attribute(mesh, draco::GeometryAttribute::TEX_COORD, input->uvs[0], 2, input->vertex_count);
     if (input->has_metadata) {
         auto metadata = std::make_unique<draco::GeometryMetadata>();
         metadata->AddEntryString("name", "wave");
