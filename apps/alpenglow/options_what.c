@@ -97,6 +97,14 @@ static const option rows[] = {
      .value = "GLOB",
      .help = "Only surfaces whose name matches occlude, patterns as in bake --only; rays pass all "
              "others."},
+    {.id = OPTION_SCENE,
+     .commands = SCENE_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--scene",
+     .value = "N|NAME",
+     .help = "Which scene of a .gltf or .glb that holds several: its number from 0, or its name. "
+             "Without it the one that viewers show first."},
     {.id = OPTION_SCALE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,

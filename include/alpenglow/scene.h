@@ -23,6 +23,12 @@ typedef struct alp_scene alp_scene;
 ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char *path,
                                                 alp_scene **scene);
 
+/// The same with one of the scenes of a file that holds several: `choice` is its number from 0, or
+/// its name; NULL takes the one that the file shows first, as alp_scene_load does.
+/// @return also INVALID_ARGUMENT: no such scene (the message lists them), or a file of one scene
+ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
+                                                       const char *choice, alp_scene **scene);
+
 /// A mesh handed over as arrays, already in world space.
 typedef struct alp_mesh {
     const char *name;        ///< NULL = "mesh N"

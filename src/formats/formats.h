@@ -9,6 +9,9 @@
 
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
+/// The same with one of its scenes, by number or name; NULL = the one it shows first.
+alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
+                                 alp_scene **scene);
 
 /// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
 alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
@@ -17,6 +20,7 @@ typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,
     ALPI_IMAGE_ENCODING_JPEG,
+    ALPI_IMAGE_ENCODING_WEBP,
     ALPI_IMAGE_ENCODING_OTHER // or not readable, or of a scene without a document
 } alpi_image_encoding;
 typedef struct alpi_image_source {
@@ -106,6 +110,9 @@ alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pag
 alp_result alpi_png_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);
 alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                            size_t size, alp_image **image);
+/// Three channels, or four where it has alpha; animated ones are UNSUPPORTED.
+alp_result alpi_webp_decode(alp_context *context, const char *name, const uint8_t *bytes,
                             size_t size, alp_image **image);
 alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);

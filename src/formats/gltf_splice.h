@@ -68,6 +68,9 @@ void alpi_edits_set(alpi_edits *edits, alpi_json_span object, const char *name, 
 void alpi_edits_set_index(alpi_edits *edits, alpi_json_span object, const char *name, size_t index);
 /// Takes a member out of its object, with one comma. Not for an object that members are added to.
 void alpi_edits_remove(alpi_edits *edits, alpi_json_span object, const char *name);
+/// Several; members may be added to an object of which one stays.
+void alpi_edits_remove_all(alpi_edits *edits, alpi_json_span object, const char *const *names,
+                           size_t count);
 
 /// Appends text[range] to `out` with the edits made. Every edit must lie in the range and no two
 /// may overlap.

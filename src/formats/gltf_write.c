@@ -117,14 +117,17 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
     return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
 }
 
+/// @param fallbacks copy buffers only that are fallbacks: the others went into the asset
 static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *document,
-                             const char *kind, const bool *skipped, const char *folder)
+                             const char *kind, const bool *skipped, bool fallbacks,
+                             const char *folder)
 {
     size_t count = alpi_gltf_count(document, kind);
     for (size_t i = 0; i < count; i++) {
         const char *uri = alpi_gltf_text(alpi_gltf_item(document, kind, i), "uri");
         char *source = NULL;
-        if (uri == NULL || (skipped != NULL && skipped[i])) {
+        if (uri == NULL || (skipped != NULL && skipped[i]) ||
+            (fallbacks && document->buffers[i].bytes != NULL)) {
             continue;
         }
         alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
@@ -149,11 +152,9 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
     }
     alp_result result = ALP_OK;
     if (!same_folder(folder, document->folder)) {
-        if (!merged) {
-            result = add_copies(files, document, "buffers", NULL, folder);
-        }
+        result = add_copies(files, document, "buffers", NULL, merged, folder);
         if (result == ALP_OK) {
-            result = add_copies(files, document, "images", image_embedded, folder);
+            result = add_copies(files, document, "images", image_embedded, false, folder);
         }
     }
     alpi_release(files->context, folder);
