@@ -46,7 +46,8 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_TIME_LIMIT, "--time-limit"},
                    {OPTION_KEEP_PARTIAL, "--keep-partial"},
                    {OPTION_AO_BLEED, "--ao-bleed"},
-                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+                   {OPTION_MAPS_FOLDER, "--maps-dir"},
+                   {OPTION_MAPS_AS, "--maps-as"}};
     bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
         if (values[of_maps[i].id].given) {
@@ -185,6 +186,27 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
         return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
                                          "the albedo; give irradiance or irradiance/pi");
+    }
+    return EXIT_DONE;
+}
+
+/// What the files of --maps-dir are.
+static int read_maps_format(const option_value *values, alp_bake_options *o)
+{
+    const option_value *as = &values[OPTION_MAPS_AS];
+    o->maps_format = (alp_maps_format)as->choice;
+    if (as->given && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE, "--maps-as: is of the files of --maps-dir; give it too");
+    }
+    const char *name = (o->maps & ALP_MAP_BENT) != 0        ? "bent"
+                       : (o->maps & ALP_MAP_SH) != 0        ? "sh"
+                       : (o->maps & ALP_MAP_DIRECTION) != 0 ? "direction"
+                                                            : NULL;
+    if (o->maps_format == ALP_MAPS_HDR && name != NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps-as hdr: holds no negative values, and --maps %s has some; take "
+                           "exr16 or ktx2",
+                           name);
     }
     return EXIT_DONE;
 }
@@ -393,6 +415,7 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
     code = code == EXIT_DONE ? read_maps(values, o) : code;
+    code = code == EXIT_DONE ? read_maps_format(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;
     code = code == EXIT_DONE ? read_light(a, &o->light) : code;

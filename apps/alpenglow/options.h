@@ -38,6 +38,7 @@ typedef enum option_id {
     OPTION_OUTPUT,
     OPTION_MAPS,
     OPTION_MAPS_FOLDER,
+    OPTION_MAPS_AS,
     OPTION_SIZE,
     OPTION_TEXELS_PER_METRE,
     OPTION_ATLAS,

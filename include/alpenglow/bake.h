@@ -80,6 +80,16 @@ typedef enum alp_lightmap_format {
     ALP_LIGHTMAP_HDR       ///< Radiance RGBE, as bright as it may be
 } alp_lightmap_format;
 
+/// Files of `maps_folder`, but for its PNGs. Where half floats would not hold the values of a page,
+/// its colours are divided by a power of two, which the file states as "alpenglowScale" (an
+/// attribute of EXR, a key of KTX2), with a note (maps-scaled).
+typedef enum alp_maps_format {
+    ALP_MAPS_EXR = 0,  ///< float RGBA, ZIP (default)
+    ALP_MAPS_EXR_HALF, ///< half RGBA, ZIP
+    ALP_MAPS_HDR,      ///< Radiance RGBE: no coverage, and no signs: not BENT, SH and DIRECTION
+    ALP_MAPS_KTX2      ///< RGBA16F, one level, Zstandard
+} alp_maps_format;
+
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
@@ -234,8 +244,9 @@ typedef struct alp_bake_options {
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
     /// irradiance.exr and irradiance.error.exr (standard error of each channel), and of each layer
     /// irradiance.NAME.exr. ALP_MAP_SH: sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr.
-    /// ALP_ATLAS_VERTEX: NULL.
+    /// ALP_ATLAS_VERTEX: NULL. In other formats .hdr or .ktx2 takes the place of .exr.
     const char *maps_folder;
+    alp_maps_format maps_format; ///< of maps_folder, else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
     /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work

@@ -147,9 +147,10 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
         const uint64_t gather = solve > m.rounds ? solve : m.rounds;
         rays = rays > gather ? rays : gather;
     }
+    const uint64_t files = alpi_bake_map_file_memory(options, page);
     const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages +
                            (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
-                           BYTES_TO_DILATE * page;
+                           (files > BYTES_TO_DILATE * page ? files : BYTES_TO_DILATE * page);
     const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
     const uint64_t most = rays > store ? rays : store;
     return find_kept(atlas, scene, sides) + find_directional(atlas, options) +
