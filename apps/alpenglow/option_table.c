@@ -437,6 +437,17 @@ static const option options[] = {
      .unit = "pixels",
      .initial = "64",
      .help = "Edge of the front face of --gather hemicube, an even number: 3 N N rays a texel."},
+    {.id = OPTION_EMITTERS,
+     .commands = IN_BAKE,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--emitters",
+     .value = "analytic|counted",
+     .choices = "analytic|counted",
+     .initial = "analytic",
+     .help = "Of --gather hemicube: light that comes straight from emissive surfaces. analytic: by "
+             "closed forms and rays aimed at them. counted: by the pixels that see them, which err "
+             "by what the edges of a light cross. Lamps, suns and skies stay as they are."},
     {.id = OPTION_DENOISE,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,

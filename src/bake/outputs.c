@@ -235,6 +235,9 @@ static json_t *describe_light(const alpi_bake_job *job)
         isfinite(r->light_relative_error) ? json_real(r->light_relative_error) : json_null(),
         "atlas", atlas_name(r->atlas.mode), "size", (int)r->atlas.width, "pages",
         (int)r->atlas.pages, "padding", (int)o->atlas.padding);
+    if (o->light.emitters == ALP_EMITTERS_COUNTED) {
+        json_object_set_new(object, "emitters", json_string("counted"));
+    }
     if (r->light_direct) {
         json_object_del(object, "gather"); // nothing was
     }

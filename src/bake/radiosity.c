@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/counted_emitters.h"
 #include "maps/radiosity.h"
 #include "maps/solution.h"
 #include "transport/cosine_rays.h"
@@ -91,8 +92,23 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
+/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
+/// mix the two.
+static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
+{
+    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
+    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
+           !alpi_tracer_has_panes(tracer);
+}
+
+/// What direct light is looked for: which scene's emissive surfaces, and what else.
+typedef struct direct_light {
+    const alp_scene *scene;
+    const alpi_lighting *lighting;
+} direct_light;
+
 static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g, const alpi_lighting *direct)
+                               const light_gatherers *g, const direct_light *direct)
 {
     const alp_bake_options *o = &job->options;
     alpi_radiosity_options options = alpi_radiosity_options_default();
@@ -101,7 +117,9 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.tracer = t->tracer;
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
-    options.direct = direct;
+    options.direct = direct->lighting;
+    options.direct_scene = direct->scene;
+    options.counted = direct->scene != job->scene ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
@@ -109,7 +127,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
-    options.layers = alpi_bake_light_layers(job, direct != t->lighting);
+    options.layers = alpi_bake_light_layers(job, has_soft_sky(job, t->tracer));
     alpi_radiosity solution;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
@@ -174,32 +192,41 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
-/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
-/// mix the two.
-static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
+/// Gathers with a part of the light not looked for directly.
+static alp_result gather_without(alpi_bake_job *job, const alpi_light_task *t,
+                                 const light_gatherers *g, const alp_scene *scene)
 {
-    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
-    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
-           !alpi_tracer_has_panes(tracer);
+    alp_lighting_options options = job->options.light.lighting;
+    alpi_lighting *lighting = NULL;
+    if (has_soft_sky(job, t->tracer)) {
+        options.sky.kind = ALP_SKY_NONE;
+    }
+    ALP_TRY(alpi_lighting_create(scene, &options, &lighting));
+    const direct_light direct = {scene, lighting};
+    const alp_result result = gather_light(job, t, g, &direct);
+    alpi_lighting_destroy(job->context, lighting);
+    return result;
 }
 
-/// The light that is looked for directly: all, or all but a soft sky.
-static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
-                                  const light_gatherers *g)
+/// The light that is looked for directly: all, or all but a soft sky and emitters that are counted.
+static alp_result gather_rest(alpi_bake_job *job, const alpi_light_task *t,
+                              const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
     }
-    if (!has_soft_sky(job, t->tracer)) {
-        return gather_light(job, t, g, t->lighting);
+    if (job->options.light.emitters == ALP_EMITTERS_COUNTED) {
+        alp_scene dark;
+        alp_result result = alpi_scene_without_emitters(job->scene, &dark);
+        if (result == ALP_OK) {
+            result = gather_without(job, t, g, &dark);
+        }
+        alpi_scene_without_emitters_clear(&dark);
+        return result;
     }
-    alp_lighting_options options = job->options.light.lighting;
-    alpi_lighting *direct = NULL;
-    options.sky.kind = ALP_SKY_NONE;
-    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
-    const alp_result result = gather_light(job, t, g, direct);
-    alpi_lighting_destroy(job->context, direct);
-    return result;
+    const direct_light all = {job->scene, t->lighting};
+    return has_soft_sky(job, t->tracer) ? gather_without(job, t, g, job->scene)
+                                        : gather_light(job, t, g, &all);
 }
 
 alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
@@ -207,7 +234,7 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, task->receivers->count, &gatherers);
     if (result == ALP_OK) {
-        result = gather_with_sky(job, task, &gatherers);
+        result = gather_rest(job, task, &gatherers);
     }
     alpi_hemicube_destroy(gatherers.block_cube);
     alpi_hemicube_destroy(gatherers.texel_cube);
