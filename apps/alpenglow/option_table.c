@@ -447,7 +447,9 @@ static const option options[] = {
      .initial = "analytic",
      .help = "Of --gather hemicube: light that comes straight from emissive surfaces. analytic: by "
              "closed forms and rays aimed at them. counted: by the pixels that see them, which err "
-             "by what the edges of a light cross. Lamps, suns and skies stay as they are."},
+             "by those that the edges of a light cross, and lose what falls between them: 4 % of "
+             "the mean in builtin:cornell at 64 pixels, against analytic. Lamps, suns and skies "
+             "stay as they are; twice the rays."},
     {.id = OPTION_DENOISE,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,

@@ -134,7 +134,7 @@ typedef enum alp_direct {
 typedef enum alp_emitters {
     ALP_EMITTERS_ANALYTIC = 0, ///< by closed forms and rays aimed at them, as RAYS do (default)
     /// By the pixels of each texel's hemicube that see them, as H. Elias' radiosity does: right in
-    /// the mean, with the error of the pixels that their edges cross, about 5 % of the mean in the
+    /// the mean, with the error of the pixels that their edges cross, 4 % of the mean in the
     /// Cornell box at 64 pixels; what falls between pixels is lost to that texel. Lamps, suns and
     /// skies are found as ever. Needs bounces; not with layers or `only`. Cost: the rays of the
     /// hemicubes twice.

@@ -502,8 +502,11 @@ static void a_bake_may_count_emitters(void **state)
             lit++;
         }
     }
-    print_message("counted: %u texels see the lamp, %u nothing; root mean square %.4f of %.4f\n",
-                  lit, dark, sqrt(squares / lit), sqrt(predicted / lit));
+    print_message(
+        "accuracy: emitters counted by hemicubes of %d in the Cornell box, %u texels that "
+        "see all of the lamp: off by %.3f W/m2 (root mean square; rim pixels allow %.3f), "
+        "mean off by %.4f\n",
+        (int)BAKED_PIXELS, lit, sqrt(squares / lit), sqrt(predicted / lit), sum / lit);
     assert_true(lit > 400 && dark > 100);
     // Four standard errors of a root mean square of so many, and of their mean; edges that run
     // along rows of pixels, of which there are few across a lamp, err by a row at once: a tenth
