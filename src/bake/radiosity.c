@@ -20,7 +20,7 @@ enum { BLOCK_CUBE = 16 };
 // leave, which is about 16 / √samples percent.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 8, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
+    enum { TEXELS_PER_BLOCK = 8, FEWEST_RAYS = 32, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
     }
@@ -31,7 +31,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         options->error > 0.0f ? (double)options->error : 0.16 / sqrt((double)options->samples);
     const double all = pow(9.0 / error, 2.0);
     const double each = all * TEXELS_PER_BLOCK / fmax((double)texels, 1.0);
-    uint32_t rays = ALPI_RADIOSITY_BLOCK_RAYS;
+    uint32_t rays = FEWEST_RAYS;
     while (rays < each && rays < MOST_RAYS) {
         rays *= 2;
     }
@@ -44,6 +44,8 @@ typedef struct light_gatherers {
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
+    bool counts;    // emissive surfaces are what hemicubes see of them, and
+    alp_scene dark; // direct light is that of the scene without them
 } light_gatherers;
 
 static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_gatherers *g)
@@ -58,7 +60,8 @@ static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_
     g->block_cubes.scattered = true;
     g->blocks = alpi_hemicube_gatherer(&g->block_cubes);
     g->texels = alpi_hemicube_gatherer(&g->texel_cubes);
-    return ALP_OK;
+    g->counts = job->options.light.emitters == ALP_EMITTERS_COUNTED;
+    return g->counts ? alpi_scene_without_emitters(job->scene, &g->dark) : ALP_OK;
 }
 
 /// @param texels that there are
@@ -92,23 +95,8 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
-/// mix the two.
-static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
-{
-    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
-    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
-           !alpi_tracer_has_panes(tracer);
-}
-
-/// What direct light is looked for: which scene's emissive surfaces, and what else.
-typedef struct direct_light {
-    const alp_scene *scene;
-    const alpi_lighting *lighting;
-} direct_light;
-
 static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g, const direct_light *direct)
+                               const light_gatherers *g, const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
     alpi_radiosity_options options = alpi_radiosity_options_default();
@@ -117,9 +105,9 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.tracer = t->tracer;
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
-    options.direct = direct->lighting;
-    options.direct_scene = direct->scene;
-    options.counted = direct->scene != job->scene ? &g->texels : NULL;
+    options.direct = direct;
+    options.direct_scene = g->counts ? &g->dark : NULL;
+    options.counted = g->counts ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
@@ -127,7 +115,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
-    options.layers = alpi_bake_light_layers(job, has_soft_sky(job, t->tracer));
+    options.layers = alpi_bake_light_layers(job, direct != t->lighting);
     alpi_radiosity solution;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
@@ -192,41 +180,25 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
-/// Gathers with a part of the light not looked for directly.
-static alp_result gather_without(alpi_bake_job *job, const alpi_light_task *t,
-                                 const light_gatherers *g, const alp_scene *scene)
-{
-    alp_lighting_options options = job->options.light.lighting;
-    alpi_lighting *lighting = NULL;
-    if (has_soft_sky(job, t->tracer)) {
-        options.sky.kind = ALP_SKY_NONE;
-    }
-    ALP_TRY(alpi_lighting_create(scene, &options, &lighting));
-    const direct_light direct = {scene, lighting};
-    const alp_result result = gather_light(job, t, g, &direct);
-    alpi_lighting_destroy(job->context, lighting);
-    return result;
-}
-
-/// The light that is looked for directly: all, or all but a soft sky and emitters that are counted.
-static alp_result gather_rest(alpi_bake_job *job, const alpi_light_task *t,
-                              const light_gatherers *g)
+/// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
+/// are looked for directly, with all else. Panes would mix the two.
+static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
+                                  const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
     }
-    if (job->options.light.emitters == ALP_EMITTERS_COUNTED) {
-        alp_scene dark;
-        alp_result result = alpi_scene_without_emitters(job->scene, &dark);
-        if (result == ALP_OK) {
-            result = gather_without(job, t, g, &dark);
-        }
-        alpi_scene_without_emitters_clear(&dark);
-        return result;
+    if (alpi_lighting_sky(t->lighting) == NULL || alpi_tracer_has_panes(t->tracer)) {
+        return gather_light(job, t, g, t->lighting);
     }
-    const direct_light all = {job->scene, t->lighting};
-    return has_soft_sky(job, t->tracer) ? gather_without(job, t, g, job->scene)
-                                        : gather_light(job, t, g, &all);
+    alpi_light_task with_soft_sky = *t;
+    alpi_lighting *soft = NULL, *direct = NULL;
+    ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
+    with_soft_sky.lighting = soft;
+    const alp_result result = gather_light(job, &with_soft_sky, g, direct);
+    alpi_lighting_destroy(job->context, soft);
+    alpi_lighting_destroy(job->context, direct);
+    return result;
 }
 
 alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
@@ -234,8 +206,9 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, task->receivers->count, &gatherers);
     if (result == ALP_OK) {
-        result = gather_rest(job, task, &gatherers);
+        result = gather_with_sky(job, task, &gatherers);
     }
+    alpi_scene_without_emitters_clear(&gatherers.dark);
     alpi_hemicube_destroy(gatherers.block_cube);
     alpi_hemicube_destroy(gatherers.texel_cube);
     return result;

@@ -43,8 +43,7 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
                                .lighting = o->lighting,
                                .filter = o->filter,
                                .light = alpi_patches_light(&radiosity->patches),
-                               .sky = alpi_lighting_sky(o->lighting) != NULL &&
-                                      alpi_lighting_sky(o->direct) == NULL};
+                               .sky = o->direct != o->lighting};
 }
 
 // --- direct light --------------------------------------------------------------------------------
