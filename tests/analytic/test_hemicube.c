@@ -437,13 +437,11 @@ static alp_bake_options counting(alp_emitters emitters)
     return o;
 }
 
-static alp_lightmap *bake(const char *name, const alp_bake_options *o, alp_bake_report *report)
+static alp_lightmap *bake(const alp_scene *scene, const alp_bake_options *o,
+                          alp_bake_report *report)
 {
-    alp_scene *scene = NULL;
     alp_lightmap *lightmap = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
     ASSERT_OK(context, alp_bake(scene, o, &lightmap, report));
-    alp_scene_destroy(scene);
     return lightmap;
 }
 
@@ -482,8 +480,10 @@ static void a_bake_may_count_emitters(void **state)
     const alp_bake_options told = counting(ALP_EMITTERS_ANALYTIC);
     const alp_bake_options counts = counting(ALP_EMITTERS_COUNTED);
     alp_bake_report reports[2];
-    alp_lightmap *analytic = bake("builtin:cornell", &told, &reports[0]);
-    alp_lightmap *counted = bake("builtin:cornell", &counts, &reports[1]);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_lightmap *analytic = bake(scene, &told, &reports[0]);
+    alp_lightmap *counted = bake(scene, &counts, &reports[1]);
     const double scale = ALPI_PI * LAMP_RADIANCE;
     double squares = 0.0, predicted = 0.0, sum = 0.0;
     uint32_t lit = 0, dark = 0;
@@ -520,6 +520,7 @@ static void a_bake_may_count_emitters(void **state)
     assert_true((double)reports[1].rays - (double)reports[0].rays > 0.8 * cube);
     alp_lightmap_destroy(analytic);
     alp_lightmap_destroy(counted);
+    alp_scene_destroy(scene);
 }
 
 /// Lamps, suns and skies are no surfaces: the same bits either way.
@@ -527,7 +528,9 @@ static void other_lights_are_not_counted(void **state)
 {
     (void)state;
     alp_lamp lamp = alp_lamp_default();
+    alp_scene *scene = NULL;
     lamp.position[1] = 1.0f;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
     for (int soft = 0; soft < 2; soft++) {
         alp_lightmap *maps[2];
         for (int i = 0; i < 2; i++) {
@@ -536,7 +539,7 @@ static void other_lights_are_not_counted(void **state)
             o.light.lighting.lamps = &lamp;
             o.light.lighting.lamp_count = 1;
             o.light.lighting.sky.kind = soft ? ALP_SKY_CONSTANT : ALP_SKY_NONE;
-            maps[i] = bake("builtin:torus-plane", &o, NULL);
+            maps[i] = bake(scene, &o, NULL);
         }
         for (uint32_t t = 0; t < maps[0]->texels.count; t++) {
             assert_true(value_of(maps[0], ALP_MAP_LIGHT, t) == value_of(maps[1], ALP_MAP_LIGHT, t));
@@ -544,6 +547,7 @@ static void other_lights_are_not_counted(void **state)
         alp_lightmap_destroy(maps[0]);
         alp_lightmap_destroy(maps[1]);
     }
+    alp_scene_destroy(scene);
 }
 
 static void what_cannot_be_counted_is_refused(void **state)

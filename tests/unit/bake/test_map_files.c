@@ -127,14 +127,26 @@ static alp_bake_options options_of(unsigned maps, const char *folder, alp_maps_f
     return o;
 }
 
-static alp_lightmap *bake(alp_context *context, const alp_bake_options *o)
+/// Maps and the scene that they are of.
+typedef struct baked {
+    alp_context *context;
+    alp_scene *scene;
+    alp_lightmap *maps;
+} baked;
+
+static baked bake(const alp_bake_options *o)
 {
-    alp_scene *scene = NULL;
-    alp_lightmap *lightmap = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
-    ASSERT_OK(context, alp_bake(scene, o, &lightmap, NULL));
-    alp_scene_destroy(scene);
-    return lightmap;
+    baked b = {.context = test_context(2)};
+    ASSERT_OK(b.context, alp_scene_load(b.context, "builtin:cornell", &b.scene));
+    ASSERT_OK(b.context, alp_bake(b.scene, o, &b.maps, NULL));
+    return b;
+}
+
+static void close_bake(baked *b)
+{
+    alp_lightmap_destroy(b->maps);
+    alp_scene_destroy(b->scene);
+    alp_context_destroy(b->context);
 }
 
 static void every_map_of_every_page_comes_back(void **state)
@@ -151,14 +163,14 @@ static void every_map_of_every_page_comes_back(void **state)
                 {ALP_MAP_BENT, "bent", true},
                 {ALP_MAP_DIRECTION, "direction", true}};
     for (int format = 0; format < FORMATS; format++) {
-        alp_context *context = test_context(2);
         const char *folder = test_folder();
         const unsigned with_signs =
             format == ALP_MAPS_HDR ? 0u : ALP_MAP_BENT | ALP_MAP_SH | ALP_MAP_DIRECTION;
         alp_bake_options o =
             options_of(ALP_MAP_AO | ALP_MAP_LIGHT | with_signs, folder, (alp_maps_format)format);
         o.light.direct = ALP_DIRECT_APART;
-        alp_lightmap *l = bake(context, &o);
+        baked b = bake(&o);
+        const alp_lightmap *l = b.maps;
         const uint32_t pages = alp_lightmap_page_count(l);
         assert_true(pages > 1);
         for (uint32_t p = 0; p < pages; p++) {
@@ -166,13 +178,13 @@ static void every_map_of_every_page_comes_back(void **state)
                 const float *wanted = alp_lightmap_map_page(l, maps[i].map, p, NULL, NULL);
                 assert_true((wanted != NULL) == (!maps[i].is_signed || with_signs != 0));
                 if (wanted != NULL) {
-                    check_file(context, folder, maps[i].name, p, o.maps_format, wanted);
+                    check_file(b.context, folder, maps[i].name, p, o.maps_format, wanted);
                 }
             }
             for (uint32_t k = 0; k < 4 && with_signs != 0; k++) {
                 char name[8];
                 snprintf(name, sizeof name, "sh.%u", k);
-                check_file(context, folder, name, p, o.maps_format,
+                check_file(b.context, folder, name, p, o.maps_format,
                            alp_lightmap_sh_page(l, k, p, NULL, NULL));
             }
         }
@@ -180,8 +192,7 @@ static void every_map_of_every_page_comes_back(void **state)
         assert_int_equal(access(test_path(folder, "ao.png"), F_OK), 0);
         assert_int_equal(access(test_path(folder, "ao.exr"), F_OK) == 0, format < ALP_MAPS_HDR);
         assert_false(test_log_has("hdr-range"));
-        alp_lightmap_destroy(l);
-        alp_context_destroy(context);
+        close_bake(&b);
     }
 }
 
@@ -192,22 +203,21 @@ static void layers_too(void **state)
     lamp.position[1] = 0.3f;
     lamp.intensity = 0.2f;
     for (int format = 0; format < FORMATS; format++) {
-        alp_context *context = test_context(2);
         const char *folder = test_folder();
         alp_bake_options o = options_of(ALP_MAP_LIGHT, folder, (alp_maps_format)format);
         o.light.layers = true;
         o.light.lighting.lamps = &lamp;
         o.light.lighting.lamp_count = 1;
-        alp_lightmap *l = bake(context, &o);
+        baked b = bake(&o);
+        const alp_lightmap *l = b.maps;
         assert_int_equal(alp_lightmap_layer_count(l), 2);
         for (uint32_t i = 0; i < 2 * alp_lightmap_page_count(l); i++) {
             char name[96];
             snprintf(name, sizeof name, "irradiance.%.64s", alp_lightmap_layer_name(l, i % 2));
-            check_file(context, folder, name, i / 2, o.maps_format,
+            check_file(b.context, folder, name, i / 2, o.maps_format,
                        alp_lightmap_layer_page(l, i % 2, i / 2, NULL, NULL));
         }
-        alp_lightmap_destroy(l);
-        alp_context_destroy(context);
+        close_bake(&b);
     }
 }
 
@@ -217,16 +227,17 @@ static void light_beyond_halves_is_scaled(void **state)
     (void)state;
     static const alp_maps_format formats[] = {ALP_MAPS_EXR_HALF, ALP_MAPS_KTX2};
     for (int i = 0; i < 2; i++) {
-        alp_context *context = test_context(2);
         const char *folder = test_folder();
         test_log_clear();
         alp_bake_options o = options_of(ALP_MAP_LIGHT, folder, formats[i]);
         o.light.lighting.sky.kind = ALP_SKY_CONSTANT;
         o.light.lighting.sky.strength = 1e6f;
-        alp_lightmap *l = bake(context, &o);
+        baked b = bake(&o);
+        const alp_lightmap *l = b.maps;
         for (uint32_t p = 0; p < alp_lightmap_page_count(l); p++) {
             const float *wanted = alp_lightmap_map_page(l, ALP_MAP_LIGHT, p, NULL, NULL);
-            const double most = check_file(context, folder, "irradiance", p, o.maps_format, wanted);
+            const double most =
+                check_file(b.context, folder, "irradiance", p, o.maps_format, wanted);
             read_page page;
             if (formats[i] == ALP_MAPS_KTX2 && p == 0) {
                 int exponent;
@@ -237,8 +248,7 @@ static void light_beyond_halves_is_scaled(void **state)
             }
         }
         assert_true(test_log_has("maps-scaled"));
-        alp_lightmap_destroy(l);
-        alp_context_destroy(context);
+        close_bake(&b);
     }
 }
 
