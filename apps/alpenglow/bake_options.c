@@ -46,7 +46,8 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_TIME_LIMIT, "--time-limit"},
                    {OPTION_KEEP_PARTIAL, "--keep-partial"},
                    {OPTION_AO_BLEED, "--ao-bleed"},
-                   {OPTION_MAPS_FOLDER, "--maps-dir"}};
+                   {OPTION_MAPS_FOLDER, "--maps-dir"},
+                   {OPTION_MAPS_AS, "--maps-as"}};
     bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
         if (values[of_maps[i].id].given) {
@@ -84,20 +85,15 @@ static const char *find_given(const option_value *values, const named_option *na
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {{OPTION_SAMPLES, "--samples"},
-                                            {OPTION_BOUNCES, "--bounces"},
-                                            {OPTION_GATHER, "--gather"},
-                                            {OPTION_HEMICUBE, "--hemicube"},
-                                            {OPTION_DIRECT, "--direct"},
-                                            {OPTION_LAYERS, "--layers"},
-                                            {OPTION_DENOISE, "--denoise"},
-                                            {OPTION_SKY, "--sky"},
-                                            {OPTION_SKY_TURN, "--sky-turn"},
-                                            {OPTION_SUN, "--sun"},
-                                            {OPTION_SKY_STRENGTH, "--sky-strength"},
-                                            {OPTION_SUN_SIZE, "--sun-size"},
-                                            {OPTION_LAMP, "--lamp"},
-                                            {OPTION_SPOT, "--spot"}};
+    static const named_option of_light[] = {
+        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
+        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
+        {OPTION_EMITTERS, "--emitters"}, {OPTION_DIRECT, "--direct"},
+        {OPTION_LAYERS, "--layers"},     {OPTION_DENOISE, "--denoise"},
+        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
+        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
+        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
+        {OPTION_SPOT, "--spot"}};
     static const named_option of_occlusion[] = {
         {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
         {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
@@ -185,6 +181,27 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
         return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
                                          "the albedo; give irradiance or irradiance/pi");
+    }
+    return EXIT_DONE;
+}
+
+/// What the files of --maps-dir are.
+static int read_maps_format(const option_value *values, alp_bake_options *o)
+{
+    const option_value *as = &values[OPTION_MAPS_AS];
+    o->maps_format = (alp_maps_format)as->choice;
+    if (as->given && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE, "--maps-as: is of the files of --maps-dir; give it too");
+    }
+    const char *name = (o->maps & ALP_MAP_BENT) != 0        ? "bent"
+                       : (o->maps & ALP_MAP_SH) != 0        ? "sh"
+                       : (o->maps & ALP_MAP_DIRECTION) != 0 ? "direction"
+                                                            : NULL;
+    if (o->maps_format == ALP_MAPS_HDR && name != NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "--maps-as hdr: holds no negative values, and --maps %s has some; take "
+                           "exr16 or ktx2",
+                           name);
     }
     return EXIT_DONE;
 }
@@ -324,6 +341,22 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     return EXIT_DONE;
 }
 
+/// What counts emissive surfaces, and what they cannot be told apart for.
+static int check_emitters(const option_value *values, const alp_light_options *o)
+{
+    if (values[OPTION_EMITTERS].given && (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0)) {
+        return usage_error(COMMAND_BAKE, "--emitters: needs --gather hemicube%s",
+                           o->bounces == 0 ? " and bounces" : "");
+    }
+    if (o->emitters == ALP_EMITTERS_COUNTED && (o->layers || values[OPTION_ONLY].given)) {
+        return usage_error(COMMAND_BAKE,
+                           "--emitters counted: pixels see all emitters together, of "
+                           "all surfaces; leave out %s",
+                           o->layers ? "--layers" : "--only");
+    }
+    return EXIT_DONE;
+}
+
 /// How irradiance is gathered, and which.
 static int read_light(const command_line *a, alp_light_options *o)
 {
@@ -334,6 +367,7 @@ static int read_light(const command_line *a, alp_light_options *o)
     o->bounces = direct == DIRECT_ONLY ? 0 : lighting_bounces(a);
     o->samples = (uint32_t)values[OPTION_SAMPLES].whole;
     o->hemicube = (uint32_t)values[OPTION_HEMICUBE].whole;
+    o->emitters = (alp_emitters)values[OPTION_EMITTERS].choice;
     o->layers = values[OPTION_LAYERS].given;
     o->direct = direct == DIRECT_OFF     ? ALP_DIRECT_OFF
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
@@ -364,7 +398,8 @@ static int read_light(const command_line *a, alp_light_options *o)
         return usage_error(COMMAND_BAKE,
                            "--samples: are of rays; hemicubes have pixels, --hemicube N");
     }
-    return check_layers(values, o);
+    const int code = check_emitters(values, o);
+    return code == EXIT_DONE ? check_layers(values, o) : code;
 }
 
 int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lamps)
@@ -393,6 +428,7 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
     code = code == EXIT_DONE ? read_maps(values, o) : code;
+    code = code == EXIT_DONE ? read_maps_format(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;
     code = code == EXIT_DONE ? read_light(a, &o->light) : code;

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static void print_atlas(const alp_atlas_info *atlas)
 {
@@ -12,6 +13,18 @@ static void print_atlas(const alp_atlas_info *atlas)
            atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
            atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+}
+
+/// Names of files, .exr as the format of the maps has it.
+static void print_files(const alp_bake_options *o, const char *files)
+{
+    const char *ending = o->maps_format == ALP_MAPS_HDR    ? ".hdr"
+                         : o->maps_format == ALP_MAPS_KTX2 ? ".ktx2"
+                                                           : ".exr";
+    for (const char *next; (next = strstr(files, ".exr")) != NULL; files = next + 4) {
+        printf("%.*s%s", (int)(next - files), files, ending);
+    }
+    printf("%s", files);
 }
 
 static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
@@ -31,7 +44,8 @@ static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
     printf("maps       %s/", o->maps_folder);
     for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++) {
         if ((maps & (unsigned)of_maps[i].map) != 0) {
-            printf("%s%s", separator, of_maps[i].files);
+            printf("%s", separator);
+            print_files(o, of_maps[i].files);
             separator = ", ";
         }
     }
@@ -115,12 +129,13 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
-static void print_layers(const alp_lightmap *lightmap)
+static void print_layers(const alp_bake_options *o, const alp_lightmap *lightmap)
 {
     const uint32_t count = alp_lightmap_layer_count(lightmap);
     for (uint32_t i = 0; i < count; i++) {
-        printf("%sirradiance.%s.exr%s", i == 0 ? "layers     " : ", ",
-               alp_lightmap_layer_name(lightmap, i), i + 1 == count ? "\n" : "");
+        printf("%sirradiance.%s", i == 0 ? "layers     " : ", ",
+               alp_lightmap_layer_name(lightmap, i));
+        print_files(o, i + 1 == count ? ".exr\n" : ".exr");
     }
 }
 
@@ -132,7 +147,7 @@ void bake_summary_print(const session *s, const command_line *a, const alp_light
     }
     if (o->maps_folder != NULL) {
         print_maps(o, r->maps, r->atlas.pages);
-        print_layers(lightmap);
+        print_layers(o, lightmap);
     }
     if (o->only != NULL) {
         printf("surfaces   %u of %u baked\n", r->surfaces_baked, r->scene.surfaces);

@@ -82,13 +82,18 @@ static int read_camera(const char *text, alp_render_options *o)
 static int check_method(const command_line *a, const alp_render_options *o)
 {
     enum { HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE, AO = 1 << ALP_RENDER_AO };
-    enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY };
-    enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS };
+    enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
+    enum { TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY | HEMICUBE };
+    enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS, PLAIN = ~HEMICUBE };
     static const struct {
         const char *name;
         option_id id;
         unsigned methods; // that read it
-    } read_by[] = {{"--size", OPTION_SIZE, TEXELS},
+    } read_by[] = {{"--resolution", OPTION_RESOLUTION, (unsigned)PLAIN},
+                   {"--samples", OPTION_SAMPLES, (unsigned)PLAIN},
+                   {"--show", OPTION_SHOW, HEMICUBE},
+                   {"--hemicube", OPTION_HEMICUBE, HEMICUBE},
+                   {"--size", OPTION_SIZE, TEXELS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
                    {"--bounces", OPTION_BOUNCES, LIT},
                    {"--sun", OPTION_SUN, LIT},
@@ -125,6 +130,21 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
+/// How large a cross is, and what it shows.
+static int read_hemicube(const command_line *a, alp_render_options *o)
+{
+    o->hemicube = (uint32_t)a->values[OPTION_HEMICUBE].whole;
+    o->hemicube_show = (alp_hemicube_show)a->values[OPTION_SHOW].choice;
+    if (o->method != ALP_RENDER_HEMICUBE) {
+        return EXIT_DONE;
+    }
+    if (o->hemicube % 2 != 0) {
+        return usage_error(COMMAND_RENDER, "--hemicube %u: give an even number", o->hemicube);
+    }
+    o->width = o->height = 2 * o->hemicube;
+    return EXIT_DONE;
+}
+
 static int read_options(const command_line *a, alp_render_options *o, lamp_list *lamps)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -140,7 +160,8 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     if (!a->values[OPTION_WITH].given) {
         return usage_error(COMMAND_RENDER, "by which method? give --with reference, radiosity, "
-                                           "lightmap, ao, constant or hemisphere");
+                                           "lightmap, ao, constant, hemisphere or "
+                                           "hemicube");
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
@@ -155,6 +176,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
+    code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
     code = code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
     return code == EXIT_DONE ? check_hemisphere(o) : code;

@@ -26,7 +26,10 @@ alp_film_options film_read(const command_line *a, alp_render_method method)
     enum { BALANCE_AUTO = 0 }; // of the choices of --white-balance, auto and off
     const option_value *exposure = &a->values[OPTION_EXPOSURE];
     const option_value *balance = &a->values[OPTION_WHITE_BALANCE];
-    alp_film_options film = alp_render_film_options(method);
+    const bool multipliers =
+        method == ALP_RENDER_HEMICUBE && a->values[OPTION_SHOW].choice >= (int)ALP_HEMICUBE_WEIGHT;
+    alp_film_options film =
+        multipliers ? alp_film_options_default() : alp_render_film_options(method);
     if (exposure->given) {
         film.auto_exposure = exposure->choice >= 0;
         film.exposure = film.auto_exposure ? 0.0 : exposure->real;

@@ -52,6 +52,20 @@ static const option rows[] = {
              "(n / 2 + 1/2); irradiance.exr and irradiance.error.exr; sh.0.exr to "
              "sh.3.exr (of 1, y, z, x); direction.exr; obscurance.exr and obscurance.png; further "
              "pages ao.1.exr and so on. DIR is made if missing."},
+    {.id = OPTION_MAPS_AS,
+     .commands = IN_BAKE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_CHOICE,
+     .name = "--maps-as",
+     .value = "exr|exr16|hdr|ktx2",
+     .choices = "exr|exr16|hdr|ktx2",
+     .initial = "exr",
+     .help = "What the .exr files of --maps-dir are; the .png stay. exr: RGBA floats, ZIP, the "
+             "values as they are. exr16: half floats, half the size, 11 bits of each number. hdr: "
+             "Radiance RGBE, .hdr in the place of .exr, 8 bits and an exponent; without coverage, "
+             "and not for bent, sh and direction, which have signs. ktx2: RGBA half floats, "
+             "Zstandard, .ktx2. A page too bright for half floats is stored over a power of two, "
+             "which the file states (alpenglowScale)."},
     {.id = OPTION_JSON,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

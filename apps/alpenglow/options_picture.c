@@ -8,8 +8,8 @@ static const option rows[] = {
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "reference|radiosity|lightmap|ao|constant|hemisphere",
-     .choices = "ao|constant|hemisphere|reference|lightmap|radiosity",
+     .value = "reference|radiosity|lightmap|ao|constant|hemisphere|hemicube",
+     .choices = "ao|constant|hemisphere|reference|lightmap|radiosity|hemicube",
      .later_choices = "probes|ambience|lpv|cube",
      .help =
          "reference: all light by path tracing. radiosity: direct light at each pixel, and what "
@@ -21,7 +21,8 @@ static const option rows[] = {
          "from the scene's occlusion maps, and by rays where it has none. constant: uniform "
          "light of radiance 1, which shows the albedo: base colour x (1 - metallic), at most "
          "0.95. hemisphere: the two colours of --sky (without it 1,1,1 above and 0,0,0 below), "
-         "nothing in their way. Needed."},
+         "nothing in their way. hemicube: the five faces of half a cube about the camera's place, "
+         "as a texel there sees them that faces the target (--show, --hemicube). Needed."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -54,6 +55,30 @@ static const option rows[] = {
      .help = "More smooth the edges; time grows with N. With reference and radiosity each is a "
              "path, N is rounded up to a multiple of 16, and the noise falls as 1 over the root of "
              "N."},
+    {.id = OPTION_SHOW,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--show",
+     .value = "seen|product|weight|perspective|lambert",
+     .choices = "seen|product|weight|perspective|lambert",
+     .initial = "seen",
+     .help = "Of --with hemicube. seen: radiance of surfaces and sky, by a radiosity on texels; no "
+             "lamps, which light them. weight: what each pixel counts for, 1 straight ahead. "
+             "product: seen x weight; 4 / (N N) times the sum of its pixels is the irradiance. "
+             "perspective, lambert: the two cosines that weight is made of."},
+    {.id = OPTION_HEMICUBE,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_WHOLE,
+     .name = "--hemicube",
+     .value = "N",
+     .minimum = 2,
+     .maximum = 1024,
+     .unit = "pixels",
+     .initial = "256",
+     .help = "Of --with hemicube: edge of its front face, an even number. The picture is the "
+             "unfolded cross of 2 N x 2 N, in the place of --resolution."},
     {.id = OPTION_EXPOSURE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -67,7 +92,7 @@ static const option rows[] = {
      .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
              "auto: the geometric mean of the brightness of pixels that are not black, without "
              "the darkest and brightest 5 % of them, becomes 18 % grey; the EV used is printed. "
-             "Default 0 for ao and constant, else auto."},
+             "Default 0 for ao, constant and the multipliers of --show, else auto."},
     {.id = OPTION_TONE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -77,7 +102,7 @@ static const option rows[] = {
      .choices = "film|reinhard|filmic|none",
      .help = "Curve from exposed light L to a .png. film: 1 - e^-L. reinhard: L (1 + L/16) / "
              "(1 + L), white at 4. filmic: Hable's, more contrast, white at 5.6. none: cut off at "
-             "1. Default none for ao and constant, else film."},
+             "1. Default none for ao, constant and the multipliers of --show, else film."},
     {.id = OPTION_WHITE_BALANCE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

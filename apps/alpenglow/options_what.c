@@ -24,7 +24,8 @@ static const option rows[] = {
      .maximum = 16384,
      .unit = "texels",
      .initial = "512",
-     .help = "Of --with lightmap and radiosity: side of a page of the atlas. Time and memory grow "
+     .help = "Of --with lightmap, radiosity and hemicube: side of a page of the atlas. Time and "
+             "memory grow "
              "with its square."},
     {.id = OPTION_TEXELS_PER_METRE,
      .commands = IN_BAKE,

@@ -80,6 +80,16 @@ typedef enum alp_lightmap_format {
     ALP_LIGHTMAP_HDR       ///< Radiance RGBE, as bright as it may be
 } alp_lightmap_format;
 
+/// Files of `maps_folder`, but for its PNGs. Where half floats would not hold the values of a page,
+/// its colours are divided by a power of two, which the file states as "alpenglowScale" (an
+/// attribute of EXR, a key of KTX2), with a note (maps-scaled).
+typedef enum alp_maps_format {
+    ALP_MAPS_EXR = 0,  ///< float RGBA, ZIP (default)
+    ALP_MAPS_EXR_HALF, ///< half RGBA, ZIP
+    ALP_MAPS_HDR,      ///< Radiance RGBE: no coverage, and no signs: not BENT, SH and DIRECTION
+    ALP_MAPS_KTX2      ///< RGBA16F, one level, Zstandard
+} alp_maps_format;
+
 /// The attribute that values at vertices are written to (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1.
@@ -120,6 +130,17 @@ typedef enum alp_direct {
                          ///< it
 } alp_direct;
 
+/// How ALP_GATHER_HEMICUBE finds the light that comes straight from emissive surfaces.
+typedef enum alp_emitters {
+    ALP_EMITTERS_ANALYTIC = 0, ///< by closed forms and rays aimed at them, as RAYS do (default)
+    /// By the pixels of each texel's hemicube that see them, as H. Elias' radiosity does: right in
+    /// the mean, with the error of the pixels that their edges cross, 4 % of the mean in the
+    /// Cornell box at 64 pixels; what falls between pixels is lost to that texel. Lamps, suns and
+    /// skies are found as ever. Needs bounces; not with layers or `only`. Cost: the rays of the
+    /// hemicubes twice.
+    ALP_EMITTERS_COUNTED
+} alp_emitters;
+
 /// How ALP_MAP_LIGHT is gathered. Without bounces each light by samples of its own (of more than 64
 /// lamps, and suns, one at a time). Blended and transmissive materials filter light on its way, see
 /// docs/conventions.md, "Sides".
@@ -154,7 +175,8 @@ typedef struct alp_light_options {
     /// RAYS: noise of the bounced light is taken off by neighbours in space, never across a wall
     /// (docs/accuracy.md); then every texel is gathered. Default false.
     bool denoise;
-    uint32_t hemicube; ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
+    uint32_t hemicube;     ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
+    alp_emitters emitters; ///< of HEMICUBE, else ANALYTIC
     /// Besides, a map of what each light gives alone, its reflections included: of each lamp and
     /// sun, of each emissive material and of the sky, in this order. See alp_lightmap_layer_page.
     /// Of more than 16, the last is "others", all that are left, with a warning "many-layers"; of
@@ -235,8 +257,9 @@ typedef struct alp_bake_options {
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
     /// irradiance.exr and irradiance.error.exr (standard error of each channel), and of each layer
     /// irradiance.NAME.exr. ALP_MAP_SH: sh.0.exr to sh.3.exr. ALP_MAP_DIRECTION: direction.exr.
-    /// ALP_ATLAS_VERTEX: NULL.
+    /// ALP_ATLAS_VERTEX: NULL. In other formats .hdr or .ktx2 takes the place of .exr.
     const char *maps_folder;
+    alp_maps_format maps_format; ///< of maps_folder, else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "write".
     /// With ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short

@@ -37,7 +37,8 @@ ALP_API float *alp_image_floats(alp_image *image);
 /// Reads a .png, .jpg, .exr or .hdr; the kind is known by its first bytes, not its name. PNG of 16
 /// bits is rounded to 8; a palette is expanded. EXR: one part, channels R G B A or Y, half or
 /// float, any compression but DWAA and DWAB. HDR (Radiance RGBE): flat or in runs, any orientation;
-/// an EXPOSURE or COLORCORR of its header is taken out again.
+/// an EXPOSURE or COLORCORR of its header is taken out again, and so is the alpenglowScale of an
+/// EXR that we wrote.
 /// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); UNSUPPORTED (an EXR or HDR of
 ///         another kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_load(alp_context *context, const char *path,

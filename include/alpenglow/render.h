@@ -33,8 +33,27 @@ typedef enum alp_render_method {
     /// paths of the reference end where they have bounced once, with the light that it knows there:
     /// direct light is that of each pixel. The bias of texels that light others is left, and is
     /// seen only by way of a bounce.
-    ALP_RENDER_RADIOSITY = 5
+    ALP_RENDER_RADIOSITY = 5,
+    /// What a point sees as a hemicube about it does: the five faces of half a cube, unfolded to a
+    /// cross of 2n × 2n pixels, front in the middle, +Y above; see alp_hemicube_show. From the
+    /// camera's place, which may lie on a surface, along its axis; if that is the normal, what a
+    /// texel gathers there. Its angle, `width`, `height` and `samples` are not read.
+    ALP_RENDER_HEMICUBE = 6
 } alp_render_method;
+
+/// Pictures of ALP_RENDER_HEMICUBE, alpha 1; black in the corners, which belong to no face.
+/// Based on: H. Elias. Radiosity; M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
+typedef enum alp_hemicube_show {
+    /// Radiance [W·sr⁻¹·m⁻²] through the middle of each pixel: what surfaces emit, what they
+    /// reflect, by a radiosity as RADIOSITY has it, with its texels, and the sky; no lamps and no
+    /// suns, whose light surfaces show (default).
+    ALP_HEMICUBE_SEEN = 0,
+    ALP_HEMICUBE_PRODUCT,     ///< the same times WEIGHT: E = 4 / n² · sum of the pixels
+    ALP_HEMICUBE_WEIGHT,      ///< what a pixel counts for, 1 straight ahead: its exact form factor
+                              ///< times π n² / 4; about PERSPECTIVE times LAMBERT
+    ALP_HEMICUBE_PERSPECTIVE, ///< cos³ of the angle to the axis of its face
+    ALP_HEMICUBE_LAMBERT      ///< cosine of the angle to the normal
+} alp_hemicube_show;
 
 typedef struct alp_render_options {
     size_t struct_size;
@@ -52,13 +71,15 @@ typedef struct alp_render_options {
     const char *occluders; ///< which surfaces occlude, as in alp_bake_options; NULL (default) = all
     const alp_lightmap *lightmap; ///< AO: NULL, or maps of this scene that are read instead of its
                                   ///< textures; LIGHTMAP: maps of this scene with ALP_MAP_LIGHT
-    alp_atlas_options atlas; ///< RADIOSITY: where it is solved; default of size 512, what it lights
-                             ///< is smooth; its progress is ignored
+    alp_atlas_options atlas; ///< RADIOSITY, HEMICUBE: where it is solved; default of size 512, what
+                             ///< it lights is smooth; its progress is ignored
+    uint32_t hemicube;       ///< HEMICUBE: n, pixels along an edge, even, [2, 1024]; default 256
+    alp_hemicube_show hemicube_show; ///< HEMICUBE
     alp_lighting_options lighting; ///< for HEMISPHERE, whose sky is always of two colours (default
-                                   ///< there: up 1, down 0), REFERENCE, RADIOSITY, and what stands
-                                   ///< behind a LIGHTMAP
-    uint32_t bounces;              ///< REFERENCE, RADIOSITY: 0 = direct light alone; default
-                                   ///< ALP_BOUNCES_CONVERGE
+                                   ///< there: up 1, down 0), REFERENCE, RADIOSITY, HEMICUBE, and
+                                   ///< what stands behind a LIGHTMAP
+    uint32_t bounces;   ///< REFERENCE, RADIOSITY, HEMICUBE: 0 = direct light alone; default
+                        ///< ALP_BOUNCES_CONVERGE
     bool no_next_event; ///< REFERENCE: light is found by chance alone, a slow cross-check that
                         ///< never finds lights without extent
     alp_image **error;  ///< NULL, or out: REFERENCE and RADIOSITY: the standard error of each pixel

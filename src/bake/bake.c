@@ -53,6 +53,7 @@ static alp_result check_options(const alpi_bake_job *job)
     }
     ALP_TRY(alpi_bake_check_vertex_options(job));
     ALP_TRY(alpi_bake_check_maps(job));
+    ALP_TRY(alpi_bake_check_maps_format(job));
     ALP_TRY(alpi_bake_check_light_asset(job));
     ALP_TRY(alpi_bake_check_layers(job));
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));

@@ -241,6 +241,7 @@ static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_b
         rays = 0.0;
     } else if (l->gather == ALP_GATHER_HEMICUBE) {
         rays = 3.0 * l->hemicube * l->hemicube;
+        rays *= l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
     } else if (l->gather == ALP_GATHER_RAYS && l->error > 0.0f) {
         rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, 2.0), 1.0);
     }

@@ -105,6 +105,22 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
 /// are kept; sets job->kept_limit.
 alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas);
 
+/// Refuses a format that cannot hold the maps.
+alp_result alpi_bake_check_maps_format(const alpi_bake_job *job);
+/// ".exr" …: of maps that are no PNGs.
+const char *alpi_bake_map_ending(const alp_bake_options *options);
+/// A file of the maps folder on its way there.
+typedef struct alpi_map_file {
+    uint8_t *bytes; // released by who keeps it
+    size_t size;
+} alpi_map_file;
+/// Encodes a page of a map, a float image of four channels; says where it had to be scaled.
+/// @param name of the map, for that
+alp_result alpi_bake_encode_map(const alpi_bake_job *job, const alp_image *image, const char *name,
+                                uint32_t page, alpi_map_file *file);
+/// Bytes that this takes at its peak, of `page` texels, besides the encoded ones.
+uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t page);
+
 /// Fails before the long work if an output could not be written at its end. Asked for one page
 /// before the atlas is made, and for all of them after.
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Layers of light as files of the maps folder: irradiance.NAME.exr, irradiance.NAME.1.exr …
+// Layers of light as files of the maps folder: irradiance.NAME.exr, irradiance.NAME.1.exr …, or
+// as the format of the maps has it.
 #include "bake/layers.h"
 
 #include "base/memory.h"
-#include "formats/formats.h"
 
 static bool is_written(const alpi_bake_job *job)
 {
@@ -13,8 +13,10 @@ static bool is_written(const alpi_bake_job *job)
 static char *path_of(const alpi_bake_job *job, uint32_t layer, uint32_t page)
 {
     const char *folder = job->options.maps_folder, *name = job->layers.names[layer];
-    return page == 0 ? alpi_format(job->context, "%s/irradiance.%s.exr", folder, name)
-                     : alpi_format(job->context, "%s/irradiance.%s.%u.exr", folder, name, page);
+    const char *ending = alpi_bake_map_ending(&job->options);
+    return page == 0
+               ? alpi_format(job->context, "%s/irradiance.%s%s", folder, name, ending)
+               : alpi_format(job->context, "%s/irradiance.%s.%u%s", folder, name, page, ending);
 }
 
 static alp_result check_file(const alpi_bake_job *job, uint32_t layer, uint32_t page)
@@ -50,20 +52,19 @@ static alp_result append_page(const alpi_bake_job *job, uint32_t layer, uint32_t
     const alp_image view = {.context = job->context,
                             .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
                             .pixels = l->layer_pages[layer][page]};
-    uint8_t *bytes = NULL;
-    size_t size = 0;
+    alpi_map_file file = {0};
     char *path = path_of(job, layer, page);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alp_result result = alpi_exr_encode(&view, &bytes, &size);
+    alp_result result = alpi_bake_encode_map(job, &view, job->layers.names[layer], page, &file);
     if (result == ALP_OK) {
         result = alpi_file_open(job->context, path, job->options.overwrite, writer);
     }
     if (result == ALP_OK) {
-        result = alpi_file_append(writer, bytes, size);
+        result = alpi_file_append(writer, file.bytes, file.size);
     }
-    alpi_release(job->context, bytes);
+    alpi_release(job->context, file.bytes);
     alpi_release(job->context, path);
     return result;
 }

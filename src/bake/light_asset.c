@@ -215,7 +215,7 @@ static alp_result encode_page(alpi_bake_job *job, float *page, uint32_t number)
     size_t *size = &job->light_asset.file_sizes[number];
     switch (job->options.lightmap_format) {
     case ALP_LIGHTMAP_EXR:
-        return alpi_exr_encode_half(&view, job->light_asset.scale, bytes, size);
+        return alpi_exr_encode_half(&view, job->light_asset.scale, false, bytes, size);
     case ALP_LIGHTMAP_HDR:
         return alpi_hdr_encode(&view, bytes, size);
     default:

@@ -78,7 +78,8 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t later = o->denoise                       ? DENOISE_BYTES_PER_TEXEL
                            : alpi_light_has_rounds(options) ? ROUND_BYTES_PER_TEXEL
                                                             : 0;
-    m.solve += solution + DIRECT_BYTES * sides * texels;
+    const uint64_t counted = o->emitters == ALP_EMITTERS_COUNTED ? 2 : 1; // and what is added
+    m.solve += solution + DIRECT_BYTES * sides * texels * counted;
     m.rounds += solution + (DIRECT_BYTES + GATHER_BYTES_PER_TEXEL + later) * texels;
     m.kept = blocks * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     return m;
@@ -109,7 +110,8 @@ static uint64_t count_directional(const alp_bake_options *options)
 /// Light by direction while it is gathered: of the map, of direct light, and of later rounds.
 static uint64_t find_directional(const alp_atlas_info *atlas, const alp_bake_options *options)
 {
-    const uint64_t arrays = alpi_light_has_rounds(options) ? 3u : 2u;
+    const bool counted = options->light.emitters == ALP_EMITTERS_COUNTED;
+    const uint64_t arrays = alpi_light_has_rounds(options) || counted ? 3u : 2u;
     return count_directional(options) > 0 ? arrays * DIRECTIONAL_BYTES_PER_TEXEL * atlas->texels
                                           : 0u;
 }
@@ -148,9 +150,10 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
         const uint64_t gather = solve > m.rounds ? solve : m.rounds;
         rays = rays > gather ? rays : gather;
     }
+    const uint64_t files = alpi_bake_map_file_memory(options, page);
     const uint64_t stored = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages;
     const uint64_t store = stored + (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
-                           BYTES_TO_DILATE * page;
+                           (files > BYTES_TO_DILATE * page ? files : BYTES_TO_DILATE * page);
     const uint64_t write = stored + alpi_bake_light_asset_memory(atlas, scene, options);
     const uint64_t gone = (SIDE_BYTES_PER_TEXEL * sides + LATTICE_BYTES) * atlas->texels;
     uint64_t most = rays > store ? rays : store;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a bake leaves on the disk: maps as EXR and PNG, and the patched asset.
+// What a bake leaves on the disk: maps as PNG and as what is asked for, and the patched asset.
 #include "bake/layers.h"
 
 #include "base/file.h"
@@ -34,25 +34,25 @@ typedef enum map_kind {
 } map_kind;
 
 static const struct {
-    alp_map map; // that must be asked for
-    const char *name, *ending;
+    alp_map map;               // that must be asked for
+    const char *name, *ending; // NULL: as the format of the maps has it
 } map_files[MAP_COUNT] = {[MAP_AO_PNG] = {ALP_MAP_AO, "ao", ".png"},
-                          [MAP_AO] = {ALP_MAP_AO, "ao", ".exr"},
-                          [MAP_ERROR] = {ALP_MAP_AO, "ao.error", ".exr"},
+                          [MAP_AO] = {ALP_MAP_AO, "ao", NULL},
+                          [MAP_ERROR] = {ALP_MAP_AO, "ao.error", NULL},
                           [MAP_SAMPLING] = {ALP_MAP_AO, "ao.sampling", ".png"},
                           [MAP_BENT_PNG] = {ALP_MAP_BENT, "bent", ".png"},
-                          [MAP_BENT] = {ALP_MAP_BENT, "bent", ".exr"},
+                          [MAP_BENT] = {ALP_MAP_BENT, "bent", NULL},
                           [MAP_OBSCURANCE_PNG] = {ALP_MAP_OBSCURANCE, "obscurance", ".png"},
-                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", ".exr"},
-                          [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", ".exr"},
-                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", ".exr"},
-                          [MAP_DIRECT] = {ALP_MAP_DIRECT, "irradiance.direct", ".exr"},
-                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", ".exr"},
-                          [MAP_SH_0] = {ALP_MAP_SH, "sh.0", ".exr"},
-                          [MAP_SH_1] = {ALP_MAP_SH, "sh.1", ".exr"},
-                          [MAP_SH_2] = {ALP_MAP_SH, "sh.2", ".exr"},
-                          [MAP_SH_3] = {ALP_MAP_SH, "sh.3", ".exr"},
-                          [MAP_DIRECTION] = {ALP_MAP_DIRECTION, "direction", ".exr"}};
+                          [MAP_OBSCURANCE] = {ALP_MAP_OBSCURANCE, "obscurance", NULL},
+                          [MAP_IRRADIANCE] = {ALP_MAP_LIGHT, "irradiance", NULL},
+                          [MAP_IRRADIANCE_ERROR] = {ALP_MAP_LIGHT, "irradiance.error", NULL},
+                          [MAP_DIRECT] = {ALP_MAP_DIRECT, "irradiance.direct", NULL},
+                          [MAP_BOUNCED] = {ALP_MAP_BOUNCED, "irradiance.bounced", NULL},
+                          [MAP_SH_0] = {ALP_MAP_SH, "sh.0", NULL},
+                          [MAP_SH_1] = {ALP_MAP_SH, "sh.1", NULL},
+                          [MAP_SH_2] = {ALP_MAP_SH, "sh.2", NULL},
+                          [MAP_SH_3] = {ALP_MAP_SH, "sh.3", NULL},
+                          [MAP_DIRECTION] = {ALP_MAP_DIRECTION, "direction", NULL}};
 
 /// Whether a file of this kind goes to the maps folder.
 static bool is_written(const alp_bake_options *options, int kind)
@@ -61,13 +61,15 @@ static bool is_written(const alp_bake_options *options, int kind)
 }
 
 /// "ao.exr", "ao.1.exr" …
-static char *map_path(alp_context *context, const char *folder, uint32_t page, map_kind kind)
+static char *map_path(const alpi_bake_job *job, uint32_t page, map_kind kind)
 {
     const char *name = map_files[kind].name, *ending = map_files[kind].ending;
+    const char *folder = job->options.maps_folder;
+    ending = ending != NULL ? ending : alpi_bake_map_ending(&job->options);
     if (page == 0) {
-        return alpi_format(context, "%s/%s%s", folder, name, ending);
+        return alpi_format(job->context, "%s/%s%s", folder, name, ending);
     }
-    return alpi_format(context, "%s/%s.%u%s", folder, name, page, ending);
+    return alpi_format(job->context, "%s/%s.%u%s", folder, name, page, ending);
 }
 
 static bool is_gltf_path(const char *path)
@@ -91,15 +93,14 @@ static alp_result check_obj_options(const alpi_bake_job *job)
                            "%s: an .obj has no place for %s; write .glb or .gltf", o->output, what);
 }
 
-static alp_result check_map(alp_context *context, const char *folder, uint32_t page, map_kind kind,
-                            bool overwrite)
+static alp_result check_map(const alpi_bake_job *job, uint32_t page, map_kind kind)
 {
-    char *path = map_path(context, folder, page, kind);
+    char *path = map_path(job, page, kind);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alp_result result = alpi_file_check_writable(context, path, overwrite);
-    alpi_release(context, path);
+    alp_result result = alpi_file_check_writable(job->context, path, job->options.overwrite);
+    alpi_release(job->context, path);
     return result;
 }
 
@@ -130,8 +131,7 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
         for (uint32_t p = 0; p < pages; p++) {
             for (int kind = 0; kind < MAP_COUNT; kind++) {
                 if (is_written(o, kind)) {
-                    ALP_TRY(
-                        check_map(job->context, o->maps_folder, p, (map_kind)kind, o->overwrite));
+                    ALP_TRY(check_map(job, p, (map_kind)kind));
                 }
             }
         }
@@ -253,6 +253,9 @@ static json_t *describe_light(const alpi_bake_job *job)
         isfinite(r->light_relative_error) ? json_real(r->light_relative_error) : json_null(),
         "atlas", atlas_name(r->atlas.mode), "size", (int)r->atlas.width, "pages",
         (int)r->atlas.pages, "padding", (int)o->atlas.padding);
+    if (o->light.emitters == ALP_EMITTERS_COUNTED) {
+        json_object_set_new(object, "emitters", json_string("counted"));
+    }
     if (r->light_direct) {
         json_object_del(object, "gather"); // nothing was
     }
@@ -300,8 +303,7 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
 
 /// The files of one page, as bytes. Without a maps folder only the PNG.
 typedef struct encoded_page {
-    uint8_t *bytes[MAP_COUNT];
-    size_t sizes[MAP_COUNT];
+    alpi_map_file files[MAP_COUNT];
 } encoded_page;
 
 static alp_result make_image(const alpi_bake_job *job, uint32_t page, map_kind kind,
@@ -323,7 +325,7 @@ static alp_result make_image(const alpi_bake_job *job, uint32_t page, map_kind k
 }
 
 static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
-                             encoded_page *out)
+                             alpi_map_file *file)
 {
     const alp_lightmap *l = job->lightmap;
     const bool is_sh = kind >= MAP_SH_0 && kind <= MAP_SH_3;
@@ -341,13 +343,13 @@ static alp_result encode_map(const alpi_bake_job *job, uint32_t page, map_kind k
         const alp_image view = {.context = job->context,
                                 .info = {l->width, l->height, 4, ALP_COMPONENT_FLOAT},
                                 .pixels = pages[page]};
-        return alpi_exr_encode(&view, &out->bytes[kind], &out->sizes[kind]);
+        return alpi_bake_encode_map(job, &view, map_files[kind].name, page, file);
     }
     alp_image *image = NULL;
     ALP_TRY(make_image(job, page, kind, &image));
-    const bool floats = image->info.component == ALP_COMPONENT_FLOAT;
-    alp_result result =
-        (floats ? alpi_exr_encode : alpi_png_encode)(image, &out->bytes[kind], &out->sizes[kind]);
+    alp_result result = image->info.component == ALP_COMPONENT_FLOAT
+                            ? alpi_bake_encode_map(job, image, map_files[kind].name, page, file)
+                            : alpi_png_encode(image, &file->bytes, &file->size);
     alp_image_destroy(image);
     return result;
 }
@@ -358,7 +360,7 @@ static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_p
         const bool attached = kind == MAP_AO_PNG && job->options.output != NULL &&
                               (job->options.maps & ALP_MAP_AO) != 0;
         if (attached || is_written(&job->options, kind)) {
-            ALP_TRY(encode_map(job, page, (map_kind)kind, out));
+            ALP_TRY(encode_map(job, page, (map_kind)kind, &out->files[kind]));
         }
     }
     return ALP_OK;
@@ -367,13 +369,13 @@ static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_p
 static alp_result append_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
                              const encoded_page *encoded, alpi_file_writer *writer)
 {
-    char *path = map_path(job->context, job->options.maps_folder, page, kind);
+    char *path = map_path(job, page, kind);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = alpi_file_open(job->context, path, job->options.overwrite, writer);
     if (result == ALP_OK) {
-        result = alpi_file_append(writer, encoded->bytes[kind], encoded->sizes[kind]);
+        result = alpi_file_append(writer, encoded->files[kind].bytes, encoded->files[kind].size);
     }
     alpi_release(job->context, path);
     return result;
@@ -416,8 +418,8 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             packed[i] = (alpi_packed_image){target->image, target->png, target->png_size};
         }
         for (uint32_t p = 0; p < count; p++) {
-            pngs[p] = pages[p].bytes[MAP_AO_PNG];
-            sizes[p] = pages[p].sizes[MAP_AO_PNG];
+            pngs[p] = pages[p].files[MAP_AO_PNG].bytes;
+            sizes[p] = pages[p].files[MAP_AO_PNG].size;
         }
         const alpi_light_patch light = {.form = light_form(job->options.lightmap_as),
                                         .pages = (const uint8_t *const *)job->light_asset.files,
@@ -501,7 +503,7 @@ alp_result alpi_bake_write_outputs(alpi_bake_job *job)
     }
     for (uint32_t p = 0; p < count; p++) {
         for (int kind = 0; kind < MAP_COUNT; kind++) {
-            alpi_release(job->context, pages[p].bytes[kind]);
+            alpi_release(job->context, pages[p].files[kind].bytes);
         }
     }
     alpi_release(job->context, pages);

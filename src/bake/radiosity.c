@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/counted_emitters.h"
 #include "maps/radiosity.h"
 #include "maps/solution.h"
 #include "transport/cosine_rays.h"
@@ -64,6 +65,8 @@ typedef struct light_gatherers {
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
+    bool counts;    // emissive surfaces are what hemicubes see of them, and
+    alp_scene dark; // direct light is that of the scene without them
 } light_gatherers;
 
 static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_gatherers *g)
@@ -78,7 +81,8 @@ static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_
     g->block_cubes.scattered = true;
     g->blocks = alpi_hemicube_gatherer(&g->block_cubes);
     g->texels = alpi_hemicube_gatherer(&g->texel_cubes);
-    return ALP_OK;
+    g->counts = job->options.light.emitters == ALP_EMITTERS_COUNTED;
+    return g->counts ? alpi_scene_without_emitters(job->scene, &g->dark) : ALP_OK;
 }
 
 /// @param texels that there are
@@ -123,6 +127,8 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
     options.direct = direct;
+    options.direct_scene = g->counts ? &g->dark : NULL;
+    options.counted = g->counts ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
@@ -224,6 +230,7 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
     if (result == ALP_OK) {
         result = gather_with_sky(job, task, &gatherers);
     }
+    alpi_scene_without_emitters_clear(&gatherers.dark);
     alpi_hemicube_destroy(gatherers.block_cube);
     alpi_hemicube_destroy(gatherers.texel_cube);
     return result;

@@ -21,6 +21,32 @@ bool alpi_bake_lights_apart(const alpi_bake_job *job)
            job->options.light.direct == ALP_DIRECT_APART;
 }
 
+/// Pixels tell neither layers nor what is outside of the surfaces that are baked.
+static alp_result check_emitters(const alpi_bake_job *job)
+{
+    const alp_light_options *o = &job->options.light;
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    if ((int)o->emitters < ALP_EMITTERS_ANALYTIC || o->emitters > ALP_EMITTERS_COUNTED) {
+        return alpi_fail(job->context, code, "bake: unknown choice %d of emitters",
+                         (int)o->emitters);
+    }
+    if (o->emitters == ALP_EMITTERS_ANALYTIC) {
+        return ALP_OK;
+    }
+    if (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0) {
+        return alpi_fail(job->context, code,
+                         "bake: emitters are counted by the pixels of hemicubes, and with bounces");
+    }
+    if (o->layers || job->options.only != NULL) {
+        return alpi_fail(
+            job->context, code,
+            "bake: pixels do not tell emitters apart, and count them for all surfaces; "
+            "leave out %s",
+            o->layers ? "layers" : "the choice of surfaces");
+    }
+    return ALP_OK;
+}
+
 static alp_result check_light(const alpi_bake_job *job)
 {
     const alp_light_options *o = &job->options.light;
@@ -63,7 +89,7 @@ static alp_result check_light(const alpi_bake_job *job)
                          "bake: hemicubes of %u pixels, need an even number from 2 to 1024",
                          o->hemicube);
     }
-    return ALP_OK;
+    return check_emitters(job);
 }
 
 alp_result alpi_bake_check_maps(const alpi_bake_job *job)

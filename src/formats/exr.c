@@ -9,12 +9,16 @@
 
 #include <openexr.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /// No compression that OpenEXRCore reads packs more than zlib's 1032 bytes into one; a header that
 /// promises more is not believed, so that a short file cannot ask for gigabytes.
 enum { MOST_BYTES_PER_BYTE = 1100 };
+
+/// Attribute of ours: what 1 stands for, a float.
+#define SCALE_NAME "alpenglowScale"
 
 /// What the library's callbacks reach: the bytes, and the first message it gave.
 typedef struct exr_stream {
@@ -345,6 +349,25 @@ static alp_result decode_tiles(exr_reader *reader)
     return ALP_OK;
 }
 
+/// Gives the colours of a file that states a scale their values back. Last of all, as the library
+/// tells of an attribute that is not there as of a fault.
+static void take_scale(const exr_reader *reader)
+{
+    float scale = 1.0f;
+    if (exr_attr_get_float(reader->exr, 0, SCALE_NAME, &scale) != EXR_ERR_SUCCESS ||
+        !(scale > 0.0f && scale < INFINITY)) {
+        return;
+    }
+    const alp_image_info *info = &reader->image->info;
+    const uint32_t colors = info->channels - (info->channels % 2 == 0 ? 1 : 0); // and alpha
+    float *pixels = reader->image->pixels;
+    for (size_t i = 0; i < (size_t)info->width * info->height; i++) {
+        for (uint32_t k = 0; k < colors; k++) {
+            pixels[i * info->channels + k] *= scale;
+        }
+    }
+}
+
 static alp_result read_part(exr_reader *reader)
 {
     ALP_TRY(check_kind(reader));
@@ -353,7 +376,9 @@ static alp_result read_part(exr_reader *reader)
     ALP_TRY(create_image(reader, channels));
     exr_storage_t storage = EXR_STORAGE_SCANLINE;
     TRY_EXR(reader, exr_get_storage(reader->exr, 0, &storage));
-    return storage == EXR_STORAGE_TILED ? decode_tiles(reader) : decode_scanlines(reader);
+    ALP_TRY(storage == EXR_STORAGE_TILED ? decode_tiles(reader) : decode_scanlines(reader));
+    take_scale(reader);
+    return ALP_OK;
 }
 
 alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
@@ -409,7 +434,7 @@ static exr_result_t write_header(exr_context_t exr, const exr_source *source)
         code = exr_add_channel(exr, part, source->channels[k], type, EXR_PERCEPTUALLY_LINEAR, 1, 1);
     }
     if (code == EXR_ERR_SUCCESS && source->scale != 1.0f) {
-        code = exr_attr_set_float(exr, part, "alpenglowScale", source->scale);
+        code = exr_attr_set_float(exr, part, SCALE_NAME, source->scale);
     }
     return code == EXR_ERR_SUCCESS ? exr_write_header(exr) : code;
 }
@@ -514,10 +539,12 @@ alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size
     return encode_source(&source, bytes, size);
 }
 
-alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **bytes, size_t *size)
+alp_result alpi_exr_encode_half(const alp_image *image, float scale, bool alpha, uint8_t **bytes,
+                                size_t *size)
 {
     ALP_TRY(check_floats(image, bytes, size));
-    const uint32_t channels = image->info.channels, count = channels < 3 ? 1 : 3;
+    const uint32_t channels = image->info.channels;
+    const uint32_t count = alpha ? channels : channels < 3 ? 1 : 3;
     const size_t pixels = (size_t)image->info.width * image->info.height;
     uint16_t *halves = ALPI_NEW(image->context, uint16_t, count * pixels);
     if (halves == NULL) {
@@ -527,7 +554,7 @@ alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **b
     for (size_t i = 0; i < count * pixels; i++) {
         halves[i] = alpi_half_from_float(floats[i / count * channels + i % count]);
     }
-    const exr_source source = {image, count == 1 ? GREY : COLOR, count, halves, scale};
+    const exr_source source = {image, count < 3 ? GREY : COLOR, count, halves, scale};
     const alp_result result = encode_source(&source, bytes, size);
     alpi_release(image->context, halves);
     return result;

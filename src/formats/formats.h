@@ -126,9 +126,11 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
 /// Encodes to memory; *bytes is released by the caller. PNG takes bytes, EXR and HDR floats.
 alp_result alpi_png_encode(const alp_image *image, uint8_t **bytes, size_t *size);
 alp_result alpi_exr_encode(const alp_image *image, uint8_t **bytes, size_t *size);
-/// Half floats of red, green and blue (of four channels, without alpha): nearest, ties to even. The
-/// header says "alpenglowScale", what 1 stands for, where that is not 1.
-alp_result alpi_exr_encode_half(const alp_image *image, float scale, uint8_t **bytes, size_t *size);
+/// Half floats of red, green and blue, and of alpha if wanted: nearest, ties to even. The header
+/// says "alpenglowScale", what 1 of the colours stands for, where that is not 1; alpi_exr_decode
+/// multiplies by it.
+alp_result alpi_exr_encode_half(const alp_image *image, float scale, bool alpha, uint8_t **bytes,
+                                size_t *size);
 /// RGBA16F with the first row at the top, one level, Zstandard; halves as above, and so the key
 /// "alpenglowScale", a power of two as text. Takes float images of four channels.
 alp_result alpi_ktx2_encode(const alp_image *image, float scale, uint8_t **bytes, size_t *size);

@@ -26,6 +26,9 @@ typedef struct alpi_radiosity_options {
     const alpi_lighting *lighting; // all light
     const alpi_lighting *direct;   // that alpi_direct looks for: all of it, or all but a soft sky
                                    // (then no panes)
+    const alp_scene *direct_scene; // whose emissive surfaces it looks for; NULL: those of `scene`
+    const alpi_gatherer *counted;  // sees the emissive surfaces that it does not, at each texel;
+                                   // NULL: there are none
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left

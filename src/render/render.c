@@ -10,6 +10,7 @@
 #include "maps/solution.h"
 #include "render/automatic_camera.h"
 #include "render/camera_rays.h"
+#include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
 #include "scene/select.h"
 #include "transport/examine.h"
@@ -24,6 +25,10 @@ enum { SIDE_LIMIT = 16384, SAMPLE_LIMIT = 65536 };
 // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
 enum { RAYS_PER_RANGE = 1 << 14, PIXELS_PER_RANGE = 64 };
 enum { STREAM_PIXEL = 1 }; // random numbers of camera rays, apart from those of occlusion
+
+/// Hemicubes start so far above a point that may lie on a surface, of the scene's diagonal: digits
+/// that somebody types are no nearer.
+static const float HEMICUBE_START = 1e-5f;
 
 typedef struct render_job {
     const alp_scene *scene;
@@ -46,6 +51,7 @@ alp_render_options alp_render_options_default(void)
                                   .width = 960,
                                   .height = 540,
                                   .samples = 16,
+                                  .hemicube = 256,
                                   .bounces = ALP_BOUNCES_CONVERGE,
                                   .atlas = alp_atlas_options_default(),
                                   .lighting = alp_lighting_options_default(),
@@ -68,8 +74,11 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code, "render: %u samples per pixel, need 1 to %d",
                          o->samples, SAMPLE_LIMIT);
     }
-    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_RADIOSITY) {
+    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_HEMICUBE) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
+    }
+    if (o->method == ALP_RENDER_HEMICUBE) {
+        ALP_TRY(alpi_hemicube_view_check(scene->context, o));
     }
     if (o->lightmap != NULL && o->lightmap->scene != scene) {
         return alpi_fail(scene->context, code, "render: the maps belong to another scene");
@@ -98,7 +107,12 @@ static alp_result place_camera(render_job *job)
         ALP_TRY(alpi_camera_choose(job->scene, o->camera_index, o->progress, o->progress_user,
                                    &camera));
     }
-    return alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view);
+    ALP_TRY(alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view));
+    if (o->method == ALP_RENDER_HEMICUBE) {
+        const float size = vec3_length(vec3_sub(job->scene->bounds_max, job->scene->bounds_min));
+        job->view.origin = vec3_mad(job->view.origin, HEMICUBE_START * size, job->view.forward);
+    }
+    return ALP_OK;
 }
 
 /// Says where a picture will be black because the camera stands in a wall: methods that light the
@@ -107,7 +121,8 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
 {
     enum { ACROSS = 8 };
     const alp_render_method method = job->options.method;
-    const bool lights = method != ALP_RENDER_AO && method != ALP_RENDER_CONSTANT;
+    const bool map = method == ALP_RENDER_HEMICUBE && alpi_hemicube_view_is_map(&job->options);
+    const bool lights = method != ALP_RENDER_AO && method != ALP_RENDER_CONSTANT && !map;
     enum { COUNT = ACROSS * ACROSS };
     vec3 directions[COUNT];
     float x[COUNT], y[COUNT], d[3][COUNT] = {{0.0f}};
@@ -378,6 +393,13 @@ static alp_result prepare_light(render_job *job, alp_image_info info)
     return ALP_OK;
 }
 
+static alp_result draw_hemicube(render_job *job)
+{
+    const alpi_hemicube_view view = {job->scene, &job->options, job->tracer, job->view.origin,
+                                     job->view.forward};
+    return alpi_hemicube_view_draw(&view, &job->image);
+}
+
 static alp_result run(render_job *job)
 {
     const alp_render_options *o = &job->options;
@@ -386,6 +408,9 @@ static alp_result run(render_job *job)
     ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &tracer, NULL));
     job->tracer = tracer;
     warn_of_walls(job, tracer);
+    if (o->method == ALP_RENDER_HEMICUBE) {
+        return draw_hemicube(job);
+    }
     alp_occlusion_options occlusion = o->occlusion;
     occlusion.samples =
         o->occlusion.samples / o->samples + (o->occlusion.samples % o->samples != 0);
