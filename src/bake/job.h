@@ -50,8 +50,8 @@ typedef struct alpi_bake_job {
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
-    float (*irradiance)[3], (*irradiance_errors)[3]; // the same
-    float (*direct)[3], (*bounced)[3];               // [texels] apart, both or none
+    float (*irradiance)[3], (*irradiance_errors)[3]; // [texels] once they are known
+    float (*direct)[3], (*bounced)[3];               // the same, apart, both or none
     alpi_directional *directional;                   // [texels] while sampling; NULL: not asked for
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling

@@ -29,18 +29,18 @@ static const double TIME_SHARE = 0.9;
 
 typedef struct rounds {
     alpi_bake_job *job;
-    const alpi_light_task *task;
+    alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
+    float (*skies)[3]; // [texels] what of the bounced light is a soft sky's; NULL: there is none
     alpi_reference_value *fresh;         // [texels] of a later round
-    float (*fresh_skies)[3];             // [texels]
+    float (*fresh_skies)[3];             // [texels], or NULL too
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
     uint8_t *states;                     // [texels]
     uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
     uint32_t *counts;                    // [texels] samples of direct light so far
-    uint32_t *list;                      // [texels]
-    uint8_t *noisy;                      // [texels]
+    uint32_t *list;                      // [texels] while direct light is gathered
+    uint8_t *noisy;                      // [texels] the same
     uint32_t number;                     // of the round
     double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
     double mean;                         // of all light, over texels and channels
@@ -97,6 +97,7 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .near = job->validity.near,
         .adaptive = r->fixed == NULL && !job->options.light.denoise &&
                     job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,
     };
     alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
     const double began = alpi_seconds();
@@ -138,7 +139,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
         const uint32_t t = r->task->order[i];
         merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
         mix(r, r->task->directional, t, r->rays, rays);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && r->skies != NULL; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
     }
@@ -192,12 +193,23 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
     }
 }
 
+static void release_list(rounds *r)
+{
+    alpi_release(r->job->context, r->list);
+    alpi_release(r->job->context, r->noisy);
+    r->list = NULL;
+    r->noisy = NULL;
+}
+
 /// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
 /// root mean square that would do.
 static alp_result add_direct(rounds *r, double more, double wanted)
 {
     const alpi_light_task *t = r->task;
     const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    const uint32_t texels = t->receivers->count;
+    ALPI_TRY_NEW(r->job->context, r->list, texels);
+    ALPI_TRY_NEW(r->job->context, r->noisy, texels);
     const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
     const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), 1);
     const double began = alpi_seconds();
@@ -214,6 +226,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
         mix(r, r->solution->directional, texel, r->counts[texel], samples);
         r->counts[texel] += samples;
     }
+    release_list(r);
     r->direct += samples;
     return ALP_OK;
 }
@@ -328,7 +341,10 @@ static alp_result begin(rounds *r)
     const uint32_t texels = r->task->receivers->count;
     const uint32_t most = most_rays(&r->job->options.light);
     const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
-    ALPI_TRY_NEW(context, r->skies, texels);
+    ALPI_TRY_NEW(context, r->task->values, texels);
+    if (alpi_radiosity_scene(r->solution).sky) {
+        ALPI_TRY_NEW(context, r->skies, texels);
+    }
     ALPI_TRY_NEW(context, r->states, texels);
     alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
     ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies,
@@ -348,13 +364,13 @@ static alp_result go_on(rounds *r)
     const bool timed = !(r->job->options.light.error > 0.0f);
     const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
     ALPI_TRY_NEW(context, r->fresh, texels);
-    ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    if (r->skies != NULL) {
+        ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    }
     if (r->task->directional != NULL) {
         ALPI_TRY_NEW(context, r->fresh_directional, texels);
     }
     ALPI_TRY_NEW(context, r->counts, texels);
-    ALPI_TRY_NEW(context, r->list, texels);
-    ALPI_TRY_NEW(context, r->noisy, texels);
     for (uint32_t t = 0; t < texels; t++) {
         r->counts[t] = r->direct;
     }
@@ -451,10 +467,12 @@ static alp_result filter(rounds *r, denoise_arrays *a)
                          a->variances));
     for (uint32_t i = 0; i < count; i++) {
         alpi_reference_value *v = &r->task->values[r->task->order[i]];
-        float *sky = r->skies[r->task->order[i]];
+        float *sky = r->skies != NULL ? r->skies[r->task->order[i]] : NULL;
         for (int k = 0; k < 3; k++) {
             const float mean = fmaxf(a->means[i][k], 0.0f);
-            sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
+            if (sky != NULL) {
+                sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
+            }
             v->mean[k] = mean;
             v->variance[k] = a->variances[i][k];
         }
@@ -470,13 +488,11 @@ static void release_rounds(rounds *r)
     alpi_release(context, r->fresh_skies);
     alpi_release(context, r->fresh_directional);
     alpi_release(context, r->counts);
-    alpi_release(context, r->list);
-    alpi_release(context, r->noisy);
+    release_list(r);
     r->fresh_directional = NULL;
     r->fresh = NULL;
     r->fresh_skies = NULL;
-    r->counts = r->list = NULL;
-    r->noisy = NULL;
+    r->counts = NULL;
 }
 
 /// Takes noise off the bounced light; direct light has edges that must stay.
@@ -496,16 +512,22 @@ static alp_result denoise(rounds *r)
 }
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static void put_together(const rounds *r)
+static alp_result put_together(const rounds *r)
 {
-    const alpi_bake_job *job = r->job;
+    alpi_bake_job *job = r->job;
+    const uint32_t texels = r->task->receivers->count;
+    if (alpi_bake_lights_apart(job)) {
+        ALPI_TRY_NEW(job->context, job->direct, texels);
+        ALPI_TRY_NEW(job->context, job->bounced, texels);
+    }
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t texel = r->task->order[i];
         const alpi_reference_value *direct = &r->solution->direct[texel];
         alpi_reference_value *value = &r->task->values[texel];
         for (int k = 0; k < 3; k++) {
-            const float sky = r->skies[texel][k], bounced = value->mean[k] - sky;
+            const float sky = r->skies != NULL ? r->skies[texel][k] : 0.0f;
+            const float bounced = value->mean[k] - sky;
             if (job->direct != NULL) {
                 job->direct[texel][k] = direct->mean[k] + sky;
                 job->bounced[texel][k] = bounced;
@@ -520,21 +542,22 @@ static void put_together(const rounds *r)
     }
     alpi_bake_sum_layers(job, r->task->order, r->task->count, (const float(*)[3])r->skies, on,
                          r->task->values);
+    return ALP_OK;
 }
 
-alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
-                             const alpi_gatherer *fixed, alpi_radiosity *solution)
+alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
+                             alpi_radiosity *solution)
 {
     rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
     alp_result result = run_rounds(&r);
     if (result == ALP_OK && job->options.light.denoise) {
         result = denoise(&r);
     }
+    release_rounds(&r);
     if (result == ALP_OK) {
-        put_together(&r);
+        result = put_together(&r);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
-    release_rounds(&r);
     return result;
 }

@@ -8,8 +8,12 @@
 #include <unistd.h>
 
 enum {
-    // alpi_texels 51 and a piece 8, lattice 9, error 4, state 1
-    BYTES_PER_TEXEL = 73,
+    BYTES_PER_TEXEL = 60,    // alpi_texels 51 and a piece 8, state 1
+    LATTICE_BYTES = 9,       // of each texel, and until maps are stored
+    GRID_BYTES = 4,          // of each texel of a page, the same
+    ERROR_BYTES = 4,         // of occlusion
+    VECTOR_BYTES = 12,       // of each map beside occlusion and light
+    BYTES_PER_TRIANGLE = 32, // of the atlas: coordinates 24, page 4, chart 4
     // While rays are sent: sums 20, marks 1, inside 2, near 1, dropped 1, order 4, list 4. The
     // packets of a worker, 25 KiB, are on its stack.
     RAY_BYTES_PER_TEXEL = 33,
@@ -17,32 +21,38 @@ enum {
     OBJECT_BYTES_PER_TEXEL = 4, // the texels dealt out to objects
     BYTES_PER_SAMPLE = 3 * 13,  // sequence 12, places 1: of the map and of two held-out estimates
     BYTES_OF_PROBES = 8192 * 44,
-    BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
-    BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
-    // Of each map beside occlusion.
-    SIDE_BYTES_PER_TEXEL = 12,
+    PAGE_BYTES = 16,     // of each map when it is stored: float RGBA
+    BYTES_TO_DILATE = 5, // of one page at a time: filled 1, queue 4
+    FILE_BYTES = 8,      // of each map in a folder, about, in a page's texels
+    FILE_GROWTH = 16,    // of the one that is being made
     // Light by direction: kept, and of direct light while that is gathered and in rounds. One map
     // at a time when it is stored.
-    DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional),
-    SIDE_BYTES_PER_PAGE_TEXEL = 16, // its pages are made when it is stored
-    BYTES_PER_TRIANGLE = 32         // of the atlas: coordinates 24, page 4, chart 4
+    DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional)
 };
 
 // Of light, while it is gathered and nothing of occlusion's rays is left but near 1, dropped 1 and
-// order 4.
+// order 4. Where a bake holds the most is while it solves, or in its rounds; each lets go of what
+// the other needs.
 enum {
-    LIGHT_BYTES_PER_TEXEL = 30, // and mean and variance 24
-    // alpi_patches: stand-ins 4, reflectances 12, emissions 12, blocks 4 and their texels, ends,
-    // firsts and areas 20
-    PATCH_BYTES_PER_TEXEL = 52,
-    CELL_BYTES = 16,   // of each side
-    DIRECT_BYTES = 24, // of each side, and of one once it is solved
-    BACK_BYTES = 5,    // of two-sided scenes: seen 1, a list 4
-    BLOCK_BYTES = 64,  // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
-    // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
-    GATHER_BYTES_PER_TEXEL = 34,
-    ROUND_BYTES_PER_TEXEL = 45,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
-    DENOISE_BYTES_PER_TEXEL = 256, // in their place, measured
+    LIGHT_BYTES_PER_TEXEL = 6,
+    VALUE_BYTES = 24, // mean and variance
+    TAKEN_BYTES = 28, // means, errors, and errors of all channels
+    APART_BYTES = 24, // direct and bounced light
+    CELL_BYTES = 16,  // of each side
+    // alpi_patches: stand-ins 4, reflectances 12, emissions 4, blocks 4 and their texels and ends 8
+    PATCH_BYTES_PER_TEXEL = 32,
+    SETTLED_BYTES = 4, // stand-ins
+    BACK_BYTES = 4,    // of two-sided scenes: a list, then blocks
+    SIDE_BLOCK_BYTES =
+        64,            // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
+    BLOCK_BYTES = 13,  // first texel 4, area 8, seen 1
+    GATHER_BYTES = 26, // values, states 1, marks 1
+    LEVEL_BYTES = 4,   // where those of occlusion may not be written over
+    SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds
+    ROUND_BYTES = 32,  // of later rounds: fresh 24, counts 4, list 4
+    BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
+    BAND_BYTES = 5 << 18,          // so many at most
+    DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured
     SPACING = 4                    // texels along a block
 };
 
@@ -61,48 +71,87 @@ typedef struct light_memory {
     uint64_t kept; // rays of blocks, while it is solved, if they are kept
 } light_memory;
 
+static uint64_t larger(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
+static bool has_occlusion(const alp_bake_options *options)
+{
+    return (options->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
+}
+
+/// Bytes of a texel in the rounds, but for what is left of the solution.
+static uint64_t find_round_bytes(const alp_bake_options *options)
+{
+    const alp_light_options *o = &options->light;
+    const bool again = alpi_light_has_rounds(options), apart = o->direct == ALP_DIRECT_APART;
+    const uint64_t sky = alpi_light_has_soft_sky(o) ? SKY_BYTES : 0u;
+    const uint64_t levels = has_occlusion(options) ? LEVEL_BYTES : 0u;
+    const uint64_t later = again ? ROUND_BYTES + sky : levels;
+    return GATHER_BYTES + VALUE_BYTES + sky + // the second are those of direct light
+           larger(larger(o->denoise ? DENOISE_BYTES_PER_TEXEL : 0u, later),
+                  apart ? APART_BYTES : 0u);
+}
+
 static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                                       const alp_bake_options *options)
 {
-    const uint64_t texels = atlas->texels;
-    light_memory m = {LIGHT_BYTES_PER_TEXEL * texels, LIGHT_BYTES_PER_TEXEL * texels, 0};
+    const uint64_t texels = atlas->texels, taken = VALUE_BYTES + TAKEN_BYTES;
+    light_memory m = {0, (LIGHT_BYTES_PER_TEXEL + taken) * texels, 0};
     const alp_light_options *o = &options->light;
     if (o->bounces == 0 || o->gather == ALP_GATHER_PATHS) {
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const uint64_t blocks = (uint64_t)((double)sides * count_blocks(atlas));
-    const uint64_t solution = (PATCH_BYTES_PER_TEXEL + CELL_BYTES * sides) * texels +
-                              BLOCK_BYTES * blocks + (sides > 1 ? BACK_BYTES * texels : 0);
-    const uint64_t later = o->denoise                       ? DENOISE_BYTES_PER_TEXEL
-                           : alpi_light_has_rounds(options) ? ROUND_BYTES_PER_TEXEL
-                                                            : 0;
-    m.solve += solution + DIRECT_BYTES * sides * texels;
-    m.rounds += solution + (DIRECT_BYTES + GATHER_BYTES_PER_TEXEL + later) * texels;
-    m.kept = blocks * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+    const uint64_t blocks = (uint64_t)count_blocks(atlas);
+    const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
+    const uint64_t each = LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back;
+    const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
+    const uint64_t solution = (each + PATCH_BYTES_PER_TEXEL) * texels + of_blocks;
+    const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
+    m.kept = blocks * sides * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+    m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
+    m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
+                                    (o->layers ? solution : (each + SETTLED_BYTES) * texels));
+    if (sides > 1) { // direct light of backs goes by a copy of that of fronts
+        m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
+    }
     return m;
 }
 
-/// What is held for the whole of the bake.
-static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene, uint64_t sides)
+/// Values of maps beside occlusion and light, each until it is stored.
+static uint64_t find_vectors(const alp_atlas_info *atlas, const alp_bake_options *options)
 {
-    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
-    return (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels +
-           BYTES_PER_PAGE_TEXEL * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
+    return VECTOR_BYTES * atlas->texels *
+           (((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+            ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u));
 }
 
-static uint64_t count_sides(const alp_bake_options *options)
+/// What is held until all maps are stored.
+static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene,
+                          const alp_bake_options *options)
 {
-    const bool apart = options->light.direct == ALP_DIRECT_APART;
-    return ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
-           ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
-           ((options->maps & ALP_MAP_LIGHT) != 0 ? apart ? 4u : 2u : 0u); // and its errors
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    return (BYTES_PER_TEXEL + LATTICE_BYTES + (has_occlusion(options) ? ERROR_BYTES : 0u)) *
+               atlas->texels +
+           GRID_BYTES * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
 }
 
 static uint64_t count_directional(const alp_bake_options *options)
 {
     return ((options->maps & ALP_MAP_SH) != 0 ? 4u : 0u) +
            ((options->maps & ALP_MAP_DIRECTION) != 0 ? 1u : 0u);
+}
+
+/// Maps of floats.
+static uint64_t count_maps(const alp_bake_options *options)
+{
+    const bool apart = options->light.direct == ALP_DIRECT_APART;
+    return (has_occlusion(options) ? 1u : 0u) + ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+           ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
+           ((options->maps & ALP_MAP_LIGHT) != 0 ? apart ? 4u : 2u : 0u) + // and its errors
+           count_directional(options);
 }
 
 /// Light by direction while it is gathered: of the map, of direct light, and of later rounds.
@@ -125,35 +174,44 @@ static uint64_t find_around(const alp_atlas_info *atlas, const alp_scene *scene,
     around.width = around.height = options->atlas.size;
     around.pages = 1;
     around.texels = (uint64_t)around.width * around.height;
-    return find_kept(&around, scene, 0) + find_light_memory(&around, scene, options).solve;
+    return find_kept(&around, scene, options) + find_light_memory(&around, scene, options).solve;
+}
+
+/// While maps are stored, and while they are written, when the lattice is gone.
+static uint64_t find_stored(const alp_atlas_info *atlas, const alp_scene *scene,
+                            const alp_bake_options *options)
+{
+    const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
+    const uint64_t maps = count_maps(options), kept = find_kept(atlas, scene, options);
+    const bool directional = count_directional(options) > 0;
+    const uint64_t stored = PAGE_BYTES * maps * pages + BYTES_TO_DILATE * page +
+                            (directional ? VECTOR_BYTES * atlas->texels : 0u) +
+                            find_directional(atlas, options) +
+                            alpi_bake_light_asset_memory(atlas, options);
+    const uint64_t files = options->maps_folder != NULL ? FILE_BYTES * maps * pages : 0u;
+    const uint64_t written =
+        (PAGE_BYTES * maps - GRID_BYTES) * pages + files + (files > 0 ? FILE_GROWTH * page : 0u);
+    return kept + larger(stored, written - LATTICE_BYTES * atlas->texels);
 }
 
 /// @param rays of the blocks that are kept, or UINT64_MAX: as many as there are
 static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                             const alp_bake_options *options, uint64_t kept_rays)
 {
-    const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
-    const uint64_t sides = count_sides(options);
-    const uint64_t directional = count_directional(options);
     uint64_t of_texel = RAY_BYTES_PER_TEXEL;
     const bool vectors = (options->maps & (ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
     of_texel += vectors ? RAY_BYTES_OF_VECTORS : 0u;
     of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
-    uint64_t rays = of_texel * atlas->texels + BYTES_OF_PROBES +
+    uint64_t most = of_texel * atlas->texels + BYTES_OF_PROBES +
                     (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;
     if ((options->maps & ALP_MAP_LIGHT) != 0) {
         const light_memory m = find_light_memory(atlas, scene, options);
         const uint64_t solve = m.solve + (m.kept < kept_rays ? m.kept : kept_rays);
-        const uint64_t gather = solve > m.rounds ? solve : m.rounds;
-        rays = rays > gather ? rays : gather;
+        most = larger(most, larger(solve, m.rounds));
     }
-    const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages +
-                           (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
-                           BYTES_TO_DILATE * page;
-    const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
-    const uint64_t most = rays > store ? rays : store;
-    return find_kept(atlas, scene, sides) + find_directional(atlas, options) +
-           find_around(atlas, scene, options) + (most > store + light ? most : store + light);
+    return larger(find_kept(atlas, scene, options) + find_vectors(atlas, options) +
+                      find_directional(atlas, options) + find_around(atlas, scene, options) + most,
+                  find_stored(atlas, scene, options));
 }
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -169,8 +227,8 @@ static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *
         return 0;
     }
     const light_memory m = find_light_memory(atlas, job->scene, &job->options);
-    const double held = (double)m.solve +
-                        (double)find_kept(atlas, job->scene, count_sides(&job->options)) +
+    const double held = (double)m.solve + (double)find_kept(atlas, job->scene, &job->options) +
+                        (double)find_vectors(atlas, &job->options) +
                         (double)find_directional(atlas, &job->options) +
                         (double)find_around(atlas, job->scene, &job->options) +
                         (double)alpi_bake_layers_memory(job, atlas);

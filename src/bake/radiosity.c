@@ -91,8 +91,8 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g, const alpi_lighting *direct)
+static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g,
+                               const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
     alpi_radiosity_options options = alpi_radiosity_options_default();
@@ -115,6 +115,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
+    alpi_radiosity_settle(&solution);
     const alp_result result =
         alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
     alpi_radiosity_destroy(&solution);
@@ -146,8 +147,7 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
 
 /// Where only some surfaces are baked, light comes from all: it is solved for on an atlas of the
 /// whole scene, one page of the bake's size, always by cosine rays.
-static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
-                                const light_gatherers *g)
+static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
 {
     alpi_solution_options options = {.scene = job->scene,
                                      .tracer = t->tracer,
@@ -167,6 +167,7 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     alp_result result = light_texels(job, t, &around->radiosity);
     if (result == ALP_OK) {
         report_solution(job, &around->radiosity);
+        alpi_radiosity_settle(&around->radiosity);
         result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
                                    &around->radiosity);
     }
@@ -174,18 +175,21 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
+bool alpi_light_has_soft_sky(const alp_light_options *options)
+{
+    const alp_sky_kind kind = options->lighting.sky.kind;
+    return kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR;
+}
+
 /// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
 /// mix the two.
 static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
 {
-    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
-    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
-           !alpi_tracer_has_panes(tracer);
+    return alpi_light_has_soft_sky(&job->options.light) && !alpi_tracer_has_panes(tracer);
 }
 
 /// The light that is looked for directly: all, or all but a soft sky.
-static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
-                                  const light_gatherers *g)
+static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
@@ -202,7 +206,7 @@ static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
-alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
+alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task)
 {
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, task->receivers->count, &gatherers);

@@ -18,6 +18,7 @@ typedef struct alpi_bounced_options {
     uint32_t count;
     const uint8_t *near; // [texels] alpi_nearness, or NULL
     bool adaptive;       // false: all texels are traced
+    float *levels;       // [texels] that may be written over, or NULL
 } alpi_bounced_options;
 
 typedef struct alpi_bounced_report {

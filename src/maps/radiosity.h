@@ -86,6 +86,9 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alp_atlas *atlas, const uint32_t *order, uint32_t count,
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity);
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
+/// Lets go of what only solving takes: what is left gives direct light by other samples, and is
+/// looked at by who gathers the last bounce. With layers, which are shown one by one, all stays.
+void alpi_radiosity_settle(alpi_radiosity *radiosity);
 
 /// Puts the light of one layer into the cells, as it goes into the last bounce; ALPI_NONE: of all
 /// of them, which is there after solving.
