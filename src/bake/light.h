@@ -52,8 +52,6 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Whether the sky is of a kind that is gathered with what is bounced.
-bool alpi_light_has_soft_sky(const alp_light_options *options);
 /// Rays that a block gathers by, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Samples of each light at a texel in the first round.

@@ -43,13 +43,13 @@ enum {
     PATCH_BYTES_PER_TEXEL = 32,
     SETTLED_BYTES = 4, // stand-ins
     BACK_BYTES = 4,    // of two-sided scenes: a list, then blocks
-    SIDE_BLOCK_BYTES =
-        64,            // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
-    BLOCK_BYTES = 13,  // first texel 4, area 8, seen 1
-    GATHER_BYTES = 26, // values, states 1, marks 1
-    LEVEL_BYTES = 4,   // where those of occlusion may not be written over
-    SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds
-    ROUND_BYTES = 32,  // of later rounds: fresh 24, counts 4, list 4
+    // Of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8.
+    SIDE_BLOCK_BYTES = 64,
+    BLOCK_BYTES = 13,              // first texel 4, area 8, seen 1
+    GATHER_BYTES = 26,             // values, states 1, marks 1
+    LEVEL_BYTES = 4,               // where those of occlusion may not be written over
+    SKY_BYTES = 12,                // a soft sky's part of the values, and of those of later rounds
+    ROUND_BYTES = 32,              // of later rounds: fresh 24, counts 4, list 4
     BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
     BAND_BYTES = 5 << 18,          // so many at most
     DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured
@@ -86,7 +86,7 @@ static uint64_t find_round_bytes(const alp_bake_options *options)
 {
     const alp_light_options *o = &options->light;
     const bool again = alpi_light_has_rounds(options), apart = o->direct == ALP_DIRECT_APART;
-    const uint64_t sky = alpi_light_has_soft_sky(o) ? SKY_BYTES : 0u;
+    const uint64_t sky = o->lighting.sky.kind != ALP_SKY_NONE ? SKY_BYTES : 0u;
     const uint64_t levels = has_occlusion(options) ? LEVEL_BYTES : 0u;
     const uint64_t later = again ? ROUND_BYTES + sky : levels;
     return GATHER_BYTES + VALUE_BYTES + sky + // the second are those of direct light
@@ -113,7 +113,8 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     m.kept = blocks * sides * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
-                                    (o->layers ? solution : (each + SETTLED_BYTES) * texels));
+                                    (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
+                                               : (each + SETTLED_BYTES) * texels));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts
         m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
     }
@@ -235,6 +236,13 @@ static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *
     return limit > held ? (uint64_t)(limit - held) : 0;
 }
 
+/// As few digits as a message wants, and not too little.
+static double round_up(double number)
+{
+    const double unit = pow(10.0, floor(log10(number)) - 2.0);
+    return ceil(number / unit) * unit;
+}
+
 alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas)
 {
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
@@ -247,8 +255,8 @@ alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atla
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
                          "%s: %llu texels need %.3g MiB, the limit is %.3g MiB; use a smaller size "
                          "or fewer texels per metre, or allow more",
-                         job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p20,
-                         (double)limit / 0x1p20);
+                         job->scene->name, (unsigned long long)atlas->texels,
+                         round_up(needed / 0x1p20), (double)limit / 0x1p20);
     }
     if (pages > 0 && page_size > 0 && needed > 0.9 * present) {
         return alpi_fail(job->context, ALP_ERROR_LIMIT,

@@ -175,33 +175,23 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
     return result;
 }
 
-bool alpi_light_has_soft_sky(const alp_light_options *options)
-{
-    const alp_sky_kind kind = options->lighting.sky.kind;
-    return kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR;
-}
-
-/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
-/// mix the two.
-static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
-{
-    return alpi_light_has_soft_sky(&job->options.light) && !alpi_tracer_has_panes(tracer);
-}
-
-/// The light that is looked for directly: all, or all but a soft sky.
+/// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
+/// are looked for directly, with all else. Panes would mix the two.
 static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
     }
-    if (!has_soft_sky(job, t->tracer)) {
+    if (alpi_lighting_sky(t->lighting) == NULL || alpi_tracer_has_panes(t->tracer)) {
         return gather_light(job, t, g, t->lighting);
     }
-    alp_lighting_options options = job->options.light.lighting;
-    alpi_lighting *direct = NULL;
-    options.sky.kind = ALP_SKY_NONE;
-    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
-    const alp_result result = gather_light(job, t, g, direct);
+    alpi_light_task with_soft_sky = *t;
+    alpi_lighting *soft = NULL, *direct = NULL;
+    ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
+    with_soft_sky.lighting = soft;
+    const alp_result result = gather_light(job, &with_soft_sky, g, direct);
+    t->values = with_soft_sky.values;
+    alpi_lighting_destroy(job->context, soft);
     alpi_lighting_destroy(job->context, direct);
     return result;
 }

@@ -512,11 +512,25 @@ static void a_sky_beside_a_wall(void **state)
     test_stage_close(&s);
 }
 
+/// E of a level surface under a sky that is small pixels.
+static double level_irradiance(const alpi_lighting *lighting)
+{
+    enum { CUTS = 1024 };
+    double sum = 0.0; // midpoints in (cos²θ, φ): dω cosθ = d(cos²θ)/2 dφ
+    for (int i = 0; i < CUTS * CUTS; i++) {
+        const double y = sqrt((i / CUTS + 0.5) / CUTS), phi = 2 * ALPI_PI * (i % CUTS + 0.5) / CUTS;
+        const double r = sqrt(1.0 - y * y);
+        const vec3 d = {(float)(r * cos(phi)), (float)y, (float)(r * sin(phi))};
+        sum += (double)alpi_sky_radiance(alpi_lighting_sky(lighting), d).x;
+    }
+    return sum * ALPI_PI / ((double)CUTS * CUTS);
+}
+
 /// An image of one bright and many dim pixels: drawn and met together make its integral.
 static void an_uneven_sky(void **state)
 {
     (void)state;
-    enum { WIDTH = 32, HEIGHT = 16, CUTS = 1024 };
+    enum { WIDTH = 32, HEIGHT = 16 };
     alp_image *image = NULL;
     ASSERT_OK(
         context,
@@ -531,14 +545,7 @@ static void an_uneven_sky(void **state)
     alp_lighting_options o = sky_of(ALP_SKY_IMAGE);
     o.sky.image = image;
     test_stage s = test_stage_open(context, make_floor(NULL, 0.0f), NULL, 0, &o);
-    double sum = 0.0; // midpoints in (cos²θ, φ): dω cosθ = d(cos²θ)/2 dφ
-    for (int i = 0; i < CUTS * CUTS; i++) {
-        const double y = sqrt((i / CUTS + 0.5) / CUTS), phi = 2 * ALPI_PI * (i % CUTS + 0.5) / CUTS;
-        const double r = sqrt(1.0 - y * y);
-        const vec3 d = {(float)(r * cos(phi)), (float)y, (float)(r * sin(phi))};
-        sum += (double)alpi_sky_radiance(alpi_lighting_sky(s.lighting), d).x;
-    }
-    const double exact = sum * ALPI_PI / ((double)CUTS * CUTS);
+    const double exact = level_irradiance(s.lighting);
     const test_patch p = test_point((vec3){1, 0, 2}, UP);
     uint64_t rays;
     const alpi_reference_value v = test_stage_direct(&s, &p, 16384, 6, &rays);
@@ -546,6 +553,18 @@ static void an_uneven_sky(void **state)
     ASSERT_NEAR(v.mean[0], exact, 6.0 * sqrt((double)v.variance[0]) + 1e-4 * exact);
     assert_true(sqrt((double)v.variance[0]) < 2e-3 * exact);
     assert_true(rays > 16384 && rays <= 2 * 16384);
+    // Spots alone are asked and not met; the soft rest is known.
+    alpi_lighting *whole = s.lighting, *soft, *spots;
+    ASSERT_OK(context, alpi_lighting_split_sky(whole, &o, &soft, &spots));
+    s.lighting = spots;
+    const alpi_reference_value spot = test_stage_direct(&s, &p, 1024, 6, &rays);
+    const double rest = exact - level_irradiance(soft);
+    ASSERT_NEAR(spot.mean[0], rest, 6.0 * sqrt((double)spot.variance[0]) + 1e-3 * rest);
+    assert_true(sqrt((double)spot.variance[0]) < 5e-3 * rest);
+    assert_true(rays <= 1024);
+    s.lighting = whole;
+    alpi_lighting_destroy(context, soft);
+    alpi_lighting_destroy(context, spots);
     test_stage_close(&s);
     alp_image_destroy(image);
 }
