@@ -85,7 +85,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     alp_atlas *atlas = NULL;
     const alpi_atlas_choice choice = {job->only, job->originals};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
-    alp_result result = alpi_bake_check_memory(job, &atlas->info);
+    alp_result result = alpi_bake_check_memory(job, atlas);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
         return result;

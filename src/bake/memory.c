@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake will need, known as soon as the atlas is: better a message now than a killed process
 // after an hour.
+#include "atlas/atlas.h"
 #include "bake/layers.h"
 #include "bake/light.h"
 
@@ -56,13 +57,12 @@ enum {
     SPACING = 4                    // texels along a block
 };
 
-/// Blocks of charts of the mean size: squares of the page that a chart has a part in. Where
-/// surfaces meet they are smaller: about twice as many in all.
-static double count_blocks(const alp_atlas_info *atlas)
+/// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: of single
+/// texels there, in proportion to the length of its edges. Measured at five sizes of page.
+static uint64_t count_blocks(const alp_atlas_info *atlas)
 {
-    const double charts = fmax(atlas->charts, 1.0);
-    const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
-    return fmin(2.0 * charts * edge * edge, (double)atlas->texels);
+    const double texels = (double)atlas->texels, charts = fmax(atlas->charts, 1.0);
+    return (uint64_t)fmin(texels / (SPACING * SPACING) + 8.0 * sqrt(texels * charts), texels);
 }
 
 /// Bytes that are held while light is gathered, beside what is kept all the time.
@@ -104,7 +104,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const uint64_t blocks = (uint64_t)count_blocks(atlas);
+    const uint64_t blocks = count_blocks(atlas);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
     const uint64_t each = LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back;
     const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
@@ -222,6 +222,7 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
 }
 
 /// What is left of the limit for rays that are kept, beside all else that is held then.
+/// @param limit  what all of it may take, but for pieces of texels
 static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *atlas, double limit)
 {
     if ((job->options.maps & ALP_MAP_LIGHT) == 0) {
@@ -243,10 +244,21 @@ static double round_up(double number)
     return ceil(number / unit) * unit;
 }
 
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas)
+/// Pieces of texels beyond one of each.
+static double find_more_pieces(const alp_atlas *atlas)
 {
+    enum { PIECE_BYTES = 8 };
+    const alpi_texels *t = atlas->texels;
+    const double more = t != NULL ? (double)t->piece_first[t->count] - (double)t->count : 0.0;
+    return PIECE_BYTES * fmax(more, 0.0);
+}
+
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas *made)
+{
+    const alp_atlas_info *atlas = &made->info;
+    const double pieces = find_more_pieces(made);
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    const double needed = (double)find_memory(atlas, job->scene, &job->options, 0) +
+    const double needed = (double)find_memory(atlas, job->scene, &job->options, 0) + pieces +
                           (double)alpi_bake_packing_memory(job) +
                           (double)alpi_bake_layers_memory(job, atlas);
     double present = (double)pages * (double)page_size;
@@ -265,9 +277,7 @@ alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atla
                          job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p30,
                          present / 0x1p30);
     }
-    job->kept_limit = find_kept_limit(job, atlas,
-                                      limit > 0   ? (double)limit
-                                      : pages > 0 ? 0.9 * present
-                                                  : 0x1p62);
+    const double most = limit > 0 ? (double)limit : pages > 0 ? 0.9 * present : 0x1p62;
+    job->kept_limit = find_kept_limit(job, atlas, most - pieces);
     return ALP_OK;
 }

@@ -194,7 +194,7 @@ static void memory_limit_is_kept(void **state)
     float *first = NULL;
     size_t size = 0;
     int kept = 0, refused = 0;
-    for (double limit = 64.0; limit > 2.0; limit *= 0.9) {
+    for (double limit = 16.0; limit > 1.0; limit *= 0.85) {
         alp_context *context = test_context(2);
         alp_scene *scene = load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);
