@@ -40,10 +40,10 @@ enum {
     TAKEN_BYTES = 28, // means, errors, and errors of all channels
     APART_BYTES = 24, // direct and bounced light
     CELL_BYTES = 16,  // of each side
-    // alpi_patches: stand-ins 4, reflectances 12, emissions 4, blocks 4 and their texels and ends 8
-    PATCH_BYTES_PER_TEXEL = 32,
-    SETTLED_BYTES = 4, // stand-ins
-    BACK_BYTES = 4,    // of two-sided scenes: a list, then blocks
+    // alpi_patches: reflectances 12, emissions 4, blocks 4 and their texels and ends 8
+    PATCH_BYTES_PER_TEXEL = 28,
+    PLACE_BYTES = 8, // of each texel of a page
+    BACK_BYTES = 4,  // of two-sided scenes: a list, then blocks
     // Of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8.
     SIDE_BLOCK_BYTES = 64,
     BLOCK_BYTES = 13,              // first texel 4, area 8, seen 1
@@ -56,6 +56,15 @@ enum {
     DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured
     SPACING = 4                    // texels along a block
 };
+
+/// Blocks of charts of the mean size that are by themselves, most of them: squares of the page that
+/// a chart has a part in, and as many again where something is near.
+static uint64_t count_least_blocks(const alp_atlas_info *atlas)
+{
+    const double charts = fmax(atlas->charts, 1.0);
+    const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
+    return (uint64_t)fmin(2.0 * charts * edge * edge, (double)atlas->texels);
+}
 
 /// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: of single
 /// texels there, in proportion to the length of its edges. Measured at five sizes of page.
@@ -106,15 +115,18 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
     const uint64_t blocks = count_blocks(atlas);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
-    const uint64_t each = LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back;
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    const uint64_t settled =
+        (LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back) * texels + PLACE_BYTES * pages;
     const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
-    const uint64_t solution = (each + PATCH_BYTES_PER_TEXEL) * texels + of_blocks;
+    const uint64_t solution = settled + PATCH_BYTES_PER_TEXEL * texels + of_blocks;
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
-    m.kept = blocks * sides * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
+             alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
-    m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
-                                    (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
-                                               : (each + SETTLED_BYTES) * texels));
+    m.rounds =
+        larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
+                             (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels : settled));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts
         m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
     }

@@ -19,7 +19,7 @@ enum { BLOCK_CUBE = 16 };
 // leave, which is about 16 / √samples percent.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 8, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
+    enum { TEXELS_PER_BLOCK = 8, FEWEST_RAYS = 32, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
     }
@@ -30,7 +30,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         options->error > 0.0f ? (double)options->error : 0.16 / sqrt((double)options->samples);
     const double all = pow(9.0 / error, 2.0);
     const double each = all * TEXELS_PER_BLOCK / fmax((double)texels, 1.0);
-    uint32_t rays = ALPI_RADIOSITY_BLOCK_RAYS;
+    uint32_t rays = FEWEST_RAYS;
     while (rays < each && rays < MOST_RAYS) {
         rays *= 2;
     }

@@ -94,6 +94,19 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
 
 // --- where light is looked up --------------------------------------------------------------------
 
+static alpi_patch_place *place_of(const alpi_patches *p, uint32_t texel)
+{
+    const uint16_t *pixel = p->texels->pixels[texel];
+    return &p->places[alpi_lattice_pixel(p->lattice, p->texels->pages[texel], pixel[0], pixel[1])];
+}
+
+/// Whether a texel is of a chart and shows itself.
+static bool has_own_light(const alpi_patches *p, uint32_t texel, uint32_t chart)
+{
+    const alpi_patch_place *place = place_of(p, texel);
+    return place->chart == chart && place->texel == texel;
+}
+
 /// The nearest texel of a chart, with light of its own, about a pixel: in rings of up to `rings`.
 static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64_t y,
                           uint32_t chart, int rings)
@@ -104,8 +117,7 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
         for (int dx = -rings; dx <= rings; dx++) {
             const uint32_t t = alpi_lattice_texel(p->lattice, page, x + dx, y + dy);
             const int distance = dx * dx + dy * dy;
-            if (t != ALPI_NONE && distance < best_distance && p->texels->charts[t] == chart &&
-                p->stand_ins[t] == t) {
+            if (t != ALPI_NONE && distance < best_distance && has_own_light(p, t, chart)) {
                 best = t;
                 best_distance = distance;
             }
@@ -114,24 +126,29 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
     return best;
 }
 
-/// Nearest texels with light for those without, and a texel of each chart.
-static void find_stand_ins(alpi_patches *p)
+/// A texel of each chart, and what is found at each pixel: its texel, or the nearest with light of
+/// its own.
+static void find_places(alpi_patches *p)
 {
     enum { RINGS = 3 };
     const alpi_texels *texels = p->texels;
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint32_t chart = texels->charts[t];
-        p->stand_ins[t] = p->blocks[t] != ALPI_NONE ? t : ALPI_NONE;
-        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE &&
-            p->blocks[t] != ALPI_NONE) {
+        const bool lit = p->blocks[t] != ALPI_NONE;
+        *place_of(p, t) = (alpi_patch_place){chart, lit ? t : ALPI_NONE};
+        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE && lit) {
             p->chart_texels[chart] = t;
         }
     }
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint16_t *pixel = texels->pixels[t];
+        const uint32_t chart = texels->charts[t];
+        alpi_patch_place *place = place_of(p, t);
         if (p->blocks[t] == ALPI_NONE) {
-            p->stand_ins[t] =
-                find_near(p, texels->pages[t], pixel[0], pixel[1], texels->charts[t], RINGS);
+            place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
+        }
+        if (place->texel == ALPI_NONE && chart != ALPI_NONE) {
+            place->texel = p->chart_texels[chart];
         }
     }
 }
@@ -143,15 +160,17 @@ uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float
     if (page == ALPI_NONE || chart == ALPI_NONE) {
         return ALPI_NONE;
     }
+    const alpi_lattice *l = patches->lattice;
     const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
     const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
     const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
-    const int64_t x = (int64_t)floorf(u * (float)patches->lattice->width);
-    const int64_t y = (int64_t)floorf(v * (float)patches->lattice->height);
-    const uint32_t t = alpi_lattice_texel(patches->lattice, page, x, y);
-    if (t != ALPI_NONE && patches->texels->charts[t] == chart) {
-        const uint32_t stand_in = patches->stand_ins[t];
-        return stand_in != ALPI_NONE ? stand_in : patches->chart_texels[chart];
+    const int32_t x = (int32_t)(u * (float)l->width), y = (int32_t)(v * (float)l->height);
+    if (x >= 0 && y >= 0 && x < (int32_t)l->width && y < (int32_t)l->height) {
+        const alpi_patch_place place =
+            patches->places[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
+        if (place.chart == chart) {
+            return place.texel;
+        }
     }
     const uint32_t near = find_near(patches, page, x, y, chart, 1);
     return near != ALPI_NONE ? near : patches->chart_texels[chart];
@@ -432,7 +451,9 @@ static alp_result trim(alp_context *context, void **items, size_t count, size_t 
 static alp_result make_room(alpi_patches *p, uint32_t count)
 {
     const uint32_t texels = p->texels->count;
-    ALPI_TRY_NEW(p->context, p->stand_ins, texels);
+    const size_t pixels = (size_t)p->lattice->page_count * p->lattice->width * p->lattice->height;
+    ALPI_TRY_NEW(p->context, p->places, pixels);
+    memset(p->places, 0xff, pixels * sizeof *p->places);
     ALPI_TRY_NEW(p->context, p->blocks, texels);
     ALPI_TRY_NEW(p->context, p->block_first, (size_t)count + 1);
     ALPI_TRY_NEW(p->context, p->block_texels, count);
@@ -467,7 +488,7 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
     }
     ALP_TRY(make_blocks(p, spacing));
     ALP_TRY(make_rest(p));
-    find_stand_ins(p);
+    find_places(p);
     const alpi_task_progress told = {.stage = "light"};
     return alpi_parallel_for(p->context, texels, 1024, find_materials, p, &told);
 }
@@ -516,7 +537,7 @@ void alpi_patches_destroy(alpi_patches *patches)
     if (context == NULL) {
         return;
     }
-    alpi_release(context, patches->stand_ins);
+    alpi_release(context, patches->places);
     alpi_release(context, patches->chart_texels);
     alpi_release(context, patches->reflectances);
     alpi_release(context, patches->emissions);
