@@ -103,7 +103,9 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                           const alp_bake_options *options);
 /// LIMIT when that is more than the limit or nine tenths of the machine's memory, even if no rays
 /// are kept; sets job->kept_limit.
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas *atlas);
+/// @param more_pieces of texels, beyond one of each
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
+                                  uint64_t more_pieces);
 
 /// Fails before the long work if an output could not be written at its end. Asked for one page
 /// before the atlas is made, and for all of them after.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a bake will need, known as soon as the atlas is: better a message now than a killed process
 // after an hour.
-#include "atlas/atlas.h"
 #include "bake/layers.h"
 #include "bake/light.h"
 
@@ -256,19 +255,11 @@ static double round_up(double number)
     return ceil(number / unit) * unit;
 }
 
-/// Pieces of texels beyond one of each.
-static double find_more_pieces(const alp_atlas *atlas)
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
+                                  uint64_t more_pieces)
 {
     enum { PIECE_BYTES = 8 };
-    const alpi_texels *t = atlas->texels;
-    const double more = t != NULL ? (double)t->piece_first[t->count] - (double)t->count : 0.0;
-    return PIECE_BYTES * fmax(more, 0.0);
-}
-
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas *made)
-{
-    const alp_atlas_info *atlas = &made->info;
-    const double pieces = find_more_pieces(made);
+    const double pieces = (double)PIECE_BYTES * (double)more_pieces;
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
     const double needed = (double)find_memory(atlas, job->scene, &job->options, 0) + pieces +
                           (double)alpi_bake_packing_memory(job) +
