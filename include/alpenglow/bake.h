@@ -284,11 +284,13 @@ typedef struct alp_bake_report {
     float light_changes[64];
     alp_light_energy light_energy;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
-    /// Rays of occlusion, plus what light took: with bounces its paths, each of which is several
-    /// rays, and where light_direct the rays sent from texels. A ray that goes on behind a pane is
-    /// not counted again.
+    /// Rays of occlusion, plus what light took: the rays of direct light, of all passes of
+    /// radiosity and of the texels that gathered; of ALP_GATHER_PATHS its paths, each of which is
+    /// several rays. A ray that goes on behind a pane is not counted again.
     uint64_t rays;
-    uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT; of each light: light_direct
+    /// Of ALP_MAP_LIGHT: rays of a texel that gathered; PATHS: its paths; light_direct: its samples
+    /// of each light.
+    uint32_t light_samples;
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
@@ -317,8 +319,8 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// Maps over the pages of an atlas, or values at vertices.
 typedef struct alp_lightmap alp_lightmap;
 
-/// Bakes occlusion of a scene and writes what the options ask for. Every output is written beside
-/// its place and renamed, after everything has succeeded.
+/// Bakes the maps of a scene that the options ask for and writes them. Every output is written
+/// beside its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);

@@ -15,7 +15,6 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
 
 typedef struct bounced_job {
     const alpi_bounced_options *options;
@@ -95,41 +94,28 @@ static alp_result trace_wanted(bounced_job *job)
 
 /// What differences of light may be called noise about a texel of this light. In part of the mean
 /// over the map: in the dark it takes less to be good enough.
-static float noise_at(const bounced_job *job, float level)
+static float noise_at(const void *user, float level)
 {
+    const bounced_job *job = user;
     return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
-}
-
-static bool is_smooth(const bounced_job *job, uint32_t texel, const alpi_stencil *s)
-{
-    const bool near = job->options->near != NULL && job->options->near[texel] != ALPI_FAR;
-    const float noise = noise_at(job, alpi_lattice_interpolate(&job->lattice, s));
-    return s->spread <= (near ? NEAR_SPREAD : 1.0f) * SPREAD_LIMIT * noise &&
-           s->bend <= (near ? NEAR_BEND : 1.0f) * BEND_LIMIT * noise;
 }
 
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     bounced_job *job = user;
-    alpi_lattice *l = &job->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->options->order[i];
-        alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_TRACED) {
-            continue;
-        }
-        if (job->flood) {
-            job->wanted[t] = alpi_lattice_kink(l, t) > KINK_LIMIT * noise_at(job, l->values[t]);
-        } else if (alpi_lattice_pass(l->texels->pixels[t]) != job->pass || job->wanted[t]) {
-            continue;
-        } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(job, t, &stencil)) {
-            l->states[t] = ALPI_TEXEL_INTERPOLATED;
-            l->values[t] = alpi_lattice_interpolate(l, &stencil);
-        } else {
-            job->wanted[t] = 1;
-        }
-    }
+    const alpi_lattice_judge judge = {.lattice = &job->lattice,
+                                      .order = job->options->order,
+                                      .near = job->options->near,
+                                      .wanted = job->wanted,
+                                      .spread = SPREAD_LIMIT,
+                                      .bend = BEND_LIMIT,
+                                      .kink = KINK_LIMIT,
+                                      .noise = noise_at,
+                                      .user = job,
+                                      .pass = job->pass,
+                                      .flood = job->flood};
+    alpi_lattice_judge_range(&judge, begin, end);
     return ALP_OK;
 }
 
@@ -141,17 +127,15 @@ static alp_result judge(bounced_job *job, uint32_t pass, bool flood)
     return trace_wanted(job);
 }
 
-/// Wants texels near other surfaces traced; see occlusion_map.c.
+/// Wants texels traced that have another surface near, or all.
 static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const bounced_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->options->order[i];
-        const uint32_t pass = alpi_lattice_pass(job->lattice.texels->pixels[t]);
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
-        job->wanted[t] = !job->options->adaptive || near == ALPI_TOUCHING ||
-                         (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
+        job->wanted[t] = !job->options->adaptive || alpi_lattice_needs_rays(&job->lattice, t, near);
     }
     return ALP_OK;
 }
