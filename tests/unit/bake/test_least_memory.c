@@ -13,7 +13,7 @@ typedef struct least_case {
     float error;
     alp_direct direct;
     bool sky, written;
-    double most; // bytes of a texel: a twentieth above what it is; it was 280 to 380 once
+    double most; // bytes of a texel: a twentieth above what it is
 } least_case;
 
 /// What a bake came to.
