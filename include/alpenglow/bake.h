@@ -358,8 +358,8 @@ ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake
 ALP_API void alp_lightmap_destroy(alp_lightmap *lightmap); ///< NULL does nothing
 ALP_API uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap);
 /// A page as floats [height][width][4]: accessibility in R = G = B, coverage in A (1 where a texel
-/// is covered, 0 elsewhere; uncovered texels near a chart hold its nearest value). Owned by the
-/// lightmap.
+/// is covered, 0 elsewhere; uncovered texels near a chart hold its nearest value). NULL where light
+/// alone was baked. Owned by the lightmap.
 ALP_API const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
                                        uint32_t *height);
 /// A page of one of the maps that were asked for, laid out like alp_lightmap_page (which is that of

@@ -76,6 +76,14 @@ alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
     return ALP_OK;
 }
 
+/// Pieces of texels beyond one of each, if they are known.
+static uint64_t count_more_pieces(const alp_atlas *atlas)
+{
+    const alpi_texels *t = atlas->texels;
+    const uint64_t pieces = t != NULL ? t->piece_first[t->count] : 0;
+    return t != NULL && pieces > t->count ? pieces - t->count : 0;
+}
+
 static alp_result make_atlas(alpi_bake_job *job)
 {
     double started = alpi_seconds();
@@ -86,7 +94,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     alp_atlas *atlas = NULL;
     const alpi_atlas_choice choice = {job->only, job->originals};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
-    alp_result result = alpi_bake_check_memory(job, &atlas->info);
+    alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
         return result;

@@ -29,7 +29,10 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
                               const alpi_reference_value *values)
 {
     double mean = 0.0, squares = 0.0, p99 = 0.0;
-    float *errors = ALPI_NEW(job->context, float, job->lightmap->texels.count);
+    const uint32_t texels = job->lightmap->texels.count;
+    ALPI_TRY_NEW(job->context, job->irradiance, texels);
+    ALPI_TRY_NEW(job->context, job->irradiance_errors, texels);
+    float *errors = ALPI_NEW(job->context, float, texels);
     if (errors == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -57,8 +60,9 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
 }
 
 /// Light that comes straight from where it is made.
-static alp_result gather_direct(alpi_bake_job *job, const alpi_light_task *t)
+static alp_result gather_direct(alpi_bake_job *job, alpi_light_task *t)
 {
+    ALPI_TRY_NEW(job->context, t->values, t->receivers->count);
     const alp_bake_options *o = &job->options;
     const alpi_direct_options options = {
         .context = job->context,
@@ -88,8 +92,9 @@ static alp_result gather_direct(alpi_bake_job *job, const alpi_light_task *t)
     return result;
 }
 
-static alp_result gather_paths(alpi_bake_job *job, const alpi_light_task *t)
+static alp_result gather_paths(alpi_bake_job *job, alpi_light_task *t)
 {
+    ALPI_TRY_NEW(job->context, t->values, t->receivers->count);
     const alp_bake_options *o = &job->options;
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
     const alpi_reference reference = {
@@ -113,15 +118,11 @@ static alp_result gather_paths(alpi_bake_job *job, const alpi_light_task *t)
 
 static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
 {
-    const uint32_t count = t->receivers->count;
-    t->values = ALPI_NEW(job->context, alpi_reference_value, count);
-    alp_result result = t->values != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
-    if (result == ALP_OK) {
-        job->report.light_direct = job->options.light.bounces == 0;
-        result = job->report.light_direct                        ? gather_direct(job, t)
-                 : job->options.light.gather == ALP_GATHER_PATHS ? gather_paths(job, t)
-                                                                 : alpi_bake_radiosity(job, t);
-    }
+    job->report.light_direct = job->options.light.bounces == 0;
+    alp_result result = job->report.light_direct ? gather_direct(job, t)
+                        : job->options.light.gather == ALP_GATHER_PATHS
+                            ? gather_paths(job, t)
+                            : alpi_bake_radiosity(job, t);
     if (result == ALP_OK) {
         result = take_values(job, t->order, t->count, t->values);
     }
@@ -134,7 +135,7 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
                                 uint32_t count, const alpi_lattice *lattice,
                                 const alpi_task_progress *progress)
 {
-    if (job->irradiance == NULL) {
+    if ((job->options.maps & ALP_MAP_LIGHT) == 0) {
         return ALP_OK;
     }
     alpi_scratch_destroy(&job->scratch); // of the rays of occlusion, which are done

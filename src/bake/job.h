@@ -50,8 +50,8 @@ typedef struct alpi_bake_job {
     uint32_t *originals;    // [surface_count] of alpi_scene_instances; NULL unless ao_self
     alp_lightmap *lightmap;
     float (*bent)[3], (*obscurance)[3];              // [texels] while sampling; NULL: not asked for
-    float (*irradiance)[3], (*irradiance_errors)[3]; // the same
-    float (*direct)[3], (*bounced)[3];               // [texels] apart, both or none
+    float (*irradiance)[3], (*irradiance_errors)[3]; // [texels] once they are known
+    float (*direct)[3], (*bounced)[3];               // the same, apart, both or none
     alpi_directional *directional;                   // [texels] while sampling; NULL: not asked for
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
@@ -103,7 +103,9 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                           const alp_bake_options *options);
 /// LIMIT when that is more than the limit or nine tenths of the machine's memory, even if no rays
 /// are kept; sets job->kept_limit.
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas);
+/// @param more_pieces of texels, beyond one of each
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
+                                  uint64_t more_pieces);
 
 /// Refuses a format that cannot hold the maps.
 alp_result alpi_bake_check_maps_format(const alpi_bake_job *job);

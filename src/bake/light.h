@@ -43,12 +43,12 @@ typedef struct alpi_light_task {
     const alpi_lattice *lattice;
     alpi_task_progress progress; // of the clock
     alpi_light_clock *clock;
-    alpi_reference_value *values;  // [receivers] out
+    alpi_reference_value *values;  // [receivers] out; made by who gathers, when it does
     alpi_directional *directional; // [receivers] out, or NULL
 } alpi_light_task;
 
 /// Direct light and what surfaces make of it, by rays or hemicubes.
-alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task);
+alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
@@ -62,8 +62,8 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 /// task->values and the report.
 /// @param fixed the gatherer of texels, or NULL: cosine rays, as many as it takes
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
-                             const alpi_gatherer *fixed, alpi_radiosity *solution);
+alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
+                             alpi_radiosity *solution);
 
 /// Takes noise off task->values, and keeps the sky's share of them. Whoever ends the bake before,
 /// or meanwhile, and keeps what there is, gets the light as it was gathered: no texel is changed

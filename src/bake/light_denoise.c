@@ -53,10 +53,12 @@ static alp_result filter(alpi_bake_job *job, const alpi_light_task *task, float 
     ALP_TRY(alpi_denoise(context, task->tracer, &texels, &told, a->means, a->variances));
     for (uint32_t i = 0; i < count; i++) {
         alpi_reference_value *v = &task->values[task->order[i]];
-        float *sky = skies[task->order[i]];
+        float *sky = skies != NULL ? skies[task->order[i]] : NULL;
         for (int k = 0; k < 3; k++) {
             const float mean = fmaxf(a->means[i][k], 0.0f);
-            sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
+            if (sky != NULL) {
+                sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
+            }
             v->mean[k] = mean;
             v->variance[k] = a->variances[i][k];
         }

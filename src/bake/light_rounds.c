@@ -37,12 +37,12 @@ static const double TIME_SHARE = 0.9;
 
 typedef struct rounds {
     alpi_bake_job *job;
-    const alpi_light_task *task;
+    alpi_light_task *task;
     const alpi_gatherer *fixed;
     alpi_radiosity *solution;
-    float (*skies)[3];                   // [texels] what of the bounced light is a soft sky's
+    float (*skies)[3]; // [texels] what of the bounced light is a soft sky's; NULL: there is none
     alpi_reference_value *fresh;         // [texels] of a later round
-    float (*fresh_skies)[3];             // [texels]
+    float (*fresh_skies)[3];             // [texels], or NULL too
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
     uint8_t *states;                     // [texels]
     uint8_t *between;                    // [texels] whether ever interpolated
@@ -50,8 +50,8 @@ typedef struct rounds {
     alpi_reference_value *held;          // [held_out->count] by those of all rounds
     uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
     uint32_t *counts;                    // [texels] samples of direct light so far
-    uint32_t *list;                      // [texels]
-    uint8_t *noisy;                      // [texels]
+    uint32_t *list;                      // [texels] while direct light is gathered
+    uint8_t *noisy;                      // [texels] the same
     uint32_t number;                     // of the round
     double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
     double mean;                         // of all light, over texels and channels
@@ -113,6 +113,7 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
                     job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
         .held_out = r->rays == 0 || r->held_out->count > 0 ? r->held_out : NULL,
         .beside = &beside,
+        .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,
     };
     alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
     const double began = alpi_seconds();
@@ -183,7 +184,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
         const uint32_t t = r->task->order[i];
         merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
         mix(r, r->task->directional, t, r->rays, rays);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && r->skies != NULL; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
     }
@@ -238,6 +239,14 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
     }
 }
 
+static void release_list(rounds *r)
+{
+    alpi_release(r->job->context, r->list);
+    alpi_release(r->job->context, r->noisy);
+    r->list = NULL;
+    r->noisy = NULL;
+}
+
 /// What rays meet from now on reflects the direct light that is known now: the few samples of the
 /// first round make noise in corners, where a texel sees few others, that no number of rays takes
 /// off. What blocks gathered stays. Where only some surfaces are baked, rays meet other texels.
@@ -254,6 +263,9 @@ static alp_result add_direct(rounds *r, double more, double wanted)
 {
     const alpi_light_task *t = r->task;
     const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
+    const uint32_t texels = t->receivers->count;
+    ALPI_TRY_NEW(r->job->context, r->list, texels);
+    ALPI_TRY_NEW(r->job->context, r->noisy, texels);
     const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
     const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), 1);
     const double began = alpi_seconds();
@@ -270,6 +282,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
         mix(r, r->solution->directional, texel, r->counts[texel], samples);
         r->counts[texel] += samples;
     }
+    release_list(r);
     r->direct += samples;
     return show_direct(r);
 }
@@ -409,7 +422,10 @@ static alp_result begin(rounds *r)
     const uint32_t texels = r->task->receivers->count;
     const uint32_t most = most_rays(&r->job->options.light);
     const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
-    ALPI_TRY_NEW(context, r->skies, texels);
+    ALPI_TRY_NEW(context, r->task->values, texels);
+    if (alpi_radiosity_scene(r->solution).sky) {
+        ALPI_TRY_NEW(context, r->skies, texels);
+    }
     ALPI_TRY_NEW(context, r->states, texels);
     ALPI_TRY_NEW(context, r->held_out, 1);
     alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
@@ -430,13 +446,13 @@ static alp_result go_on(rounds *r)
     const bool timed = !(r->job->options.light.error > 0.0f);
     const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
     ALPI_TRY_NEW(context, r->fresh, texels);
-    ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    if (r->skies != NULL) {
+        ALPI_TRY_NEW(context, r->fresh_skies, texels);
+    }
     if (r->task->directional != NULL) {
         ALPI_TRY_NEW(context, r->fresh_directional, texels);
     }
     ALPI_TRY_NEW(context, r->counts, texels);
-    ALPI_TRY_NEW(context, r->list, texels);
-    ALPI_TRY_NEW(context, r->noisy, texels);
     ALPI_TRY_NEW(context, r->between, texels);
     ALPI_TRY_NEW(context, r->held, r->held_out->count);
     memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
@@ -494,7 +510,7 @@ static alp_result run_rounds(rounds *r)
 
 // --- the end -------------------------------------------------------------------------------------
 
-/// What only further rounds need.
+/// What only rounds need.
 static void release_rounds(rounds *r)
 {
     alp_context *context = r->job->context;
@@ -502,30 +518,36 @@ static void release_rounds(rounds *r)
     alpi_release(context, r->fresh_skies);
     alpi_release(context, r->fresh_directional);
     alpi_release(context, r->counts);
-    alpi_release(context, r->list);
-    alpi_release(context, r->noisy);
+    release_list(r);
     alpi_release(context, r->between);
     alpi_release(context, r->held);
+    alpi_release(context, r->held_out);
     r->between = NULL;
     r->held = NULL;
+    r->held_out = NULL;
     r->fresh_directional = NULL;
     r->fresh = NULL;
     r->fresh_skies = NULL;
-    r->counts = r->list = NULL;
-    r->noisy = NULL;
+    r->counts = NULL;
 }
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static void put_together(const rounds *r)
+static alp_result put_together(const rounds *r)
 {
-    const alpi_bake_job *job = r->job;
+    alpi_bake_job *job = r->job;
+    const uint32_t texels = r->task->receivers->count;
+    if (alpi_bake_lights_apart(job)) {
+        ALPI_TRY_NEW(job->context, job->direct, texels);
+        ALPI_TRY_NEW(job->context, job->bounced, texels);
+    }
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t texel = r->task->order[i];
         const alpi_reference_value *direct = &r->solution->direct[texel];
         alpi_reference_value *value = &r->task->values[texel];
         for (int k = 0; k < 3; k++) {
-            const float sky = r->skies[texel][k], bounced = value->mean[k] - sky;
+            const float sky = r->skies != NULL ? r->skies[texel][k] : 0.0f;
+            const float bounced = value->mean[k] - sky;
             if (job->direct != NULL) {
                 job->direct[texel][k] = direct->mean[k] + sky;
                 job->bounced[texel][k] = bounced;
@@ -540,23 +562,22 @@ static void put_together(const rounds *r)
     }
     alpi_bake_sum_layers(job, r->task->order, r->task->count, (const float(*)[3])r->skies, on,
                          r->task->values);
+    return ALP_OK;
 }
 
-alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
-                             const alpi_gatherer *fixed, alpi_radiosity *solution)
+alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
+                             alpi_radiosity *solution)
 {
     rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
     alp_result result = run_rounds(&r);
+    release_rounds(&r);
     if (result == ALP_OK && job->options.light.denoise) {
-        release_rounds(&r);
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        put_together(&r);
+        result = put_together(&r);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
-    alpi_release(job->context, r.held_out);
-    release_rounds(&r);
     return result;
 }

@@ -4,12 +4,18 @@
 #include "bake/layers.h"
 #include "bake/light.h"
 
+#include "maps/bounced_map.h"
+
 #include <math.h>
 #include <unistd.h>
 
 enum {
-    // alpi_texels 51 and a piece 8, lattice 9, error 4, state 1
-    BYTES_PER_TEXEL = 73,
+    BYTES_PER_TEXEL = 60,    // alpi_texels 51 and a piece 8, state 1
+    LATTICE_BYTES = 9,       // of each texel, and until maps are stored
+    GRID_BYTES = 4,          // of each texel of a page, the same
+    ERROR_BYTES = 4,         // of occlusion
+    VECTOR_BYTES = 12,       // of each map beside occlusion and light
+    BYTES_PER_TRIANGLE = 32, // of the atlas: coordinates 24, page 4, chart 4
     // While rays are sent: sums 20, marks 1, inside 2, near 1, dropped 1, order 4, list 4. The
     // packets of a worker, 25 KiB, are on its stack.
     RAY_BYTES_PER_TEXEL = 33,
@@ -17,43 +23,63 @@ enum {
     OBJECT_BYTES_PER_TEXEL = 4, // the texels dealt out to objects
     BYTES_PER_SAMPLE = 3 * 13,  // sequence 12, places 1: of the map and of two held-out estimates
     BYTES_OF_PROBES = 8192 * 44,
-    BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
-    BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
-    LATTICE_BYTES = 14,        // of a texel's 73: gone when files are written, as are side maps
-    // Of each map beside occlusion.
-    SIDE_BYTES_PER_TEXEL = 12,
+    PAGE_BYTES = 16,     // of each map when it is stored: float RGBA
+    BYTES_TO_DILATE = 5, // of one page at a time: filled 1, queue 4
+    FILE_BYTES = 8,      // of each map in a folder, about, in a page's texels
+    FILE_GROWTH = 16,    // of the one that is being made, beside what its format takes
     // Light by direction: kept, and of direct light while that is gathered and in rounds. One map
     // at a time when it is stored.
-    DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional),
-    SIDE_BYTES_PER_PAGE_TEXEL = 16, // its pages are made when it is stored
-    BYTES_PER_TRIANGLE = 32         // of the atlas: coordinates 24, page 4, chart 4
+    DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional)
 };
 
 // Of light, while it is gathered and nothing of occlusion's rays is left but near 1, dropped 1 and
-// order 4.
+// order 4. Where a bake holds the most is while it solves, or in its rounds; each lets go of what
+// the other needs.
 enum {
-    LIGHT_BYTES_PER_TEXEL = 30, // and mean and variance 24
-    // alpi_patches: stand-ins 4, reflectances 12, emissions 12, blocks 4 and their texels, ends,
-    // firsts and areas 20
-    PATCH_BYTES_PER_TEXEL = 52,
-    CELL_BYTES = 16,   // of each side
-    DIRECT_BYTES = 24, // of each side, and of one once it is solved
-    BACK_BYTES = 5,    // of two-sided scenes: seen 1, a list 4
-    BLOCK_BYTES = 64,  // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
-    // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
-    GATHER_BYTES_PER_TEXEL = 34,
-    ROUND_BYTES_PER_TEXEL = 46,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 2
-    DENOISE_BYTES_PER_TEXEL = 256, // in their place, measured
+    LIGHT_BYTES_PER_TEXEL = 6,
+    VALUE_BYTES = 24, // mean and variance; of direct light, of each side
+    TAKEN_BYTES = 28, // means, errors, and errors of all channels
+    APART_BYTES = 24, // direct and bounced light
+    CELL_BYTES = 16,  // of each side
+    // alpi_patches: reflectances 12, emissions 4, blocks 4 and their texels and ends 8
+    PATCH_BYTES_PER_TEXEL = 28,
+    PLACE_BYTES = 8, // of each texel of a page
+    BACK_BYTES = 4,  // of two-sided scenes: a list, then blocks
+    // Of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8.
+    SIDE_BLOCK_BYTES = 64,
+    BLOCK_BYTES = 13,              // first texel 4, area 8, seen 1
+    // Of those, what later rounds show again with better direct light: reflectances 12 and blocks
+    // 4, which two-sided scenes have anyway; of each side of a block before 12 and skies 12.
+    SHOWN_BYTES_PER_TEXEL = 12,
+    SHOWN_BLOCK_BYTES_PER_TEXEL = 4,
+    SHOWN_SIDE_BLOCK_BYTES = 24,
+    GATHER_BYTES = 26,             // values, states 1, marks 1
+    LEVEL_BYTES = 4,               // where those of occlusion may not be written over
+    SKY_BYTES = 12,                // a soft sky's part of the values, and of those of later rounds
+    ROUND_BYTES = 33,              // of later rounds: fresh 24, counts 4, list 4, between 1
+    // Texels held out, with what they found in a round; and in all rounds.
+    HELD_OUT_BYTES = sizeof(alpi_held_out) + ALPI_HELD_OUT * sizeof(alpi_reference_value),
+    BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
+    BAND_BYTES = 5 << 18,          // so many at most
+    DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured
     SPACING = 4                    // texels along a block
 };
 
-/// Blocks of charts of the mean size: squares of the page that a chart has a part in. Where
-/// surfaces meet they are smaller: about twice as many in all.
-static double count_blocks(const alp_atlas_info *atlas)
+/// Blocks of charts of the mean size that are by themselves, most of them: squares of the page that
+/// a chart has a part in, and as many again where something is near.
+static uint64_t count_least_blocks(const alp_atlas_info *atlas)
 {
     const double charts = fmax(atlas->charts, 1.0);
     const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
-    return fmin(2.0 * charts * edge * edge, (double)atlas->texels);
+    return (uint64_t)fmin(2.0 * charts * edge * edge, (double)atlas->texels);
+}
+
+/// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: of single
+/// texels there, in proportion to the length of its edges. Measured at five sizes of page.
+static uint64_t count_blocks(const alp_atlas_info *atlas)
+{
+    const double texels = (double)atlas->texels, charts = fmax(atlas->charts, 1.0);
+    return (uint64_t)fmin(texels / (SPACING * SPACING) + 8.0 * sqrt(texels * charts), texels);
 }
 
 /// Bytes that are held while light is gathered, beside what is kept all the time.
@@ -62,49 +88,111 @@ typedef struct light_memory {
     uint64_t kept; // rays of blocks, while it is solved, if they are kept
 } light_memory;
 
+static uint64_t larger(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
+static bool has_occlusion(const alp_bake_options *options)
+{
+    return (options->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
+}
+
+/// Bytes of a texel in the rounds, but for what is left of the solution.
+static uint64_t find_round_bytes(const alp_bake_options *options)
+{
+    const alp_light_options *o = &options->light;
+    const bool again = alpi_light_has_rounds(options), apart = o->direct == ALP_DIRECT_APART;
+    const uint64_t sky = o->lighting.sky.kind != ALP_SKY_NONE ? SKY_BYTES : 0u;
+    const uint64_t levels = has_occlusion(options) ? LEVEL_BYTES : 0u;
+    const uint64_t later = again ? ROUND_BYTES + sky : levels;
+    return GATHER_BYTES + VALUE_BYTES + sky + // the second are those of direct light
+           larger(larger(o->denoise ? DENOISE_BYTES_PER_TEXEL : 0u, later),
+                  apart ? APART_BYTES : 0u);
+}
+
+/// What stays of the solution in the rounds, but for texels' direct light.
+static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options *options,
+                             uint64_t sides)
+{
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    uint64_t of_texel = LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides;
+    of_texel += sides > 1 ? BACK_BYTES : 0u;
+    uint64_t of_blocks = 0;
+    if (alpi_light_has_rounds(options) && options->only == NULL) {
+        of_texel += SHOWN_BYTES_PER_TEXEL + (sides > 1 ? 0u : SHOWN_BLOCK_BYTES_PER_TEXEL);
+        of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas);
+    }
+    return of_texel * atlas->texels + PLACE_BYTES * pages + of_blocks;
+}
+
 static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                                       const alp_bake_options *options)
 {
-    const uint64_t texels = atlas->texels;
-    light_memory m = {LIGHT_BYTES_PER_TEXEL * texels, LIGHT_BYTES_PER_TEXEL * texels, 0};
+    const uint64_t texels = atlas->texels, taken = VALUE_BYTES + TAKEN_BYTES;
+    light_memory m = {0, (LIGHT_BYTES_PER_TEXEL + taken) * texels, 0};
     const alp_light_options *o = &options->light;
     if (o->bounces == 0 || o->gather == ALP_GATHER_PATHS) {
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const uint64_t blocks = (uint64_t)((double)sides * count_blocks(atlas));
-    const uint64_t solution = (PATCH_BYTES_PER_TEXEL + CELL_BYTES * sides) * texels +
-                              BLOCK_BYTES * blocks + (sides > 1 ? BACK_BYTES * texels : 0);
-    const uint64_t later = o->denoise                       ? DENOISE_BYTES_PER_TEXEL
-                           : alpi_light_has_rounds(options) ? ROUND_BYTES_PER_TEXEL
-                                                            : 0;
-    const uint64_t counted = o->emitters == ALP_EMITTERS_COUNTED ? 2 : 1; // and what is added
-    m.solve += solution + DIRECT_BYTES * sides * texels * counted;
-    m.rounds += solution + (DIRECT_BYTES + GATHER_BYTES_PER_TEXEL + later) * texels;
-    m.kept = blocks * alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+    const uint64_t blocks = count_blocks(atlas);
+    const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    const uint64_t of_texel =
+        LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back + PATCH_BYTES_PER_TEXEL;
+    const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
+    const uint64_t solution = of_texel * texels + PLACE_BYTES * pages + of_blocks;
+    const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
+    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
+             alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+    m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
+    m.rounds =
+        larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
+                             HELD_OUT_BYTES +
+                             (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
+                                        : find_settled(atlas, options, sides)));
+    if (sides > 1) { // direct light of backs goes by a copy of that of fronts
+        m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
+    }
+    if (o->emitters == ALP_EMITTERS_COUNTED) { // what is added to direct light
+        m.solve += VALUE_BYTES * sides * texels;
+    }
     return m;
 }
 
-/// What is held for the whole of the bake.
-static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene, uint64_t sides)
+/// Values of maps beside occlusion and light, each until it is stored.
+static uint64_t find_vectors(const alp_atlas_info *atlas, const alp_bake_options *options)
 {
-    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
-    return (BYTES_PER_TEXEL + SIDE_BYTES_PER_TEXEL * sides) * atlas->texels +
-           BYTES_PER_PAGE_TEXEL * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
+    return VECTOR_BYTES * atlas->texels *
+           (((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+            ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u));
 }
 
-static uint64_t count_sides(const alp_bake_options *options)
+/// What is held until all maps are stored.
+static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene,
+                          const alp_bake_options *options)
 {
-    const bool apart = options->light.direct == ALP_DIRECT_APART;
-    return ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
-           ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
-           ((options->maps & ALP_MAP_LIGHT) != 0 ? apart ? 4u : 2u : 0u); // and its errors
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    return (BYTES_PER_TEXEL + LATTICE_BYTES + (has_occlusion(options) ? ERROR_BYTES : 0u)) *
+               atlas->texels +
+           GRID_BYTES * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
 }
 
 static uint64_t count_directional(const alp_bake_options *options)
 {
     return ((options->maps & ALP_MAP_SH) != 0 ? 4u : 0u) +
            ((options->maps & ALP_MAP_DIRECTION) != 0 ? 1u : 0u);
+}
+
+/// Maps of floats.
+static uint64_t count_maps(const alp_bake_options *options)
+{
+    const bool apart = options->light.direct == ALP_DIRECT_APART;
+    return (has_occlusion(options) ? 1u : 0u) + ((options->maps & ALP_MAP_BENT) != 0 ? 1u : 0u) +
+           ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u) +
+           ((options->maps & ALP_MAP_LIGHT) != 0 ? apart ? 4u : 2u : 0u) + // and its errors
+           count_directional(options);
 }
 
 /// Light by direction while it is gathered: of the map, of direct light, and of later rounds.
@@ -128,38 +216,45 @@ static uint64_t find_around(const alp_atlas_info *atlas, const alp_scene *scene,
     around.width = around.height = options->atlas.size;
     around.pages = 1;
     around.texels = (uint64_t)around.width * around.height;
-    return find_kept(&around, scene, 0) + find_light_memory(&around, scene, options).solve;
+    return find_kept(&around, scene, options) + find_light_memory(&around, scene, options).solve;
+}
+
+/// While maps are stored, and while they are written, when the lattice is gone.
+static uint64_t find_stored(const alp_atlas_info *atlas, const alp_scene *scene,
+                            const alp_bake_options *options)
+{
+    const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
+    const uint64_t maps = count_maps(options), kept = find_kept(atlas, scene, options);
+    const bool directional = count_directional(options) > 0;
+    const uint64_t stored = PAGE_BYTES * maps * pages + BYTES_TO_DILATE * page +
+                            (directional ? VECTOR_BYTES * atlas->texels : 0u) +
+                            find_directional(atlas, options);
+    const uint64_t files = options->maps_folder != NULL ? FILE_BYTES * maps * pages : 0u;
+    const uint64_t file =
+        files > 0 ? FILE_GROWTH * page + alpi_bake_map_file_memory(options, page) : 0u;
+    const uint64_t written = (PAGE_BYTES * maps - GRID_BYTES) * pages + files +
+                             larger(file, alpi_bake_light_asset_memory(atlas, scene, options));
+    return kept + larger(stored, written - LATTICE_BYTES * atlas->texels);
 }
 
 /// @param rays of the blocks that are kept, or UINT64_MAX: as many as there are
 static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                             const alp_bake_options *options, uint64_t kept_rays)
 {
-    const uint64_t page = (uint64_t)atlas->width * atlas->height, pages = page * atlas->pages;
-    const uint64_t sides = count_sides(options);
-    const uint64_t directional = count_directional(options);
     uint64_t of_texel = RAY_BYTES_PER_TEXEL;
     const bool vectors = (options->maps & (ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
     of_texel += vectors ? RAY_BYTES_OF_VECTORS : 0u;
     of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
-    uint64_t rays = of_texel * atlas->texels + BYTES_OF_PROBES +
+    uint64_t most = of_texel * atlas->texels + BYTES_OF_PROBES +
                     (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;
     if ((options->maps & ALP_MAP_LIGHT) != 0) {
         const light_memory m = find_light_memory(atlas, scene, options);
         const uint64_t solve = m.solve + (m.kept < kept_rays ? m.kept : kept_rays);
-        const uint64_t gather = solve > m.rounds ? solve : m.rounds;
-        rays = rays > gather ? rays : gather;
+        most = larger(most, larger(solve, m.rounds));
     }
-    const uint64_t files = alpi_bake_map_file_memory(options, page);
-    const uint64_t stored = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages;
-    const uint64_t store = stored + (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
-                           (files > BYTES_TO_DILATE * page ? files : BYTES_TO_DILATE * page);
-    const uint64_t write = stored + alpi_bake_light_asset_memory(atlas, scene, options);
-    const uint64_t gone = (SIDE_BYTES_PER_TEXEL * sides + LATTICE_BYTES) * atlas->texels;
-    uint64_t most = rays > store ? rays : store;
-    most = write > most + gone ? write - gone : most;
-    return find_kept(atlas, scene, sides) + find_directional(atlas, options) +
-           find_around(atlas, scene, options) + most;
+    return larger(find_kept(atlas, scene, options) + find_vectors(atlas, options) +
+                      find_directional(atlas, options) + find_around(atlas, scene, options) + most,
+                  find_stored(atlas, scene, options));
 }
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -169,24 +264,35 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
 }
 
 /// What is left of the limit for rays that are kept, beside all else that is held then.
+/// @param limit  what all of it may take, but for pieces of texels
 static uint64_t find_kept_limit(const alpi_bake_job *job, const alp_atlas_info *atlas, double limit)
 {
     if ((job->options.maps & ALP_MAP_LIGHT) == 0) {
         return 0;
     }
     const light_memory m = find_light_memory(atlas, job->scene, &job->options);
-    const double held = (double)m.solve +
-                        (double)find_kept(atlas, job->scene, count_sides(&job->options)) +
+    const double held = (double)m.solve + (double)find_kept(atlas, job->scene, &job->options) +
+                        (double)find_vectors(atlas, &job->options) +
                         (double)find_directional(atlas, &job->options) +
                         (double)find_around(atlas, job->scene, &job->options) +
                         (double)alpi_bake_layers_memory(job, atlas);
     return limit > held ? (uint64_t)(limit - held) : 0;
 }
 
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas)
+/// As few digits as a message wants, and not too little.
+static double round_up(double number)
 {
+    const double unit = pow(10.0, floor(log10(number)) - 2.0);
+    return ceil(number / unit) * unit;
+}
+
+alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
+                                  uint64_t more_pieces)
+{
+    enum { PIECE_BYTES = 8 };
+    const double pieces = (double)PIECE_BYTES * (double)more_pieces;
     long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    const double needed = (double)find_memory(atlas, job->scene, &job->options, 0) +
+    const double needed = (double)find_memory(atlas, job->scene, &job->options, 0) + pieces +
                           (double)alpi_bake_packing_memory(job) +
                           (double)alpi_bake_layers_memory(job, atlas);
     double present = (double)pages * (double)page_size;
@@ -195,8 +301,8 @@ alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atla
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
                          "%s: %llu texels need %.3g MiB, the limit is %.3g MiB; use a smaller size "
                          "or fewer texels per metre, or allow more",
-                         job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p20,
-                         (double)limit / 0x1p20);
+                         job->scene->name, (unsigned long long)atlas->texels,
+                         round_up(needed / 0x1p20), (double)limit / 0x1p20);
     }
     if (pages > 0 && page_size > 0 && needed > 0.9 * present) {
         return alpi_fail(job->context, ALP_ERROR_LIMIT,
@@ -205,9 +311,7 @@ alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atla
                          job->scene->name, (unsigned long long)atlas->texels, needed / 0x1p30,
                          present / 0x1p30);
     }
-    job->kept_limit = find_kept_limit(job, atlas,
-                                      limit > 0   ? (double)limit
-                                      : pages > 0 ? 0.9 * present
-                                                  : 0x1p62);
+    const double most = limit > 0 ? (double)limit : pages > 0 ? 0.9 * present : 0x1p62;
+    job->kept_limit = find_kept_limit(job, atlas, most - pieces);
     return ALP_OK;
 }

@@ -131,9 +131,9 @@ static bool is_in_time(void *user, const alp_progress *progress)
     return alpi_seconds() < o->deadline;
 }
 
-/// Every texel is open where nobody asks for occlusion.
-static alp_result skip_occlusion(const uint32_t *order, uint32_t count, alpi_lattice *lattice,
-                                 alpi_occlusion_map_report *report)
+/// Every texel is open where nobody asks for occlusion. Said last: light may use the values' room.
+static void skip_occlusion(const uint32_t *order, uint32_t count, alpi_lattice *lattice,
+                           alpi_occlusion_map_report *report)
 {
     for (uint32_t i = 0; i < count; i++) {
         lattice->states[order[i]] = ALPI_TEXEL_TRACED;
@@ -141,7 +141,6 @@ static alp_result skip_occlusion(const uint32_t *order, uint32_t count, alpi_lat
     }
     *report =
         (alpi_occlusion_map_report){.traced = count, .relative = (double)NAN, .p99 = (double)NAN};
-    return ALP_OK;
 }
 
 /// Looks for texels of an object that are inside other geometry, then gathers the others.
@@ -174,10 +173,11 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     uint32_t count = 0;
     alp_result result = order != NULL ? drop(job, object, order, &count) : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
-        result = alpi_bake_wants_occlusion(job)
-                     ? alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
-                                          job->lightmap->errors, report)
-                     : skip_occlusion(order, count, lattice, report);
+        const bool wanted = alpi_bake_wants_occlusion(job);
+        if (wanted) {
+            result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
+                                        job->lightmap->errors, report);
+        }
         if (result == ALP_OK) {
             result = alpi_bake_obscurance(job, setup, &receivers, order, count, report->samples,
                                           &progress);
@@ -185,6 +185,9 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
         if (result == ALP_OK) {
             result = alpi_bake_irradiance(job, setup->tracer, &receivers, order, count, lattice,
                                           &progress);
+        }
+        if (result == ALP_OK && !wanted) {
+            skip_occlusion(order, count, lattice, report);
         }
     }
     alpi_release(job->context, order);
@@ -337,8 +340,8 @@ static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
     if (job->options.existing_ao == ALP_EXISTING_AO_MULTIPLY) {
         alpi_bake_multiply_existing(job, lattice->values);
     }
-    ALP_TRY(alpi_lightmap_store(l, lattice->values));
-    return alpi_bake_store_side_maps(job);
+    ALP_TRY(alpi_bake_store_side_maps(job));
+    return alpi_bake_wants_occlusion(job) ? alpi_lightmap_store(l, lattice->values) : ALP_OK;
 }
 
 alp_result alpi_bake_occlusion(alpi_bake_job *job)

@@ -116,8 +116,8 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
-                               const light_gatherers *g, const alpi_lighting *direct)
+static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g,
+                               const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
     alpi_radiosity_options options = alpi_radiosity_options_default();
@@ -142,6 +142,7 @@ static alp_result gather_light(alpi_bake_job *job, const alpi_light_task *t,
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
+    alpi_radiosity_settle(&solution, alpi_light_has_rounds(o));
     const alp_result result =
         alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
     alpi_radiosity_destroy(&solution);
@@ -173,8 +174,7 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
 
 /// Where only some surfaces are baked, light comes from all: it is solved for on an atlas of the
 /// whole scene, one page of the bake's size, always by cosine rays.
-static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
-                                const light_gatherers *g)
+static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
 {
     alpi_solution_options options = {.scene = job->scene,
                                      .tracer = t->tracer,
@@ -195,6 +195,7 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     alp_result result = light_texels(job, t, &around->radiosity);
     if (result == ALP_OK) {
         report_solution(job, &around->radiosity);
+        alpi_radiosity_settle(&around->radiosity, false);
         result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
                                    &around->radiosity);
     }
@@ -204,8 +205,7 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
 
 /// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
 /// are looked for directly, with all else. Panes would mix the two.
-static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
-                                  const light_gatherers *g)
+static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
@@ -218,12 +218,13 @@ static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
     ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
     with_soft_sky.lighting = soft;
     const alp_result result = gather_light(job, &with_soft_sky, g, direct);
+    t->values = with_soft_sky.values;
     alpi_lighting_destroy(job->context, soft);
     alpi_lighting_destroy(job->context, direct);
     return result;
 }
 
-alp_result alpi_bake_radiosity(alpi_bake_job *job, const alpi_light_task *task)
+alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task)
 {
     light_gatherers gatherers;
     alp_result result = make_gatherers(job, task->receivers->count, &gatherers);

@@ -145,22 +145,17 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
 alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
 {
     const uint32_t count = job->lightmap->texels.count;
+    if (alpi_bake_wants_occlusion(job)) {
+        ALPI_TRY_NEW(job->context, job->lightmap->errors, count);
+    }
     if ((job->options.maps & ALP_MAP_BENT) != 0) {
         ALPI_TRY_NEW(job->context, job->bent, count);
     }
     if ((job->options.maps & ALP_MAP_OBSCURANCE) != 0) {
         ALPI_TRY_NEW(job->context, job->obscurance, count);
     }
-    if ((job->options.maps & ALP_MAP_LIGHT) != 0) {
-        ALPI_TRY_NEW(job->context, job->irradiance, count);
-        ALPI_TRY_NEW(job->context, job->irradiance_errors, count);
-    }
     if ((job->options.maps & BY_DIRECTION) != 0) {
         ALPI_TRY_NEW(job->context, job->directional, count);
-    }
-    if (alpi_bake_lights_apart(job)) {
-        ALPI_TRY_NEW(job->context, job->direct, count);
-        ALPI_TRY_NEW(job->context, job->bounced, count);
     }
     return ALP_OK;
 }
@@ -237,26 +232,29 @@ static alp_result store_light_by_direction(alpi_bake_job *job)
     return result;
 }
 
+/// Stores one map and lets go of its values: pages and values of all maps at once would be more
+/// than gathering them took.
+static alp_result store_vectors(alpi_bake_job *job, float (**values)[3], float ***pages)
+{
+    if (*values == NULL) {
+        return ALP_OK;
+    }
+    const alp_result result =
+        alpi_lightmap_store_vectors(job->lightmap, (const float(*)[3]) * values, pages);
+    alpi_release(job->context, *values);
+    *values = NULL;
+    return result;
+}
+
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job)
 {
     alp_lightmap *l = job->lightmap;
-    if (job->bent != NULL) {
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bent, &l->bent_pages));
-    }
-    if (job->obscurance != NULL) {
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->obscurance,
-                                            &l->obscurance_pages));
-    }
-    if (job->irradiance != NULL) {
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->irradiance,
-                                            &l->irradiance_pages));
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->irradiance_errors,
-                                            &l->irradiance_error_pages));
-    }
-    if (job->direct != NULL) {
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->direct, &l->direct_pages));
-        ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])job->bounced, &l->bounced_pages));
-    }
+    ALP_TRY(store_vectors(job, &job->bent, &l->bent_pages));
+    ALP_TRY(store_vectors(job, &job->obscurance, &l->obscurance_pages));
+    ALP_TRY(store_vectors(job, &job->irradiance, &l->irradiance_pages));
+    ALP_TRY(store_vectors(job, &job->irradiance_errors, &l->irradiance_error_pages));
+    ALP_TRY(store_vectors(job, &job->direct, &l->direct_pages));
+    ALP_TRY(store_vectors(job, &job->bounced, &l->bounced_pages));
     if (job->directional != NULL) {
         ALP_TRY(store_light_by_direction(job));
     }

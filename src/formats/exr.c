@@ -516,7 +516,11 @@ static alp_result encode_source(const exr_source *source, uint8_t **bytes, size_
                          "writing an EXR image: %s",
                          stream.message[0] ? stream.message : exr_get_default_error_message(code));
     }
-    *bytes = stream.output;
+    *bytes = alpi_reallocate(context, stream.output, stream.size, 1); // held till all is written
+    if (*bytes == NULL) {
+        alpi_release(context, stream.output);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
     *size = stream.size;
     return ALP_OK;
 }

@@ -4,12 +4,14 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "maps/pooled_variance.h"
 #include "maps/validity.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10 };
+enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all workers busy
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
@@ -19,9 +21,8 @@ typedef struct bounced_job {
     alpi_lattice lattice; // states and values are of this map
     alpi_task_progress progress;
     alpi_bounced_report *report;
-    uint8_t *wanted;  // [texels] to be traced next
-    uint32_t *list;   // [count]
-    float *variances; // [texels] pooled
+    uint8_t *wanted; // [texels] to be traced next
+    uint32_t *list;  // [LIST_LIMIT], or count if that is less
     float noise; // standard deviation of the mean of the channels, over the root mean square light
     float level; // mean light
     uint32_t pass;
@@ -58,7 +59,20 @@ static alp_result gather_list(bounced_job *job, uint32_t count, alpi_gather_job 
     return alpi_gather_irradiance(&gather, &told);
 }
 
-/// Traces the texels that are wanted.
+/// Traces the texels of the list.
+static alp_result trace_listed(bounced_job *job, uint32_t count)
+{
+    const alpi_gather_job *g = job->options->gather;
+    ALP_TRY(gather_list(job, count, *g));
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t t = job->list[i];
+        job->lattice.states[t] = ALPI_TEXEL_TRACED;
+        job->lattice.values[t] = level_of(&g->values[t]);
+    }
+    return ALP_OK;
+}
+
+/// Traces the texels that are wanted, so many at a time.
 static alp_result trace_wanted(bounced_job *job)
 {
     uint32_t count = 0;
@@ -68,15 +82,12 @@ static alp_result trace_wanted(bounced_job *job)
             job->wanted[t] = 0;
             job->list[count++] = t;
         }
+        if (count == LIST_LIMIT) {
+            ALP_TRY(trace_listed(job, count));
+            count = 0;
+        }
     }
-    const alpi_gather_job *g = job->options->gather;
-    ALP_TRY(gather_list(job, count, *g));
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t t = job->list[i];
-        job->lattice.states[t] = ALPI_TEXEL_TRACED;
-        job->lattice.values[t] = level_of(&g->values[t]);
-    }
-    return ALP_OK;
+    return trace_listed(job, count);
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -246,32 +257,6 @@ static alp_result run_lattice(bounced_job *job)
 
 // --- errors --------------------------------------------------------------------------------------
 
-/// Mean variance of the traced texels of a chart in the three by three about each: of four
-/// replicates alone it would be anything, and by chance nothing.
-static alp_result pool_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const bounced_job *job = user;
-    const alpi_lattice *l = &job->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->options->order[i];
-        if (l->states[t] != ALPI_TEXEL_TRACED) {
-            continue;
-        }
-        uint32_t around[ALPI_NEIGHBOUR_LIMIT + 1];
-        uint32_t count = alpi_lattice_traced_around(l, t, around);
-        around[count++] = t;
-        for (int k = 0; k < 3; k++) {
-            float sum = 0.0f;
-            for (uint32_t n = 0; n < count; n++) {
-                sum += job->options->gather->values[around[n]].variance[k];
-            }
-            job->variances[3 * (size_t)t + (size_t)k] = sum / (float)count;
-        }
-    }
-    return ALP_OK;
-}
-
 /// Some interpolated texels, evenly and at random.
 static uint32_t hold_out(const bounced_job *job, uint32_t interpolated)
 {
@@ -357,17 +342,15 @@ static alp_result state_errors(bounced_job *job)
     float variance[3] = {0.0f, 0.0f, 0.0f};
     job->report->traced = traced;
     job->report->interpolated = interpolated;
-    ALP_TRY(for_texels(job, pool_range));
+    ALP_TRY(alpi_pool_variances(&job->lattice, job->options->gather->values));
     const bool held = job->options->held_out != NULL && job->options->held_out->count > 0;
     if (interpolated > 0 || held) {
         ALP_TRY(measure_interpolated(job, interpolated, variance));
     }
     for (uint32_t i = 0; i < job->options->count; i++) {
         const uint32_t t = job->options->order[i];
-        const bool own = job->lattice.states[t] == ALPI_TEXEL_TRACED;
-        for (size_t k = 0; k < 3; k++) {
-            job->options->gather->values[t].variance[k] =
-                own ? job->variances[3 * (size_t)t + k] : variance[k];
+        if (job->lattice.states[t] != ALPI_TEXEL_TRACED) {
+            memcpy(job->options->gather->values[t].variance, variance, sizeof variance);
         }
     }
     return ALP_OK;
@@ -380,9 +363,11 @@ static alp_result run(bounced_job *job)
     alp_context *context = job->lattice.context;
     const uint32_t texels = job->lattice.texels->count;
     ALPI_TRY_NEW(context, job->wanted, texels);
-    ALPI_TRY_NEW(context, job->list, job->options->count);
-    ALPI_TRY_NEW(context, job->lattice.values, texels);
-    ALPI_TRY_NEW(context, job->variances, 3 * (size_t)texels);
+    ALPI_TRY_NEW(context, job->list,
+                 job->options->count < LIST_LIMIT ? job->options->count : LIST_LIMIT);
+    if (job->lattice.values == NULL) {
+        ALPI_TRY_NEW(context, job->lattice.values, texels);
+    }
     for (uint32_t i = 0; i < job->options->count; i++) {
         job->lattice.states[job->options->order[i]] = ALPI_TEXEL_OPEN;
     }
@@ -402,11 +387,12 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     *report = (alpi_bounced_report){0};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;
-    job.lattice.values = NULL;
+    job.lattice.values = options->levels;
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);
     alpi_release(lattice->context, job.list);
-    alpi_release(lattice->context, job.lattice.values);
-    alpi_release(lattice->context, job.variances);
+    if (options->levels == NULL) {
+        alpi_release(lattice->context, job.lattice.values);
+    }
     return result;
 }

@@ -30,6 +30,7 @@ typedef struct alpi_bounced_options {
     alpi_held_out *held_out;     // NULL: one map alone; else in and out
     const alpi_gatherer *beside; // where held_out has some: like that of `gather`, of other random
                                  // numbers, as some of them may be traced now
+    float *levels;               // [texels] that may be written over, or NULL
 } alpi_bounced_options;
 
 typedef struct alpi_bounced_report {

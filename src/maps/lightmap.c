@@ -57,10 +57,9 @@ static alp_result allocate_pages(const alp_lightmap *l, float ***pages)
 
 static alp_result allocate(alp_lightmap *l)
 {
-    ALPI_TRY_NEW(l->context, l->errors, l->texels.count);
     ALPI_TRY_NEW(l->context, l->states, l->texels.count);
     memset(l->states, ALPI_TEXEL_TRACED, l->texels.count); // until somebody knows better
-    return allocate_pages(l, &l->pages);
+    return ALP_OK;
 }
 
 alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap)
@@ -125,6 +124,9 @@ static alp_result fill_pages(alp_lightmap *lightmap, const float *values, size_t
 
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values)
 {
+    if (lightmap->pages == NULL) {
+        ALP_TRY(allocate_pages(lightmap, &lightmap->pages));
+    }
     return fill_pages(lightmap, values, 1, lightmap->pages);
 }
 
@@ -165,6 +167,10 @@ void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float
         const float *values = lightmap->vertex_values;
         rgb[0] = rgb[1] = rgb[2] =
             (1.0f - b1 - b2) * values[corner[0]] + b1 * values[corner[1]] + b2 * values[corner[2]];
+        return;
+    }
+    if (lightmap->pages == NULL) { // nobody asked what is open
+        rgb[0] = rgb[1] = rgb[2] = 1.0f;
         return;
     }
     sample_pages(lightmap, lightmap->pages, triangle, b1, b2, rgb);
@@ -265,10 +271,11 @@ uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap)
     return lightmap ? lightmap->page_count : 0;
 }
 
-const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
-                               uint32_t *height)
+/// One of some pages and its size, or NULL.
+static const float *find_page(const alp_lightmap *lightmap, float *const *pages, uint32_t page,
+                              uint32_t *width, uint32_t *height)
 {
-    if (lightmap == NULL || page >= lightmap->page_count) {
+    if (page >= lightmap->page_count || pages == NULL) {
         return NULL;
     }
     if (width != NULL) {
@@ -277,17 +284,23 @@ const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint
     if (height != NULL) {
         *height = lightmap->height;
     }
-    return lightmap->pages[page];
+    return pages[page];
+}
+
+const float *alp_lightmap_page(const alp_lightmap *lightmap, uint32_t page, uint32_t *width,
+                               uint32_t *height)
+{
+    return lightmap != NULL ? find_page(lightmap, lightmap->pages, page, width, height) : NULL;
 }
 
 const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, uint32_t page,
                                    uint32_t *width, uint32_t *height)
 {
-    const float *ao = alp_lightmap_page(lightmap, page, width, height);
-    if (ao == NULL || map == ALP_MAP_AO) {
-        return ao;
+    if (lightmap == NULL) {
+        return NULL;
     }
-    float *const *pages = map == ALP_MAP_BENT         ? lightmap->bent_pages
+    float *const *pages = map == ALP_MAP_AO           ? lightmap->pages
+                          : map == ALP_MAP_BENT       ? lightmap->bent_pages
                           : map == ALP_MAP_OBSCURANCE ? lightmap->obscurance_pages
                           : map == ALP_MAP_LIGHT      ? lightmap->irradiance_pages
                           : map == ALP_MAP_DIRECT     ? lightmap->direct_pages
@@ -295,15 +308,15 @@ const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map map, ui
                           : map == ALP_MAP_SH         ? lightmap->sh_pages[0]
                           : map == ALP_MAP_DIRECTION  ? lightmap->direction_pages
                                                       : NULL;
-    return pages != NULL ? pages[page] : NULL;
+    return find_page(lightmap, pages, page, width, height);
 }
 
 const float *alp_lightmap_sh_page(const alp_lightmap *lightmap, uint32_t index, uint32_t page,
                                   uint32_t *width, uint32_t *height)
 {
-    const bool there = alp_lightmap_page(lightmap, page, width, height) != NULL && index < 4 &&
-                       lightmap->sh_pages[index] != NULL;
-    return there ? lightmap->sh_pages[index][page] : NULL;
+    return lightmap != NULL && index < 4
+               ? find_page(lightmap, lightmap->sh_pages[index], page, width, height)
+               : NULL;
 }
 
 uint32_t alp_lightmap_layer_count(const alp_lightmap *lightmap)
@@ -319,9 +332,9 @@ const char *alp_lightmap_layer_name(const alp_lightmap *lightmap, uint32_t layer
 const float *alp_lightmap_layer_page(const alp_lightmap *lightmap, uint32_t layer, uint32_t page,
                                      uint32_t *width, uint32_t *height)
 {
-    const bool there = layer < alp_lightmap_layer_count(lightmap) &&
-                       alp_lightmap_page(lightmap, page, width, height) != NULL;
-    return there ? lightmap->layer_pages[layer][page] : NULL;
+    return layer < alp_lightmap_layer_count(lightmap)
+               ? find_page(lightmap, lightmap->layer_pages[layer], page, width, height)
+               : NULL;
 }
 
 const alp_atlas *alp_lightmap_atlas(const alp_lightmap *lightmap)

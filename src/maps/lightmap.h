@@ -17,9 +17,10 @@ struct alp_lightmap {
     alp_atlas *atlas;     // owned
     alpi_texels texels;
     uint32_t page_count, width, height;
-    float *errors;   // [texels] standard error of each
+    float *errors;   // [texels] standard error of occlusion, or NULL: nobody asked for it
     uint8_t *states; // [texels] alpi_texel_state: how its value was found
-    float **pages;   // [page_count] → [height][width][4]: value in RGB, coverage in A
+    float **pages;   // [page_count] → [height][width][4]: value in RGB, coverage in A. NULL where
+                     // occlusion was not asked for
     // Laid out like `pages`; NULL where the bake made none.
     float **bent_pages;                                 // bent normals: unit, world space
     float **obscurance_pages;                           // coloured obscurance
@@ -31,7 +32,7 @@ struct alp_lightmap {
     float ***layer_pages; // [layer_count] W·m⁻², of which irradiance is the sum as well
 };
 
-/// Takes the atlas over (also on failure) and makes its texels; pages are zero.
+/// Takes the atlas over (also on failure) and makes its texels; there are no pages yet.
 alp_result alpi_lightmap_create(alp_atlas *atlas, alp_lightmap **lightmap);
 
 /// Values at the scene's vertices, [scene vertices]; takes them over, also on failure.
@@ -41,9 +42,10 @@ alp_result alpi_lightmap_create_vertices(const alp_scene *scene, float *values,
 /// Writes one value per texel into R = G = B, coverage 1 into A, and fills the rest of each page
 /// from the nearest covered texel, so that no filter or mip level ever reads something that is no
 /// surface. Texels of unknown value (OPEN in lightmap->states) are filled like those of no surface.
+/// Pages are allocated here.
 alp_result alpi_lightmap_store(alp_lightmap *lightmap, const float *values);
 
-/// The same for three values per texel, into pages of their own, which are allocated here.
+/// The same for three values per texel, into pages of their own.
 alp_result alpi_lightmap_store_vectors(alp_lightmap *lightmap, const float (*values)[3],
                                        float ***pages);
 
@@ -58,7 +60,7 @@ alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t p
 bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
 
 /// Bilinear look-up at a point of a triangle that the lightmap holds, or linear between the values
-/// at its vertices.
+/// at its vertices; 1 without any.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);
 

@@ -77,8 +77,9 @@ static void find_material(const alpi_patches *p, uint32_t texel)
     }
     for (int k = 0; k < 3 && met > 0; k++) {
         p->reflectances[texel][k] = (float)(albedo[k] / met);
-        p->emissions[texel][k] = (float)(emission[k] / met);
     }
+    p->emissions[texel] =
+        met > 0 ? (float)((emission[0] + emission[1] + emission[2]) / (3.0 * met)) : 0.0f;
 }
 
 static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -93,6 +94,19 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
 
 // --- where light is looked up --------------------------------------------------------------------
 
+static alpi_patch_place *place_of(const alpi_patches *p, uint32_t texel)
+{
+    const uint16_t *pixel = p->texels->pixels[texel];
+    return &p->places[alpi_lattice_pixel(p->lattice, p->texels->pages[texel], pixel[0], pixel[1])];
+}
+
+/// Whether a texel is of a chart and shows itself.
+static bool has_own_light(const alpi_patches *p, uint32_t texel, uint32_t chart)
+{
+    const alpi_patch_place *place = place_of(p, texel);
+    return place->chart == chart && place->texel == texel;
+}
+
 /// The nearest texel of a chart, with light of its own, about a pixel: in rings of up to `rings`.
 static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64_t y,
                           uint32_t chart, int rings)
@@ -103,8 +117,7 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
         for (int dx = -rings; dx <= rings; dx++) {
             const uint32_t t = alpi_lattice_texel(p->lattice, page, x + dx, y + dy);
             const int distance = dx * dx + dy * dy;
-            if (t != ALPI_NONE && distance < best_distance && p->texels->charts[t] == chart &&
-                p->blocks[t] != ALPI_NONE) {
+            if (t != ALPI_NONE && distance < best_distance && has_own_light(p, t, chart)) {
                 best = t;
                 best_distance = distance;
             }
@@ -121,17 +134,16 @@ static void find_places(alpi_patches *p)
     const alpi_texels *texels = p->texels;
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint32_t chart = texels->charts[t];
-        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE &&
-            p->blocks[t] != ALPI_NONE) {
+        const bool lit = p->blocks[t] != ALPI_NONE;
+        *place_of(p, t) = (alpi_patch_place){chart, lit ? t : ALPI_NONE};
+        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE && lit) {
             p->chart_texels[chart] = t;
         }
     }
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint16_t *pixel = texels->pixels[t];
         const uint32_t chart = texels->charts[t];
-        alpi_patch_place *place =
-            &p->places[alpi_lattice_pixel(p->lattice, texels->pages[t], pixel[0], pixel[1])];
-        *place = (alpi_patch_place){chart, t};
+        alpi_patch_place *place = place_of(p, t);
         if (p->blocks[t] == ALPI_NONE) {
             place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
         }
@@ -424,29 +436,58 @@ static uint32_t count_charts(const alpi_patches *p)
     return count;
 }
 
-static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count, uint32_t spacing)
+/// Makes an array shorter. @return ALP_OK; OUT_OF_MEMORY
+static alp_result trim(alp_context *context, void **items, size_t count, size_t size)
 {
-    const uint32_t texels = p->texels->count, charts = count_charts(p);
-    const size_t sides = p->two_sided ? 2 : 1;
+    void *fewer = alpi_reallocate(context, *items, count, size);
+    if (fewer == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    *items = fewer;
+    return ALP_OK;
+}
+
+/// Room for as many blocks as texels, while nobody knows better.
+static alp_result make_room(alpi_patches *p, uint32_t count)
+{
+    const uint32_t texels = p->texels->count;
     const size_t pixels = (size_t)p->lattice->page_count * p->lattice->width * p->lattice->height;
     ALPI_TRY_NEW(p->context, p->places, pixels);
-    ALPI_TRY_NEW(p->context, p->chart_texels, charts);
-    ALPI_TRY_NEW(p->context, p->reflectances, texels);
-    ALPI_TRY_NEW(p->context, p->emissions, texels);
+    memset(p->places, 0xff, pixels * sizeof *p->places);
     ALPI_TRY_NEW(p->context, p->blocks, texels);
     ALPI_TRY_NEW(p->context, p->block_first, (size_t)count + 1);
     ALPI_TRY_NEW(p->context, p->block_texels, count);
     ALPI_TRY_NEW(p->context, p->block_ends, count);
     ALPI_TRY_NEW(p->context, p->block_areas, count);
-    ALPI_TRY_NEW(p->context, p->seen_backs, p->two_sided ? count : 0);
+    return ALP_OK;
+}
+
+/// What is made when it is known how many blocks there are.
+static alp_result make_rest(alpi_patches *p)
+{
+    const size_t texels = p->texels->count, sides = p->two_sided ? 2 : 1;
+    ALP_TRY(trim(p->context, (void **)&p->block_first, (size_t)p->block_count + 1,
+                 sizeof *p->block_first));
+    ALP_TRY(trim(p->context, (void **)&p->block_areas, p->block_count, sizeof *p->block_areas));
+    ALPI_TRY_NEW(p->context, p->seen_backs, p->two_sided ? p->block_count : 0);
+    ALPI_TRY_NEW(p->context, p->reflectances, texels);
+    ALPI_TRY_NEW(p->context, p->emissions, texels);
     ALPI_TRY_NEW(p->context, p->cells, ALPI_CELL_FIRST + sides * texels);
-    memset(p->places, 0xff, pixels * sizeof *p->places);
+    return ALP_OK;
+}
+
+static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count, uint32_t spacing)
+{
+    const uint32_t texels = p->texels->count, charts = count_charts(p);
+    ALP_TRY(make_room(p, count));
+    ALPI_TRY_NEW(p->context, p->chart_texels, charts);
     memset(p->blocks, 0xff, texels * sizeof *p->blocks);
     memset(p->chart_texels, 0xff, charts * sizeof *p->chart_texels);
     for (uint32_t i = 0; i < count; i++) {
         p->blocks[order[i]] = 0; // has light of its own; which block, comes next
     }
     ALP_TRY(make_blocks(p, spacing));
+    ALP_TRY(make_rest(p));
     find_places(p);
     const alpi_task_progress told = {.stage = "light"};
     return alpi_parallel_for(p->context, texels, 1024, find_materials, p, &told);
@@ -469,6 +510,27 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
         alpi_patches_destroy(patches);
     }
     return result;
+}
+
+void alpi_patches_settle(alpi_patches *patches, bool lit_again)
+{
+    alp_context *context = patches->context;
+    alpi_release(context, patches->emissions);
+    alpi_release(context, patches->block_first);
+    alpi_release(context, patches->block_texels);
+    alpi_release(context, patches->block_ends);
+    alpi_release(context, patches->block_areas);
+    patches->block_ends = patches->emissions = NULL;
+    patches->block_first = patches->block_texels = NULL;
+    patches->block_areas = NULL;
+    if (!lit_again) {
+        alpi_release(context, patches->reflectances);
+        patches->reflectances = NULL;
+    }
+    if (!lit_again && !patches->two_sided) { // else they say whose back is seen
+        alpi_release(context, patches->blocks);
+        patches->blocks = NULL;
+    }
 }
 
 void alpi_patches_destroy(alpi_patches *patches)

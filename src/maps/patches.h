@@ -35,7 +35,7 @@ typedef struct alpi_patches {
     alpi_patch_place *places; // [pages][height][width]
     uint32_t *chart_texels;   // [charts] a texel of each, ALPI_NONE where it has none
     float (*reflectances)[3]; // [texels] albedo, mean over the texel
-    float (*emissions)[3];    // [texels] radiance of the front, mean over the texel
+    float *emissions;         // [texels] radiance of the front, mean over the texel and channels
     uint32_t block_count;
     uint32_t *blocks;                     // [texels] block of each; ALPI_NONE: no light of its own
     uint32_t *block_first, *block_texels; // texels of each block, one after the other
@@ -60,6 +60,11 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                                const uint32_t *order, uint32_t count, const alpi_block_rule *rule,
                                alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
+/// Keeps what it takes to look light up in the cells, and lets go of the rest: blocks, as receivers
+/// too, and what texels reflect and emit.
+/// @param lit_again whether the light in the cells will change: which block each texel is of, and
+///     what it reflects, stay
+void alpi_patches_settle(alpi_patches *patches, bool lit_again);
 /// Whether those of a scene have backs.
 bool alpi_patches_are_two_sided(const alp_scene *scene);
 

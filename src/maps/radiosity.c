@@ -181,8 +181,7 @@ static void see_shining_backs(const solver *s)
     for (uint32_t b = 0; b < p->block_count && p->two_sided; b++) {
         for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
             const uint32_t t = p->block_texels[k];
-            const float *e = p->emissions[t];
-            if (e[0] + e[1] + e[2] > 0.0f &&
+            if (p->emissions[t] > 0.0f &&
                 alpi_surface_is_double_sided(p->scene, p->texels->triangles[t])) {
                 p->seen_backs[b] = ALPI_BACK_SEEN;
             }
@@ -212,9 +211,9 @@ static alp_result find_receivers(solver *s)
     alpi_radiosity *r = s->r;
     const alpi_patches *p = &r->patches;
     const alpi_radiosity_options *o = &r->options;
-    uint32_t room = p->block_count;
+    const uint32_t room = p->block_count * (uint32_t)sides_of(p);
     r->kept = alpi_gather_meets_cells(&s->from) &&
-              alpi_kept_rays_size(o->gatherer) * room * sides_of(p) <= o->kept_limit;
+              alpi_kept_rays_size(o->gatherer) * room <= o->kept_limit;
     if (r->kept) {
         ALP_TRY(alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept));
     }
@@ -228,10 +227,6 @@ static alp_result find_receivers(solver *s)
     }
     for (uint32_t count = p->block_count; count > 0; count = add_seen_backs(s)) {
         if (s->new_receivers[0] >= p->block_count) {
-            if (r->kept && room == p->block_count) {
-                room *= 2;
-                ALP_TRY(alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept));
-            }
             ALP_TRY(light_backs(s, s->new_receivers, count));
         }
         ALP_TRY(look_around(s, s->new_receivers, count));
@@ -440,9 +435,9 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     const float *direct = r->direct[back * p->texels->count + t].mean;
     const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
     const double escaped = (double)r->lost[receiver][0], behind = (double)r->lost[receiver][1];
+    const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
-        const double emitted = !gives ? 0.0 : ALPI_PI * (double)p->emissions[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
         const double shot = albedo * (first + (double)before[k]) + emitted;
         e->received += share * first;
@@ -525,8 +520,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     ALP_TRY(find_receivers(s));
     ALP_TRY(run_passes(s));
     find_energy(s->r);
-    ALP_TRY(run_layers(s));
-    return drop_backs(s->r);
+    return run_layers(s);
 }
 
 alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alpi_lattice *lattice,
@@ -538,14 +532,35 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
     s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
         alpi_patches_create(lattice, atlas, order, count, &options->blocks, &radiosity->patches));
-    const alp_result result = solve(&s, order, count);
+    alp_result result = solve(&s, order, count);
     alpi_kept_rays_destroy(&s.kept);
     alpi_release(options->context, s.new_receivers);
     alpi_release(options->context, s.layer_bounced);
+    result = result == ALP_OK ? drop_backs(radiosity) : result;
     if (result != ALP_OK) {
         alpi_radiosity_destroy(radiosity);
     }
     return result;
+}
+
+void alpi_radiosity_settle(alpi_radiosity *radiosity, bool shown_again)
+{
+    alp_context *context = radiosity->options.context;
+    if (radiosity->options.layers != NULL) {
+        return;
+    }
+    alpi_patches_settle(&radiosity->patches, shown_again);
+    alpi_release(context, radiosity->bounced);
+    alpi_release(context, radiosity->lost);
+    alpi_release(context, radiosity->receivers);
+    radiosity->bounced = NULL;
+    radiosity->lost = NULL;
+    radiosity->receivers = NULL;
+    if (!shown_again) {
+        alpi_release(context, radiosity->before);
+        alpi_release(context, radiosity->skies);
+        radiosity->before = radiosity->skies = NULL;
+    }
 }
 
 void alpi_radiosity_destroy(alpi_radiosity *radiosity)

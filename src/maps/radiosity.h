@@ -90,6 +90,10 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alp_atlas *atlas, const uint32_t *order, uint32_t count,
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity);
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
+/// Lets go of what only solving takes: what is left gives direct light by other samples, and is
+/// looked at by who gathers the last bounce. With layers, which are shown one by one, all stays.
+/// @param shown_again whether alpi_radiosity_show will be called: what it takes stays too
+void alpi_radiosity_settle(alpi_radiosity *radiosity, bool shown_again);
 
 /// Puts the light of one layer into the cells, as it goes into the last bounce; ALPI_NONE: of all
 /// of them, which is there after solving, by the direct light of then.

@@ -280,9 +280,9 @@ static void memory_is_known_beforehand(void **state)
     // A page that no machine holds is refused with what it takes.
     alpi_bake_job job = {.scene = scene, .context = context};
     alp_atlas_info huge = {.pages = 4096, .width = 16384, .height = 16384, .texels = 1ull << 40};
-    assert_int_equal(alpi_bake_check_memory(&job, &huge), ALP_ERROR_LIMIT);
+    assert_int_equal(alpi_bake_check_memory(&job, &huge, 0), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(context), "GiB"));
-    ASSERT_OK(context, alpi_bake_check_memory(&job, &report.atlas));
+    ASSERT_OK(context, alpi_bake_check_memory(&job, &report.atlas, 0));
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }

@@ -70,7 +70,7 @@ static void memory_limit_is_kept(void **state)
     size_t size = 0;
     uint64_t fewest = 0; // rays, where all are kept
     int kept = 0, traced_again = 0, refused = 0;
-    for (double limit = 8.0; limit > 2.0; limit *= 0.85) {
+    for (double limit = 6.0; limit > 1.0; limit *= 0.8) {
         alp_context *context = test_context(2);
         alp_scene *scene = load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);
