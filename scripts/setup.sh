@@ -25,6 +25,7 @@ build_packages="
     libpng-dev          -
     libjpeg62-turbo-dev -
     libopenexr-dev      -
+    libxml2-dev         -
     libzstd-dev         -
     zlib1g-dev          -"
 check_packages="

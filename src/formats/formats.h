@@ -10,6 +10,9 @@
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
+/// Reads a .dae or .zae into a scene and keeps the document with it (ALPI_ATTACHMENT_COLLADA).
+alp_result alpi_collada_read_scene(alp_context *context, const char *path, alp_scene **scene);
+
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,

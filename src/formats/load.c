@@ -29,7 +29,7 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
         return alpi_builtin_create(context, path + sizeof builtin - 1, scene);
     }
     if (alpi_path_has_ending(path, ".dae") || alpi_path_has_ending(path, ".zae")) {
-        return refuse_kind(context, path, "COLLADA");
+        return alpi_collada_read_scene(context, path, scene);
     }
     if (alpi_path_has_ending(path, ".obj")) {
         return refuse_kind(context, path, "OBJ");
