@@ -93,9 +93,15 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     if (o->output != NULL && alpi_bake_is_viewer_file(o)) {
         ALP_TRY(alpi_bake_check_viewer_file(job, pages));
     } else if (o->output != NULL) {
-        if (!is_gltf_path(o->output)) {
+        const bool is_collada = alpi_path_has_ending(o->output, ".dae");
+        if (!is_gltf_path(o->output) && !is_collada) {
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: only .glb and .gltf are written so far", o->output);
+                             "%s: only .glb, .gltf and .dae are written so far", o->output);
+        }
+        if (is_collada && o->atlas.mode == ALP_ATLAS_VERTEX) {
+            return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                             "%s: values at vertices are not written to a .dae; write .glb",
+                             o->output);
         }
         const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
         const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
@@ -104,7 +110,8 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
                                          .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
                                          .light_is_beside =
                                              o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS};
-        ALP_TRY(alpi_gltf_check_outputs(job->scene, &images, o->output, o->overwrite));
+        ALP_TRY((is_collada ? alpi_collada_check_outputs : alpi_gltf_check_outputs)(
+            job->scene, &images, o->output, o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -427,8 +434,9 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .occlusion_strength = 1.0f,
             .extras_json = extras,
         };
-        result = alpi_gltf_write_patched(job->scene, &patch, job->options.output,
-                                         job->options.overwrite);
+        const bool is_collada = alpi_path_has_ending(job->options.output, ".dae");
+        result = (is_collada ? alpi_collada_write_patched : alpi_gltf_write_patched)(
+            job->scene, &patch, job->options.output, job->options.overwrite);
     }
     alpi_release(job->context, pngs);
     alpi_release(job->context, sizes);

@@ -48,6 +48,15 @@ typedef struct alpi_gltf_images {
 alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                    const char *path, bool overwrite);
 
+/// Writes the COLLADA document that a scene was read from, with the patch, to `path` (.dae), and
+/// the maps beside it. @return also UNSUPPORTED (another scene, values at vertices, light that is
+/// not emissive)
+alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                      const char *path, bool overwrite);
+/// Every file of it is checked before the long work.
+alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                      const char *path, bool overwrite);
+
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
 alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size);
