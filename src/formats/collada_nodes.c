@@ -15,6 +15,7 @@ enum { VISIT_LIMIT = 1 << 22 };
 typedef struct frame {
     xmlNode *element; // visual_scene or node
     xmlNode *next;    // child that comes next
+    xmlNode *outer;   // outermost <instance_node> on the way here
     mat4 matrix;
 } frame;
 
@@ -26,7 +27,7 @@ typedef struct walk {
     uint32_t visits;
 } walk;
 
-static alp_result enter(walk *w, xmlNode *element, const mat4 *matrix)
+static alp_result enter(walk *w, xmlNode *element, const mat4 *matrix, xmlNode *outer)
 {
     alpi_collada_reader *reader = w->reader;
     const uint32_t index = alpi_xml_index(element);
@@ -41,7 +42,7 @@ static alp_result enter(walk *w, xmlNode *element, const mat4 *matrix)
     }
     ALP_TRY(alpi_collada_grow(reader->context, &w->stack, &w->capacity, w->depth + 1,
                               sizeof *w->stack));
-    w->stack[w->depth++] = (frame){element, alpi_xml_child(element, NULL), *matrix};
+    w->stack[w->depth++] = (frame){element, alpi_xml_child(element, NULL), outer, *matrix};
     w->open[index] = true;
     return ALP_OK;
 }
@@ -59,7 +60,7 @@ static alp_result place(alpi_collada_reader *reader, xmlNode *instance, const fr
     ALP_TRY(alpi_collada_grow(reader->context, &reader->placements, &reader->placement_capacity,
                               reader->placement_count + 1, sizeof *reader->placements));
     reader->placements[reader->placement_count++] =
-        (alpi_collada_placement){instance, at->element, mesh, *matrix};
+        (alpi_collada_placement){instance, at->element, at->outer, mesh, *matrix};
     return ALP_OK;
 }
 
@@ -131,11 +132,12 @@ static alp_result visit(walk *w, xmlNode *child, frame *at)
         return ALP_OK;
     }
     if (alpi_xml_is(child, "node")) {
-        return enter(w, child, &at->matrix);
+        return enter(w, child, &at->matrix, at->outer);
     }
     if (alpi_xml_is(child, "instance_node")) {
         ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "node", &target));
-        return target != NULL ? enter(w, target, &at->matrix) : ALP_OK;
+        xmlNode *outer = at->outer != NULL ? at->outer : child;
+        return target != NULL ? enter(w, target, &at->matrix, outer) : ALP_OK;
     }
     if (alpi_xml_is(child, "instance_geometry")) {
         ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "geometry", &target));
@@ -152,7 +154,7 @@ static alp_result visit(walk *w, xmlNode *child, frame *at)
 
 static alp_result walk_from(walk *w, xmlNode *scene)
 {
-    ALP_TRY(enter(w, scene, &w->reader->root));
+    ALP_TRY(enter(w, scene, &w->reader->root, NULL));
     while (w->depth > 0) {
         frame *at = &w->stack[w->depth - 1];
         xmlNode *child = at->next;

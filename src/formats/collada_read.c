@@ -50,6 +50,7 @@ static void destroy_origin(alp_context *context, void *data)
     alpi_collada_origin *origin = data;
     alpi_collada_document_destroy(origin->document);
     alpi_release(context, origin->surfaces);
+    alpi_release(context, origin->placements);
     alpi_release(context, origin->materials);
     alpi_release(context, origin);
 }
@@ -311,7 +312,8 @@ static alp_result fill_surfaces(alpi_collada_reader *reader, alpi_collada_origin
             ALP_TRY(fill_surface(&f, &origin->surfaces[reader->scene->surface_count]));
         }
     }
-    origin->placement_count = reader->placement_count;
+    origin->placement_count = reader->placement_count; // from here it has the placements
+    origin->placements = reader->placements;
     return ALP_OK;
 }
 
@@ -393,6 +395,9 @@ alp_result alpi_collada_scene_from_document(alpi_collada_document *document, alp
     reader.scene = made;
     if (result == ALP_OK) {
         result = fill_scene(&reader, origin);
+    }
+    if (origin->placements != NULL) {
+        reader.placements = NULL;
     }
     alpi_collada_reader_destroy(&reader);
     if (result != ALP_OK) {

@@ -76,6 +76,7 @@ typedef struct alpi_collada_mesh {
 /// An <instance_geometry> or <instance_controller> where the walk met it.
 typedef struct alpi_collada_placement {
     xmlNode *instance, *node;
+    xmlNode *outer; // the outermost <instance_node> that led there, NULL = none
     uint32_t mesh;
     mat4 world;
 } alpi_collada_placement;
@@ -198,8 +199,9 @@ typedef struct alpi_collada_surface {
 } alpi_collada_surface;
 typedef struct alpi_collada_origin {
     alpi_collada_document *document;
-    alpi_collada_surface *surfaces; // [surface_count]
-    xmlNode **materials;            // [material_count]
+    alpi_collada_surface *surfaces;     // [surface_count]
+    xmlNode **materials;                // [material_count]
+    alpi_collada_placement *placements; // [placement_count]
     uint32_t placement_count;
 } alpi_collada_origin;
 
