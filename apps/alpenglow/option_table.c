@@ -6,7 +6,7 @@
 
 static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_BAKE] =
-        {"bake", "SCENE -o OUT.glb|OUT.gltf [--maps-dir DIR] [OPTIONS]",
+        {"bake", "SCENE -o OUT.glb|OUT.gltf|OUT.dae [--maps-dir DIR] [OPTIONS]",
          "bake ambient occlusion into a scene", 1, command_bake,
          "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
          "open, and writes a copy of the scene with that occlusion map attached. What the bake "
@@ -62,10 +62,11 @@ static const option options[] = {
      .kind = KIND_TEXT,
      .name = "-o",
      .alias = "--output",
-     .value = "OUT.glb|OUT.gltf",
-     .help = "The baked scene (OUT.json, OUT.babylon: see --lightmap-as). A .gltf gets its buffers "
-             "and images beside it. Without -o, "
-             "--maps-dir must be given. OUT.dae and OUT.obj are not built yet."},
+     .value = "OUT.glb|OUT.gltf|OUT.dae",
+     .help =
+         "The baked scene (OUT.json, OUT.babylon: see --lightmap-as). A .gltf gets its buffers "
+         "and images beside it, a .dae its images; a .dae is written where SCENE is one. Without "
+         "-o, --maps-dir must be given. OUT.obj is not built yet."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
      .group = GROUP_OUTPUT,

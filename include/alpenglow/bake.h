@@ -228,7 +228,7 @@ typedef struct alp_bake_options {
     const char *only;
     /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
     const char *occluders;
-    const char *output; ///< .glb or .gltf, or NULL: no asset
+    const char *output; ///< .glb, .gltf or (of a COLLADA scene) .dae; NULL: no asset
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
@@ -323,7 +323,7 @@ typedef struct alp_lightmap alp_lightmap;
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
 ///         INVALID_DATA (nothing to bake, or a second UV set that cannot
-///         be kept); UNSUPPORTED (an output that is neither .glb nor .gltf); LIMIT; IO;
+///         be kept); UNSUPPORTED (an output that is no .glb, .gltf or .dae); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);

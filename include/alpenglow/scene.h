@@ -11,12 +11,12 @@ ALP_BEGIN_DECLS
 /// a scene run on the context it was made with: one at a time.
 typedef struct alp_scene alp_scene;
 
-/// Reads a scene file (.gltf, .glb) or makes a built-in one ("builtin:cornell", "builtin:furnace",
-/// "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane", "builtin:teapot-room",
-/// "builtin:windows", "builtin:atrium", "builtin:terrain"). Two can be made of any size, to 15 %:
-/// "builtin:atrium,triangles=N", 20000 to 4000000, default 50000; "builtin:terrain,triangles=N",
-/// 5000 to 4000000, default 60000, with `,trees=N`, 0 to 20000, default by size.
-/// What is odd but readable is told through the context's log.
+/// Reads a scene file (.gltf, .glb, .dae, .zae) or makes a built-in one ("builtin:cornell",
+/// "builtin:furnace", "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane",
+/// "builtin:teapot-room", "builtin:windows", "builtin:atrium", "builtin:terrain"). Two can be made
+/// of any size, to 15 %: "builtin:atrium,triangles=N", 20000 to 4000000, default 50000;
+/// "builtin:terrain,triangles=N", 5000 to 4000000, default 60000, with `,trees=N`, 0 to 20000,
+/// default by size. What is odd but readable is told through the context's log.
 /// @return ALP_OK; IO; INVALID_ARGUMENT (no such built-in scene or setting); INVALID_DATA
 /// (malformed: names file, object and fault); UNSUPPORTED (a
 ///         required extension, a file kind that is not read yet); LIMIT; OUT_OF_MEMORY

@@ -15,5 +15,4 @@ for command in probes lpv ambience sh view; do
     try $command
     try $command scene.glb --help
 done
-try bake scene.glb -o out.dae
 try bake scene.glb -o out.obj
