@@ -27,7 +27,8 @@ typedef struct walk {
     uint32_t visits;
 } walk;
 
-static alp_result enter(walk *w, xmlNode *element, const mat4 *matrix, xmlNode *outer)
+/// The matrix by value: it may lie in the stack, which moves as it grows.
+static alp_result enter(walk *w, xmlNode *element, mat4 matrix, xmlNode *outer)
 {
     alpi_collada_reader *reader = w->reader;
     const uint32_t index = alpi_xml_index(element);
@@ -42,7 +43,7 @@ static alp_result enter(walk *w, xmlNode *element, const mat4 *matrix, xmlNode *
     }
     ALP_TRY(alpi_collada_grow(reader->context, &w->stack, &w->capacity, w->depth + 1,
                               sizeof *w->stack));
-    w->stack[w->depth++] = (frame){element, alpi_xml_child(element, NULL), outer, *matrix};
+    w->stack[w->depth++] = (frame){element, alpi_xml_child(element, NULL), outer, matrix};
     w->open[index] = true;
     return ALP_OK;
 }
@@ -132,12 +133,12 @@ static alp_result visit(walk *w, xmlNode *child, frame *at)
         return ALP_OK;
     }
     if (alpi_xml_is(child, "node")) {
-        return enter(w, child, &at->matrix, at->outer);
+        return enter(w, child, at->matrix, at->outer);
     }
     if (alpi_xml_is(child, "instance_node")) {
         ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "node", &target));
         xmlNode *outer = at->outer != NULL ? at->outer : child;
-        return target != NULL ? enter(w, target, &at->matrix, outer) : ALP_OK;
+        return target != NULL ? enter(w, target, at->matrix, outer) : ALP_OK;
     }
     if (alpi_xml_is(child, "instance_geometry")) {
         ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "geometry", &target));
@@ -154,7 +155,7 @@ static alp_result visit(walk *w, xmlNode *child, frame *at)
 
 static alp_result walk_from(walk *w, xmlNode *scene)
 {
-    ALP_TRY(enter(w, scene, &w->reader->root, NULL));
+    ALP_TRY(enter(w, scene, w->reader->root, NULL));
     while (w->depth > 0) {
         frame *at = &w->stack[w->depth - 1];
         xmlNode *child = at->next;
