@@ -53,7 +53,8 @@ enum { SCENE_COUNT = sizeof scenes / sizeof *scenes };
 /// The error of one technique on one scene, over the mean of the truth.
 typedef struct verdict {
     double rmse, bias;
-    double doubt; // standard error of the bias: the technique's and the truth's
+    double doubt;  // standard error of the bias: the technique's and the truth's
+    double stated; // error; 0: it states none
 } verdict;
 
 /// What is printed of a scene.
@@ -244,7 +245,8 @@ static verdict judge(const truth_case *c, const alpi_reference_value *values)
     const double all = 3.0 * (double)c->question.count;
     return (verdict){.rmse = sqrt(fmax(squares, 0.0) / all) / c->told->mean,
                      .bias = sum / all / c->told->mean,
-                     .doubt = hypot(doubt / c->told->mean, c->told->doubt)};
+                     .doubt = hypot(doubt / c->told->mean, c->told->doubt),
+                     .stated = error / c->told->mean};
 }
 
 static bool ask_techniques(truth_case *c, bool quick)
@@ -258,6 +260,9 @@ static bool ask_techniques(truth_case *c, bool quick)
         }
         good = t->run(&c->question, quick ? t->paths / 8 : t->paths, values);
         c->told->verdicts[i] = judge(c, values);
+        if (t->partial) {
+            c->told->verdicts[i].stated = 0.0;
+        }
         const double z = fabs(c->told->verdicts[i].bias) / c->told->verdicts[i].doubt;
         if (good && t->exact && !quick && !(z < GREATEST_Z)) {
             fprintf(stderr,
@@ -302,16 +307,21 @@ static void print_scenes(const truth_summary *told, int count, const bench_optio
     bench_table_print(&table, options);
 }
 
+typedef enum matrix_kind { MATRIX_ERROR, MATRIX_BIAS, MATRIX_STATED } matrix_kind;
+
 /// Cell of a technique, or, −1, of the truth itself.
-static void write_cell(const truth_summary *told, int technique, bool bias,
+static void write_cell(const truth_summary *told, int technique, matrix_kind kind,
                        char cell[BENCH_CELL_SIZE])
 {
     const verdict *v = technique < 0 ? NULL : &told->verdicts[technique];
-    if (!told->known) {
+    const bool states = v != NULL && v->stated > 0.0 && v->rmse > 0.0;
+    if (!told->known || (kind == MATRIX_STATED && !states)) {
         snprintf(cell, BENCH_CELL_SIZE, "–");
-    } else if (bias && v == NULL) {
+    } else if (kind == MATRIX_STATED) {
+        snprintf(cell, BENCH_CELL_SIZE, "%.2f", v->stated / v->rmse);
+    } else if (kind == MATRIX_BIAS && v == NULL) {
         snprintf(cell, BENCH_CELL_SIZE, "± %.2f", 100.0 * told->doubt);
-    } else if (bias) {
+    } else if (kind == MATRIX_BIAS) {
         snprintf(cell, BENCH_CELL_SIZE, "%+.2f ± %.2f", 100.0 * v->bias, 100.0 * v->doubt);
     } else {
         snprintf(cell, BENCH_CELL_SIZE, "%.2f", 100.0 * (v == NULL ? told->own : v->rmse));
@@ -320,7 +330,7 @@ static void write_cell(const truth_summary *told, int technique, bool bias,
 
 enum { ROW_SIZE = BENCH_COLUMN_LIMIT * BENCH_CELL_SIZE };
 
-static void print_matrix(const truth_summary *told, int count, bool bias, const char *title,
+static void print_matrix(const truth_summary *told, int count, matrix_kind kind, const char *title,
                          const char *note, const bench_options *options)
 {
     bench_table table;
@@ -337,7 +347,7 @@ static void print_matrix(const truth_summary *told, int count, bool bias, const 
         }
         length = snprintf(row, ROW_SIZE, "%s", t == NULL ? "the truth itself" : t->name);
         for (int i = 0; i < count; i++) {
-            write_cell(&told[i], k, bias, cell);
+            write_cell(&told[i], k, kind, cell);
             length += snprintf(row + length, ROW_SIZE - (size_t)length, "|%s", cell);
         }
         bench_table_add(&table, "%s", row);
@@ -348,17 +358,22 @@ static void print_matrix(const truth_summary *told, int count, bool bias, const 
 static void print_all(const truth_summary *told, int count, const bench_options *options)
 {
     print_scenes(told, count, options);
-    print_matrix(told, count, false, "Error, in percent of the mean",
+    print_matrix(told, count, MATRIX_ERROR, "Error, in percent of the mean",
                  "√ mean of squared error over texels and channels, over the mean of the truth, "
                  "without the truth's own error, which stands in the first row. The colours of "
                  "the ambient models are those of least squares: no other choice brings them "
                  "nearer. Occlusion is baked with default options.",
                  options);
-    print_matrix(told, count, true, "Bias of the mean, in percent",
+    print_matrix(told, count, MATRIX_BIAS, "Bias of the mean, in percent",
                  "Mean of E less that of the truth, over the latter, ± the standard error of both "
                  "together: beyond three of them it is more than noise. Only without next-event "
                  "estimation, where few paths meet a small sun, and those by chance, it may be "
                  "more than is stated.",
+                 options);
+    print_matrix(told, count, MATRIX_STATED, "Stated error over the true one",
+                 "Of techniques that state one: √ mean variance of the texels asked, over the error "
+                 "above. 1 is the truth; where an error is below the truth's own, the latter's "
+                 "chance is in it.",
                  options);
 }
 

@@ -158,6 +158,15 @@ static bool run_radiosity(const bench_question *question, uint32_t rays,
     return run_radiosity_with(question, &light, values);
 }
 
+/// What `bake --maps light --error` does, which by default is for 1 %. @param paths 1 / error
+static bool run_radiosity_for(const bench_question *question, uint32_t paths,
+                              alpi_reference_value *values)
+{
+    alp_light_options light = alp_bake_options_default().light;
+    light.error = 1.0f / (float)paths;
+    return run_radiosity_with(question, &light, values);
+}
+
 static bool run_by_chance(const bench_question *question, uint32_t paths,
                           alpi_reference_value *values)
 {
@@ -264,20 +273,22 @@ static bool run_occlusion(const bench_question *question, uint32_t paths,
 const bench_technique *bench_technique_at(int index)
 {
     static const bench_technique techniques[] = {
-        {"reference, 64 paths", run_reference, 64, true},
-        {"reference, 256 paths", run_reference, 256, true},
+        {"reference, 64 paths", run_reference, 64, true, false},
+        {"reference, 256 paths", run_reference, 256, true, false},
         // Neighbours' errors are alike: the mean's standard error, which takes them for
         // independent, says too little.
-        {"shared paths, 64", run_bake, 64, false},
-        {"radiosity, 64 rays", run_radiosity, 64, false},
-        {"radiosity, 256 rays", run_radiosity, 256, false},
+        {"shared paths, 64", run_bake, 64, false, false},
+        {"radiosity, 64 rays", run_radiosity, 64, false, false},
+        {"radiosity, 256 rays", run_radiosity, 256, false, false},
+        {"radiosity, for 4 %", run_radiosity_for, 25, false, false},
+        {"radiosity, for 1 %", run_radiosity_for, 100, false, false},
         // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
         // too little of their own spread.
-        {"without next event, 256 paths", run_by_chance, 256, false},
-        {"direct light alone", run_direct, 1024, false},
-        {"constant ambient", run_constant, 0, false},
-        {"hemisphere ambient", run_hemisphere, 0, false},
-        {"constant x occlusion", run_occlusion, 0, false},
+        {"without next event, 256 paths", run_by_chance, 256, false, false},
+        {"direct light alone", run_direct, 1024, false, true},
+        {"constant ambient", run_constant, 0, false, false},
+        {"hemisphere ambient", run_hemisphere, 0, false, false},
+        {"constant x occlusion", run_occlusion, 0, false, false},
     };
     const int count = sizeof techniques / sizeof *techniques;
     return index >= 0 && index < count ? &techniques[index] : NULL;

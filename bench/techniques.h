@@ -32,6 +32,7 @@ typedef struct bench_technique {
     uint32_t paths;
     bool exact; // its mean over seeds is the truth and its stated error true: a bias beyond it is a
                 // fault in one of the two
+    bool partial; // it leaves out light on purpose, and its stated error is not about that
 } bench_technique;
 /// Those that there are, from 0. @return NULL past the last
 const bench_technique *bench_technique_at(int index);

@@ -19,7 +19,7 @@ enum { BLOCK_CUBE = 16 };
 // leave, which is about 16 / √samples percent.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 8, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
+    enum { TEXELS_PER_BLOCK = 8, FEWEST_RAYS = 32, MOST_RAYS = 1024, MOST_SAMPLES = 65536 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
     }
@@ -30,7 +30,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         options->error > 0.0f ? (double)options->error : 0.16 / sqrt((double)options->samples);
     const double all = pow(9.0 / error, 2.0);
     const double each = all * TEXELS_PER_BLOCK / fmax((double)texels, 1.0);
-    uint32_t rays = ALPI_RADIOSITY_BLOCK_RAYS;
+    uint32_t rays = FEWEST_RAYS;
     while (rays < each && rays < MOST_RAYS) {
         rays *= 2;
     }
@@ -174,30 +174,23 @@ static alp_result gather_around(alpi_bake_job *job, const alpi_light_task *t,
     return result;
 }
 
-/// A sky without bright spots is best gathered with what is bounced, by the same rays. Panes would
-/// mix the two.
-static bool has_soft_sky(const alpi_bake_job *job, const alpi_tracer *tracer)
-{
-    const alp_sky_kind kind = job->options.light.lighting.sky.kind;
-    return (kind == ALP_SKY_CONSTANT || kind == ALP_SKY_HEMISPHERE || kind == ALP_SKY_CLEAR) &&
-           !alpi_tracer_has_panes(tracer);
-}
-
-/// The light that is looked for directly: all, or all but a soft sky.
+/// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
+/// are looked for directly, with all else. Panes would mix the two.
 static alp_result gather_with_sky(alpi_bake_job *job, const alpi_light_task *t,
                                   const light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);
     }
-    if (!has_soft_sky(job, t->tracer)) {
+    if (alpi_lighting_sky(t->lighting) == NULL || alpi_tracer_has_panes(t->tracer)) {
         return gather_light(job, t, g, t->lighting);
     }
-    alp_lighting_options options = job->options.light.lighting;
-    alpi_lighting *direct = NULL;
-    options.sky.kind = ALP_SKY_NONE;
-    ALP_TRY(alpi_lighting_create(job->scene, &options, &direct));
-    const alp_result result = gather_light(job, t, g, direct);
+    alpi_light_task with_soft_sky = *t;
+    alpi_lighting *soft = NULL, *direct = NULL;
+    ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
+    with_soft_sky.lighting = soft;
+    const alp_result result = gather_light(job, &with_soft_sky, g, direct);
+    alpi_lighting_destroy(job->context, soft);
     alpi_lighting_destroy(job->context, direct);
     return result;
 }

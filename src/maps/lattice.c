@@ -26,7 +26,7 @@ uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int
     if (x < 0 || y < 0 || x >= l->width || y >= l->height) {
         return ALPI_NONE;
     }
-    return l->grid[((size_t)page * l->height + (size_t)y) * l->width + (size_t)x];
+    return l->grid[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
 }
 
 static alp_result fill_grid(alpi_lattice *l)
@@ -35,7 +35,7 @@ static alp_result fill_grid(alpi_lattice *l)
     memset(l->grid, 0xff, pixels * sizeof *l->grid);
     for (uint32_t t = 0; t < l->texels->count; t++) {
         const uint16_t *p = l->texels->pixels[t];
-        l->grid[((size_t)l->texels->pages[t] * l->height + p[1]) * l->width + p[0]] = t;
+        l->grid[alpi_lattice_pixel(l, l->texels->pages[t], p[0], p[1])] = t;
         if (t % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
             ALP_TRY(alpi_tick(l->context, "build", 0, 1));
         }

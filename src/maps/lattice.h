@@ -32,6 +32,13 @@ alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels
                                alpi_lattice *lattice);
 void alpi_lattice_destroy(alpi_lattice *lattice);
 
+/// Place of a pixel in arrays over all pages.
+static inline size_t alpi_lattice_pixel(const alpi_lattice *lattice, uint32_t page, uint32_t x,
+                                        uint32_t y)
+{
+    return ((size_t)page * lattice->height + y) * lattice->width + x;
+}
+
 /// The texel at a pixel, ALPI_NONE where there is none or the pixel is off the page.
 uint32_t alpi_lattice_texel(const alpi_lattice *lattice, uint32_t page, int64_t x, int64_t y);
 

@@ -113,20 +113,30 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
     return best;
 }
 
-/// Nearest texels with light for those without, and a texel of each chart.
-static void find_stand_ins(alpi_patches *p)
+/// A texel of each chart, and what is found at each pixel: its texel, or the nearest with light of
+/// its own.
+static void find_places(alpi_patches *p)
 {
     enum { RINGS = 3 };
     const alpi_texels *texels = p->texels;
     for (uint32_t t = 0; t < texels->count; t++) {
-        const uint16_t *pixel = texels->pixels[t];
-        p->stand_ins[t] = p->blocks[t] != ALPI_NONE ? t
-                                                    : find_near(p, texels->pages[t], pixel[0],
-                                                                pixel[1], texels->charts[t], RINGS);
         const uint32_t chart = texels->charts[t];
         if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE &&
             p->blocks[t] != ALPI_NONE) {
             p->chart_texels[chart] = t;
+        }
+    }
+    for (uint32_t t = 0; t < texels->count; t++) {
+        const uint16_t *pixel = texels->pixels[t];
+        const uint32_t chart = texels->charts[t];
+        alpi_patch_place *place =
+            &p->places[alpi_lattice_pixel(p->lattice, texels->pages[t], pixel[0], pixel[1])];
+        *place = (alpi_patch_place){chart, t};
+        if (p->blocks[t] == ALPI_NONE) {
+            place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
+        }
+        if (place->texel == ALPI_NONE && chart != ALPI_NONE) {
+            place->texel = p->chart_texels[chart];
         }
     }
 }
@@ -138,15 +148,17 @@ uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float
     if (page == ALPI_NONE || chart == ALPI_NONE) {
         return ALPI_NONE;
     }
+    const alpi_lattice *l = patches->lattice;
     const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
     const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
     const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
-    const int64_t x = (int64_t)floorf(u * (float)patches->lattice->width);
-    const int64_t y = (int64_t)floorf(v * (float)patches->lattice->height);
-    const uint32_t t = alpi_lattice_texel(patches->lattice, page, x, y);
-    if (t != ALPI_NONE && patches->texels->charts[t] == chart) {
-        const uint32_t stand_in = patches->stand_ins[t];
-        return stand_in != ALPI_NONE ? stand_in : patches->chart_texels[chart];
+    const int32_t x = (int32_t)(u * (float)l->width), y = (int32_t)(v * (float)l->height);
+    if (x >= 0 && y >= 0 && x < (int32_t)l->width && y < (int32_t)l->height) {
+        const alpi_patch_place place =
+            patches->places[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
+        if (place.chart == chart) {
+            return place.texel;
+        }
     }
     const uint32_t near = find_near(patches, page, x, y, chart, 1);
     return near != ALPI_NONE ? near : patches->chart_texels[chart];
@@ -416,7 +428,8 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
 {
     const uint32_t texels = p->texels->count, charts = count_charts(p);
     const size_t sides = p->two_sided ? 2 : 1;
-    ALPI_TRY_NEW(p->context, p->stand_ins, texels);
+    const size_t pixels = (size_t)p->lattice->page_count * p->lattice->width * p->lattice->height;
+    ALPI_TRY_NEW(p->context, p->places, pixels);
     ALPI_TRY_NEW(p->context, p->chart_texels, charts);
     ALPI_TRY_NEW(p->context, p->reflectances, texels);
     ALPI_TRY_NEW(p->context, p->emissions, texels);
@@ -427,13 +440,14 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
     ALPI_TRY_NEW(p->context, p->block_areas, count);
     ALPI_TRY_NEW(p->context, p->seen_backs, p->two_sided ? count : 0);
     ALPI_TRY_NEW(p->context, p->cells, ALPI_CELL_FIRST + sides * texels);
+    memset(p->places, 0xff, pixels * sizeof *p->places);
     memset(p->blocks, 0xff, texels * sizeof *p->blocks);
     memset(p->chart_texels, 0xff, charts * sizeof *p->chart_texels);
     for (uint32_t i = 0; i < count; i++) {
         p->blocks[order[i]] = 0; // has light of its own; which block, comes next
     }
     ALP_TRY(make_blocks(p, spacing));
-    find_stand_ins(p);
+    find_places(p);
     const alpi_task_progress told = {.stage = "light"};
     return alpi_parallel_for(p->context, texels, 1024, find_materials, p, &told);
 }
@@ -463,7 +477,7 @@ void alpi_patches_destroy(alpi_patches *patches)
     if (context == NULL) {
         return;
     }
-    alpi_release(context, patches->stand_ins);
+    alpi_release(context, patches->places);
     alpi_release(context, patches->chart_texels);
     alpi_release(context, patches->reflectances);
     alpi_release(context, patches->emissions);

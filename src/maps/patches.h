@@ -19,15 +19,20 @@ typedef enum alpi_side { ALPI_FRONT = 0, ALPI_BACK = 1 } alpi_side;
 /// Whether the backs of a block are seen, and so need light.
 typedef enum alpi_back { ALPI_BACK_UNSEEN = 0, ALPI_BACK_SEEN, ALPI_BACK_LIT } alpi_back;
 
+/// What a ray finds at a pixel: one look instead of three, for most of them miss every cache.
+typedef struct alpi_patch_place {
+    uint32_t chart; // ALPI_NONE: no texel is there
+    uint32_t texel; // whose light it shows: its own, or the nearest of its chart where it has none
+} alpi_patch_place;
+
 typedef struct alpi_patches {
     alp_context *context;
     const alp_scene *scene;
     const alp_atlas *atlas;
     const alpi_texels *texels;
     const alpi_lattice *lattice;
-    const uint8_t *near; // of the block rule, while blocks are made
-    uint32_t *stand_ins; // [texels] the texel whose light a texel shows: itself, or the nearest of
-                         // its chart where it has none of its own
+    const uint8_t *near;      // of the block rule, while blocks are made
+    alpi_patch_place *places; // [pages][height][width]
     uint32_t *chart_texels;   // [charts] a texel of each, ALPI_NONE where it has none
     float (*reflectances)[3]; // [texels] albedo, mean over the texel
     float (*emissions)[3];    // [texels] radiance of the front, mean over the texel

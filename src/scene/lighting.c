@@ -171,18 +171,22 @@ static int only_class(const alpi_lighting *lighting)
     return only;
 }
 
+static void set_sky(alpi_lighting *lighting, alpi_sky *sky)
+{
+    lighting->sky = sky;
+    lighting->sky_average = sky != NULL ? ALPI_PI * channel_mean(alpi_sky_mean(sky)) : 0.0;
+    lighting->only = only_class(lighting);
+}
+
 static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
 {
     alp_context *context = lighting->scene->context;
     ALP_TRY(gather_lights(lighting, options));
     ALP_TRY(sort_lights(lighting));
     ALP_TRY(alpi_emitters_collect(lighting->scene, &lighting->emitters));
-    ALP_TRY(
-        alpi_sky_create(context, &options->sky, alpi_sun_direction(&options->sun), &lighting->sky));
-    if (lighting->sky != NULL) {
-        lighting->sky_average = ALPI_PI * channel_mean(alpi_sky_mean(lighting->sky));
-    }
-    lighting->only = only_class(lighting);
+    alpi_sky *sky = NULL;
+    ALP_TRY(alpi_sky_create(context, &options->sky, alpi_sun_direction(&options->sun), &sky));
+    set_sky(lighting, sky);
     return ALP_OK;
 }
 
@@ -203,6 +207,34 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
         return result;
     }
     *lighting = made;
+    return ALP_OK;
+}
+
+alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
+                                   const alp_lighting_options *options, alpi_lighting **soft,
+                                   alpi_lighting **spots)
+{
+    alp_context *context = lighting->scene->context;
+    alp_lighting_options without = *options;
+    alpi_sky *skies[2] = {NULL, NULL};
+    *soft = *spots = NULL;
+    without.sky.kind = ALP_SKY_NONE;
+    if (lighting->sky != NULL) {
+        ALP_TRY(alpi_sky_split(context, lighting->sky, &skies[0], &skies[1]));
+    }
+    alp_result result = alpi_lighting_create(lighting->scene, &without, soft);
+    if (result == ALP_OK) {
+        result = alpi_lighting_create(lighting->scene, &without, spots);
+    }
+    if (result != ALP_OK) {
+        alpi_sky_destroy(context, skies[0]);
+        alpi_sky_destroy(context, skies[1]);
+        alpi_lighting_destroy(context, *soft);
+        *soft = NULL;
+        return result;
+    }
+    set_sky(*soft, skies[0]);
+    set_sky(*spots, skies[1]);
     return ALP_OK;
 }
 

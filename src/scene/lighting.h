@@ -23,6 +23,14 @@ typedef struct alpi_lighting alpi_lighting; // immutable
 /// @return ALP_OK; INVALID_ARGUMENT (named); OUT_OF_MEMORY
 alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
                                 alpi_lighting **lighting);
+/// All light as two that add up to it: a soft sky alone with all else, and the bright spots of the
+/// sky with all else. Each has the lights and emissive triangles whole: who asks for both takes
+/// only the sky of the first.
+/// @param lighting made of the same scene and options
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
+                                   const alp_lighting_options *options, alpi_lighting **soft,
+                                   alpi_lighting **spots);
 void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting); // NULL does nothing
 /// Whether there is no light at all.
 bool alpi_lighting_is_dark(const alpi_lighting *lighting);

@@ -17,12 +17,24 @@ alp_result alpi_sky_create(alp_context *context, const alp_sky_options *options,
                            alpi_sky **sky);
 void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
 
+/// The sky as two whose radiances add up to its own: a soft one, for rays that leave the scene, and
+/// the bright spots of an image, to be asked. Even skies are soft as a whole.
+/// @param soft, spots out: NULL where black. Both are the caller's
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_sky_split(alp_context *context, const alpi_sky *sky, alpi_sky **soft,
+                          alpi_sky **spots);
+/// Whether it is the spots of another.
+bool alpi_sky_is_spots(const alpi_sky *sky);
+
 /// Radiance from a unit direction. Images are bilinear between texel centres, wrapping around; what
 /// is sampled and what is looked up are the same function.
 vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction);
 
 /// Draws a direction. @param u [0,1)²  @param density out, may be NULL: per steradian, > 0
 vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density);
+/// The same, with what comes from there; of spots it costs next to nothing.
+/// @param density out, not NULL
+vec3 alpi_sky_draw(const alpi_sky *sky, vec2 u, vec3 *radiance, float *density);
 /// Density that alpi_sky_sample draws a direction with; > 0 wherever the radiance is.
 float alpi_sky_density(const alpi_sky *sky, vec3 direction);
 

@@ -180,12 +180,10 @@ vec3 alpi_sky_table_direction(const alpi_sky_table *table, double x, double y)
     return direction_at(table, x, sin(half) * sin(half), cos(half) * cos(half));
 }
 
-vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u)
+/// @param across, down places in [0, 1] of what the cell and its row are drawn with
+static vec3 sample_cell(const alpi_sky_table *table, uint32_t x0, uint32_t row, double across,
+                        double down)
 {
-    double across = 0.0, down = 0.0;
-    uint32_t row = find_cell(table->rows, table->height + 1, (double)u.y, &down);
-    const double *cells = table->cells + (size_t)row * table->width;
-    uint32_t x0 = find_cell(cells, table->width, (double)u.x, &across);
     uint32_t x1 = x0 + 1 < table->width ? x0 + 1 : 0;
     uint32_t y0 = upper_texel(row), y1 = lower_texel(table, row);
     double a = brightness_at(table, x0, y0), b = brightness_at(table, x1, y0);
@@ -196,6 +194,27 @@ vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u)
     uint32_t mirror = table->height - row;
     return direction_at(table, x0 + s, lerp(h[row], h[row + 1], t),
                         lerp(h[mirror + 1], h[mirror], t));
+}
+
+vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u)
+{
+    double across = 0.0, down = 0.0;
+    uint32_t row = find_cell(table->rows, table->height + 1, (double)u.y, &down);
+    const double *cells = table->cells + (size_t)row * table->width;
+    uint32_t column = find_cell(cells, table->width, (double)u.x, &across);
+    return sample_cell(table, column, row, across, down);
+}
+
+vec3 alpi_sky_table_in_cell(const alpi_sky_table *table, uint32_t column, uint32_t row, vec2 u)
+{
+    return sample_cell(table, column, row, (double)u.x, (double)u.y);
+}
+
+double alpi_sky_table_cell_share(const alpi_sky_table *table, uint32_t column, uint32_t row)
+{
+    const double *cells = table->cells + (size_t)row * table->width;
+    const double of_rows = table->rows[row] - (row > 0 ? table->rows[row - 1] : 0.0);
+    return of_rows * (cells[column] - (column > 0 ? cells[column - 1] : 0.0));
 }
 
 // --- the mean ------------------------------------------------------------------------------------

@@ -32,6 +32,9 @@ void alpi_sky_table_release(alp_context *context, alpi_sky_table *table);
 vec3 alpi_sky_table_direction(const alpi_sky_table *table, double x, double y);
 vec3 alpi_sky_table_radiance(const alpi_sky_table *table, vec3 direction);
 vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u);
+/// The same within one cell, and the share that it has of all that is drawn.
+vec3 alpi_sky_table_in_cell(const alpi_sky_table *table, uint32_t column, uint32_t row, vec2 u);
+double alpi_sky_table_cell_share(const alpi_sky_table *table, uint32_t column, uint32_t row);
 float alpi_sky_table_density(const alpi_sky_table *table, vec3 direction);
 /// ∫ radiance dω / 4π of the bilinear function, exactly.
 vec3 alpi_sky_table_mean(const alpi_sky_table *table);

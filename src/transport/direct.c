@@ -54,6 +54,7 @@ typedef struct gather {
     arrival givens[RAY_LIMIT];
     alpi_rays packets[ALPI_TRACE_BATCH];
     alpi_polygon_gather polygons;
+    alpi_emitter_choice choice;
 } gather;
 
 /// Sample i of the chunk, for one use; the replicates take turns.
@@ -315,13 +316,14 @@ static void add_sky(gather *g)
     const alpi_direct *d = g->direct;
     for (uint32_t i = 0; i < g->count && d->sky_drawn; i++) {
         const alpi_receiver_point *p = &g->points[i];
+        vec3 radiance;
         float density;
         ray_way way = {.origin = ray_start(p), .reach = INFINITY, .spread = ALPI_RAYS_SCATTERED};
-        way.direction = alpi_sky_sample(d->sky, draw(g, USE_SKY, i), &density);
+        way.direction = alpi_sky_draw(d->sky, draw(g, USE_SKY, i), &radiance, &density);
         const float cosine = vec3_dot(way.direction, p->shading_normal);
         if (cosine > 0.0f) {
-            send(g, &way, alpi_sky_radiance(d->sky, way.direction),
-                 cosine / (density + cosine_density(cosine)),
+            const float met = d->sky_met ? cosine_density(cosine) : 0.0f;
+            send(g, &way, radiance, cosine / (density + met),
                  (arrival){.part = (uint16_t)d->sky_part,
                            .replicate = (uint16_t)replicate_of(i),
                            .way = {.normal = p->shading_normal, .cosine = cosine}});
@@ -346,7 +348,7 @@ static float sky_factor(const alpi_direct *d, vec3 direction, float density)
 /// Of rays that nothing but an even sky counts for: what is asked too has no 1 / cosθ.
 static bool is_horizon(const gather *g, float cosine)
 {
-    return g->direct->sky != NULL && !g->direct->sky_drawn && cosine < (float)g->horizon_width;
+    return g->direct->sky_met && !g->direct->sky_drawn && cosine < (float)g->horizon_width;
 }
 
 /// Eight cosine-distributed rays that may meet emitters.
@@ -380,7 +382,7 @@ static void add_hit(gather *g, const met_packet *m, const alpi_hits *hits, int l
                                       vec3_scale(direction, -1.0f));
         factor = met_factor(m->densities[lane],
                             alpi_emitter_density(m->views[lane], direction, triangle));
-    } else if (d->sky != NULL) {
+    } else if (d->sky_met) {
         given.part = (uint16_t)d->sky_part;
         light = alpi_sky_radiance(d->sky, direction);
         factor = sky_factor(d, direction, m->densities[lane]);
@@ -424,7 +426,7 @@ static void aim(gather *g, const alpi_emitter_view *view, uint32_t i, met_packet
     const vec3 n = view->normal;
     const bool near = view->share > NEAR_SHARE;
     const vec3 local = alpi_warp_cosine_cone(draw(g, USE_RAY, i), 1.0f);
-    if (!(local.z > 0.0f) || !(near || d->sky != NULL)) {
+    if (!(local.z > 0.0f) || !(near || d->sky_met)) {
         return;
     }
     vec3 t, b;
@@ -462,14 +464,14 @@ static void add_surfaces(gather *g)
     const uint32_t count = g->count;
     alpi_emitter_view views[CHUNK];
     met_packet met = {.count = 0};
-    if (d->emitters.all.count == 0 && d->sky == NULL) {
+    if (d->emitters.all.count == 0 && !d->sky_met) {
         return;
     }
-    const alpi_emitter_choice choice =
-        alpi_emitter_choose(&d->emitters, g->points, g->job->receivers->extended ? count : 1);
+    alpi_emitter_choose(&d->emitters, g->points, g->job->receivers->extended ? count : 1,
+                        &g->choice);
     for (uint32_t i = 0; i < count; i++) {
         const alpi_receiver_point *p = &g->points[i];
-        views[i] = alpi_emitter_view_from(&choice, ray_start(p), p->shading_normal);
+        views[i] = alpi_emitter_view_from(&g->choice, ray_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
     flush(g, false);

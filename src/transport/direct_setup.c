@@ -138,7 +138,8 @@ static void find_sky(alpi_direct *d)
     d->sky = alpi_lighting_sky(d->options.lighting);
     if (d->sky != NULL) {
         d->sky_part = add_part(d, ALPI_DIRECT_SKY, ALPI_NONE);
-        d->sky_drawn = is_uneven(d->sky);
+        d->sky_met = !alpi_sky_is_spots(d->sky);
+        d->sky_drawn = !d->sky_met || is_uneven(d->sky);
     }
 }
 
@@ -187,7 +188,7 @@ void alpi_direct_destroy(alpi_direct *direct)
 
 double alpi_direct_most_rays(const alpi_direct *d, bool extended)
 {
-    const bool meets = d->emitters.all.count > 0 || d->sky != NULL;
+    const bool meets = d->emitters.all.count > 0 || d->sky_met;
     double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
     of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
     of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);

@@ -32,7 +32,8 @@ struct alpi_direct {
     alpi_direct_emitters emitters; // others
     const alpi_sky *sky;           // NULL: none
     uint32_t sky_part;
-    bool sky_drawn; // it is uneven: directions to it are drawn besides those that meet it
+    bool sky_drawn; // it is uneven: directions to it are drawn
+    bool sky_met;   // by cosine-distributed rays too: it is not all spots
 };
 
 /// The most rays that a receiver may take. @param extended see alpi_receivers

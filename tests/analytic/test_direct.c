@@ -220,13 +220,26 @@ static alp_scene *make_shape(shape_fn *add, float emission)
     return scene;
 }
 
-static void add_tiles(alpi_builder *b)
+/// A ceiling over the square of side 4 about the origin.
+static void add_tiles_across(alpi_builder *b, int across, float y)
 {
-    for (int i = 0; i < 16; i++) {
-        const float x = (float)(i % 4) - 2.0f, z = (float)(i / 4) - 2.0f;
-        const vec3 tile[4] = {{x, 1, z}, {x + 1, 1, z}, {x + 1, 1, z + 1}, {x, 1, z + 1}};
+    const float side = 4.0f / (float)across;
+    for (int i = 0; i < across * across; i++) {
+        const float x = (float)(i % across) * side - 2.0f, z = (float)(i / across) * side - 2.0f;
+        const vec3 tile[4] = {
+            {x, y, z}, {x + side, y, z}, {x + side, y, z + side}, {x, y, z + side}};
         alpi_builder_quad(b, tile);
     }
+}
+
+static void add_tiles(alpi_builder *b)
+{
+    add_tiles_across(b, 4, 1.0f);
+}
+
+static void add_many_tiles(alpi_builder *b) // more than are listed
+{
+    add_tiles_across(b, 24, 1.0f);
 }
 
 /// A ceiling of many triangles that fills half of the view is met by cosine-distributed rays too:
@@ -235,14 +248,17 @@ static void a_near_ceiling(void **state)
 {
     (void)state;
     const double q = sqrt(5.0), f = 4.0 * 2.0 * (2.0 / q * atan(2.0 / q)) / (2.0 * ALPI_PI);
-    test_stage s = test_stage_open(context, make_shape(add_tiles, 1.0f), NULL, 0, NULL);
-    const test_patch p = test_point(DARK, UP);
-    uint64_t rays;
-    const alpi_reference_value v = test_stage_direct(&s, &p, 4096, 1, &rays);
-    ASSERT_LIGHT(v, ALPI_PI * f);
-    assert_int_equal(rays, 2 * 4096);
-    assert_true(sqrt((double)v.variance[0]) < 2e-2 * (double)v.mean[0]);
-    test_stage_close(&s);
+    shape_fn *const shapes[] = {add_tiles, add_many_tiles};
+    for (int i = 0; i < 2; i++) {
+        test_stage s = test_stage_open(context, make_shape(shapes[i], 1.0f), NULL, 0, NULL);
+        const test_patch p = test_point(DARK, UP);
+        uint64_t rays;
+        const alpi_reference_value v = test_stage_direct(&s, &p, 4096, 1, &rays);
+        ASSERT_LIGHT(v, ALPI_PI * f);
+        assert_int_equal(rays, 2 * 4096);
+        assert_true(sqrt((double)v.variance[0]) < 2e-2 * (double)v.mean[0]);
+        test_stage_close(&s);
+    }
 }
 
 /// π L Σ F over all triangles that look at the point: of a convex body, and where none is hidden.
@@ -255,6 +271,25 @@ static double sum_of_triangles(const alp_scene *scene, vec3 point, vec3 normal, 
         sum += fmax(alpi_polygon_form_factor(point, normal, c, 3), 0.0);
     }
     return ALPI_PI * radiance * sum;
+}
+
+static void add_far_tiles(alpi_builder *b) // too small to be met
+{
+    add_tiles_across(b, 4, 12.0f);
+}
+
+/// A row of triangles of which a part is above the horizon, and their middle below it.
+static void a_ceiling_on_the_horizon(void **state)
+{
+    (void)state;
+    test_stage s = test_stage_open(context, make_shape(add_far_tiles, 1.0f), NULL, 0, NULL);
+    const vec3 normal = vec3_normalize_or((vec3){1.0f, -0.15f, 0.0f}, UP); // from x = 1.8 on
+    const test_patch p = test_point(DARK, normal);
+    const alpi_reference_value v = test_stage_direct(&s, &p, 1 << 14, 2, NULL);
+    const double exact = sum_of_triangles(s.scene, p.corner, normal, 1.0);
+    ASSERT_LIGHT(v, exact);
+    assert_true(exact > 0.0 && sqrt((double)v.variance[0]) < 2e-2 * exact);
+    test_stage_close(&s);
 }
 
 enum { CORNERS = 64 };
@@ -322,6 +357,27 @@ static void a_ball(void **state)
     // The outline of the facets is smaller: two thirds of 1 − cos(π/64) at each side of it.
     ASSERT_NEAR(v.mean[0], exact, 6.0 * sqrt((double)v.variance[0]) + 4e-3 * exact);
     assert_true(sqrt((double)v.variance[0]) < 3e-3 * exact);
+    test_stage_close(&s);
+}
+
+static void add_far_ball(alpi_builder *b)
+{
+    const alpi_ball ball = {
+        .center = {8, 12, 4}, .radius = 0.2f, .top = 0.2f, .slices = 24, .stacks = 12};
+    alpi_builder_ball(b, &ball);
+}
+
+/// A far ball's triangles are drawn by what each gives: nothing is left to chance but where in each
+/// a sample falls: a hundredth of the distance.
+static void a_far_ball_has_hardly_any_noise(void **state)
+{
+    (void)state;
+    test_stage s = test_stage_open(context, make_shape(add_far_ball, 1.0f), NULL, 0, NULL);
+    const test_patch p = test_point(DARK, UP);
+    const alpi_reference_value v = test_stage_direct(&s, &p, 16, 3, NULL);
+    const double exact = sum_of_triangles(s.scene, p.corner, UP, 1.0);
+    assert_true(sqrt((double)v.variance[0]) < 1e-3 * exact);
+    ASSERT_NEAR(v.mean[0], exact, 1e-3 * exact); // replicates of two share what is skewed
     test_stage_close(&s);
 }
 
@@ -456,11 +512,25 @@ static void a_sky_beside_a_wall(void **state)
     test_stage_close(&s);
 }
 
+/// E of a level surface under a sky that is small pixels.
+static double level_irradiance(const alpi_lighting *lighting)
+{
+    enum { CUTS = 1024 };
+    double sum = 0.0; // midpoints in (cos²θ, φ): dω cosθ = d(cos²θ)/2 dφ
+    for (int i = 0; i < CUTS * CUTS; i++) {
+        const double y = sqrt((i / CUTS + 0.5) / CUTS), phi = 2 * ALPI_PI * (i % CUTS + 0.5) / CUTS;
+        const double r = sqrt(1.0 - y * y);
+        const vec3 d = {(float)(r * cos(phi)), (float)y, (float)(r * sin(phi))};
+        sum += (double)alpi_sky_radiance(alpi_lighting_sky(lighting), d).x;
+    }
+    return sum * ALPI_PI / ((double)CUTS * CUTS);
+}
+
 /// An image of one bright and many dim pixels: drawn and met together make its integral.
 static void an_uneven_sky(void **state)
 {
     (void)state;
-    enum { WIDTH = 32, HEIGHT = 16, CUTS = 1024 };
+    enum { WIDTH = 32, HEIGHT = 16 };
     alp_image *image = NULL;
     ASSERT_OK(
         context,
@@ -475,14 +545,7 @@ static void an_uneven_sky(void **state)
     alp_lighting_options o = sky_of(ALP_SKY_IMAGE);
     o.sky.image = image;
     test_stage s = test_stage_open(context, make_floor(NULL, 0.0f), NULL, 0, &o);
-    double sum = 0.0; // midpoints in (cos²θ, φ): dω cosθ = d(cos²θ)/2 dφ
-    for (int i = 0; i < CUTS * CUTS; i++) {
-        const double y = sqrt((i / CUTS + 0.5) / CUTS), phi = 2 * ALPI_PI * (i % CUTS + 0.5) / CUTS;
-        const double r = sqrt(1.0 - y * y);
-        const vec3 d = {(float)(r * cos(phi)), (float)y, (float)(r * sin(phi))};
-        sum += (double)alpi_sky_radiance(alpi_lighting_sky(s.lighting), d).x;
-    }
-    const double exact = sum * ALPI_PI / ((double)CUTS * CUTS);
+    const double exact = level_irradiance(s.lighting);
     const test_patch p = test_point((vec3){1, 0, 2}, UP);
     uint64_t rays;
     const alpi_reference_value v = test_stage_direct(&s, &p, 16384, 6, &rays);
@@ -490,6 +553,18 @@ static void an_uneven_sky(void **state)
     ASSERT_NEAR(v.mean[0], exact, 6.0 * sqrt((double)v.variance[0]) + 1e-4 * exact);
     assert_true(sqrt((double)v.variance[0]) < 2e-3 * exact);
     assert_true(rays > 16384 && rays <= 2 * 16384);
+    // Spots alone are asked and not met; the soft rest is known.
+    alpi_lighting *whole = s.lighting, *soft, *spots;
+    ASSERT_OK(context, alpi_lighting_split_sky(whole, &o, &soft, &spots));
+    s.lighting = spots;
+    const alpi_reference_value spot = test_stage_direct(&s, &p, 1024, 6, &rays);
+    const double rest = exact - level_irradiance(soft);
+    ASSERT_NEAR(spot.mean[0], rest, 6.0 * sqrt((double)spot.variance[0]) + 1e-3 * rest);
+    assert_true(sqrt((double)spot.variance[0]) < 5e-3 * rest);
+    assert_true(rays <= 1024);
+    s.lighting = whole;
+    alpi_lighting_destroy(context, soft);
+    alpi_lighting_destroy(context, spots);
     test_stage_close(&s);
     alp_image_destroy(image);
 }
@@ -505,7 +580,9 @@ int main(void)
         cmocka_unit_test(rectangles),
         cmocka_unit_test(a_near_ceiling),
         cmocka_unit_test(a_disk),
+        cmocka_unit_test(a_ceiling_on_the_horizon),
         cmocka_unit_test(a_ball),
+        cmocka_unit_test(a_far_ball_has_hardly_any_noise),
         cmocka_unit_test(a_polygon_from_any_side),
         cmocka_unit_test(a_patch_that_is_partly_behind),
         cmocka_unit_test(an_even_sky),

@@ -179,7 +179,9 @@ static void texels_without_light_have_stand_ins(void **state)
     setting s;
     uint32_t black;
     open_setting(&s, make_ball(test_context(2), 24, 12), 256, 0.78f, 4, 3);
-    assert_true(s.patches.blocks[0] == ALPI_NONE && s.patches.stand_ins[0] != 0);
+    const uint16_t *pixel = s.texels.pixels[0];
+    const size_t place = alpi_lattice_pixel(&s.lattice, s.texels.pages[0], pixel[0], pixel[1]);
+    assert_true(s.patches.blocks[0] == ALPI_NONE && s.patches.places[place].texel != 0);
     hold_lookups(&s, 5.5, &black);
     assert_int_equal(black, 0);
     close_setting(&s);

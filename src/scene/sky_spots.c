@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sky_spots.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+// --- parting -------------------------------------------------------------------------------------
+
+/// Mean square over squared mean of a table's brightness up to a level, by solid angle.
+static double unevenness_below(const alpi_sky_table *t, double level)
+{
+    double sum = 0.0, squares = 0.0, all = 0.0;
+    for (uint32_t y = 0; y < t->height; y++) {
+        const double weight = sin((y + 0.5) * ALPI_PI / t->height);
+        double row = 0.0, row_squares = 0.0;
+        for (uint32_t x = 0; x < t->width; x++) {
+            const double b = alpi_sky_brightness(t->pixels[(size_t)y * t->width + x]);
+            const double soft = b < level ? b : level;
+            row += soft;
+            row_squares += soft * soft;
+        }
+        sum += weight * row;
+        squares += weight * row_squares;
+        all += weight * t->width;
+    }
+    return sum > 0.0 ? squares * all / (sum * sum) : 0.0;
+}
+
+/// The highest level that leaves what is below it even; it is found to 1 %.
+static double find_level(const alpi_sky_table *t, double unevenness)
+{
+    double low = HUGE_VAL, high = 0.0;
+    for (size_t i = 0; i < (size_t)t->width * t->height; i++) {
+        const double b = alpi_sky_brightness(t->pixels[i]);
+        high = b > high ? b : high;
+        low = b > 0.0 && b < low ? b : low;
+    }
+    if (unevenness_below(t, high) <= unevenness) {
+        return high;
+    }
+    while (high > 1.01 * low) {
+        const double middle = sqrt(low * high);
+        if (unevenness_below(t, middle) <= unevenness) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+alp_result alpi_sky_spots_part(alp_context *context, const alpi_sky_table *table, double unevenness,
+                               alpi_sky_table *soft, alpi_sky_table *spots)
+{
+    *soft = *spots = (alpi_sky_table){0};
+    const double level = find_level(table, unevenness);
+    ALP_TRY(alpi_sky_table_create(context, table->width, table->height, 0.0f, soft));
+    ALP_TRY(alpi_sky_table_create(context, table->width, table->height, 0.0f, spots));
+    soft->turn = spots->turn = table->turn;
+    for (size_t i = 0; i < (size_t)table->width * table->height; i++) {
+        const vec3 pixel = table->pixels[i];
+        const double b = alpi_sky_brightness(pixel);
+        soft->pixels[i] = b > level ? vec3_scale(pixel, (float)(level / b)) : pixel;
+        spots->pixels[i] = b > level ? vec3_sub(pixel, soft->pixels[i]) : (vec3){0.0f, 0.0f, 0.0f};
+    }
+    alpi_sky_table_finish(soft);
+    alpi_sky_table_finish(spots);
+    return ALP_OK;
+}
+
+// --- looks ---------------------------------------------------------------------------------------
+
+/// A cell of the table that is not black.
+typedef struct lit_cell {
+    uint64_t order; // along a curve through the table
+    uint32_t column, row;
+    double weight; // share of all light
+} lit_cell;
+
+/// Place along Hilbert's curve through the square of side 2^16 (D. Hilbert, 1891), found quadrant
+/// by quadrant.
+static uint64_t hilbert(uint32_t x, uint32_t y)
+{
+    uint64_t place = 0;
+    for (uint32_t side = 1u << 15; side > 0; side /= 2) {
+        const uint32_t right = (x & side) != 0, low = (y & side) != 0;
+        place = 4 * place + ((3 * right) ^ low);
+        if (low == 0) { // the curve enters this quadrant turned
+            const uint32_t flipped_x = right != 0 ? ~x : x, flipped_y = right != 0 ? ~y : y;
+            x = flipped_y;
+            y = flipped_x;
+        }
+    }
+    return place;
+}
+
+static int by_order(const void *a, const void *b)
+{
+    const uint64_t first = ((const lit_cell *)a)->order, second = ((const lit_cell *)b)->order;
+    return first < second ? -1 : first > second;
+}
+
+static uint32_t list_cells(const alpi_sky_table *t, lit_cell *cells)
+{
+    uint32_t count = 0;
+    for (uint32_t row = 0; row <= t->height; row++) {
+        for (uint32_t column = 0; column < t->width; column++) {
+            const double weight = alpi_sky_table_cell_share(t, column, row);
+            if (weight > 0.0 && cells != NULL) {
+                cells[count] = (lit_cell){hilbert(column, row), column, row, weight};
+            }
+            count += weight > 0.0;
+        }
+    }
+    return count;
+}
+
+/// One look in each of as many equal shares of the light along the list.
+static void draw_looks(const alpi_sky_table *t, const lit_cell *cells, uint32_t count,
+                       alpi_sky_look *looks)
+{
+    enum { SEED = 0x5b0f };
+    double sum = 0.0, before = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += cells[i].weight;
+    }
+    for (uint32_t k = 0, i = 0; k < ALPI_SKY_LOOKS; k++) {
+        const double place = sum * (k + 0.5) / ALPI_SKY_LOOKS;
+        while (i + 1 < count && before + cells[i].weight <= place) {
+            before += cells[i++].weight;
+        }
+        looks[k].direction =
+            alpi_sky_table_in_cell(t, cells[i].column, cells[i].row, alpi_sample_2d(SEED, k));
+        looks[k].radiance = alpi_sky_table_radiance(t, looks[k].direction);
+        looks[k].density = fmaxf(alpi_sky_table_density(t, looks[k].direction), FLT_MIN);
+    }
+}
+
+alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table,
+                               alpi_sky_look **looks)
+{
+    const uint32_t count = list_cells(table, NULL);
+    ALPI_TRY_NEW(context, *looks, ALPI_SKY_LOOKS);
+    lit_cell *cells = ALPI_NEW(context, lit_cell, count);
+    if (cells == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    list_cells(table, cells);
+    qsort(cells, count, sizeof *cells, by_order);
+    draw_looks(table, cells, count, *looks);
+    alpi_release(context, cells);
+    return ALP_OK;
+}

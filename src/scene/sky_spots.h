@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A sky of an image as two: a soft one, which few rays find evenly lit, and the bright spots that
+// stick out of it, of which it is known beforehand where to look.
+#ifndef ALPI_SCENE_SKY_SPOTS_H
+#define ALPI_SCENE_SKY_SPOTS_H
+
+#include "scene/sky_table.h"
+
+/// What is seen of spots in one direction.
+typedef struct alpi_sky_look {
+    vec3 direction; // unit
+    vec3 radiance;
+    float density; // per steradian, > 0: alpi_sky_table_density
+} alpi_sky_look;
+
+/// How many looks there are: a lamp that gives a thousandth of the light has 16 of them.
+enum { ALPI_SKY_LOOKS = 1 << 14 };
+
+/// Parts a table by brightness: no more of a pixel than `level` is soft, what is above it, in the
+/// pixel's colour, a spot. The two radiances add up to the table's in every direction.
+/// The level is the highest that leaves the soft part even: its mean square is `unevenness` times
+/// its squared mean. 1 would be the same from everywhere, 2 an even sky over a black ground.
+/// @param soft, spots made here and finished; without spots (`total` 0) the table was soft already
+/// @return ALP_OK; OUT_OF_MEMORY. On failure too the caller releases both
+alp_result alpi_sky_spots_part(alp_context *context, const alpi_sky_table *table, double unevenness,
+                               alpi_sky_table *soft, alpi_sky_table *spots);
+
+/// Draws looks from a table that is not black, in proportion to its brightness, stratified, and in
+/// an order in which those that follow each other are neighbours: to take one in n of them, from a
+/// random first on, is to draw n stratified directions without a search.
+/// @param looks out: [ALPI_SKY_LOOKS], the caller's to release
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table,
+                               alpi_sky_look **looks);
+
+#endif

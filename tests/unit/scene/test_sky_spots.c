@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// A sky of an image, parted into a soft one and bright spots: both add up to it; looks drawn
+// beforehand against sums over the picture, and their order.
+#include "sky_checks.h"
+
+#include "base/image.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "scene/sky_spots.h"
+
+#include <math.h>
+
+static const vec3 UP = {0.0f, 1.0f, 0.0f};
+enum { HEIGHT = 32, WIDTH = 2 * HEIGHT };
+
+/// Dim noise with a sun of one texel and a lamp of a dozen.
+static alp_image *make_picture(alp_context *context)
+{
+    const alp_image_info info = {WIDTH, HEIGHT, 3, ALP_COMPONENT_FLOAT};
+    alp_image *image = NULL;
+    ASSERT_OK(context, alp_image_create(context, info, &image));
+    float *values = alp_image_floats(image);
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        const uint32_t x = i % WIDTH, y = i / WIDTH;
+        const bool sun = x == 20 && y == 9, lamp = x >= 40 && x < 44 && y >= 4 && y < 7;
+        for (uint32_t k = 0; k < 3; k++) {
+            const float random = alpi_unit_float(alpi_hash32(3 * i + k + 1));
+            values[3 * i + k] = sun ? 900.0f - 200.0f * (float)k : lamp ? 30.0f : random;
+        }
+    }
+    return image;
+}
+
+typedef struct stage {
+    alp_context *context;
+    alp_image *image;
+    alpi_sky *sky, *soft, *spots;
+} stage;
+
+static stage start(float turn)
+{
+    stage s = {.context = test_context(1)};
+    s.image = make_picture(s.context);
+    alp_sky_options o = sky_options(ALP_SKY_IMAGE);
+    o.image = s.image;
+    o.turn = turn;
+    s.sky = sky_make(s.context, &o, UP);
+    ASSERT_OK(s.context, alpi_sky_split(s.context, s.sky, &s.soft, &s.spots));
+    assert_non_null(s.soft);
+    assert_non_null(s.spots);
+    assert_true(alpi_sky_is_spots(s.spots) && !alpi_sky_is_spots(s.soft));
+    return s;
+}
+
+static void finish(stage *s)
+{
+    alpi_sky_destroy(s->context, s->sky);
+    alpi_sky_destroy(s->context, s->soft);
+    alpi_sky_destroy(s->context, s->spots);
+    alp_image_destroy(s->image);
+    alp_context_destroy(s->context);
+}
+
+static void both_add_up(void **state)
+{
+    (void)state;
+    stage s = start(0.7f);
+    double squares = 0.0, sum = 0.0;
+    enum { LOOKS = 20000 };
+    for (uint32_t i = 0; i < LOOKS; i++) {
+        const vec2 u = alpi_sample_2d(1, i);
+        const vec3 d =
+            sky_polar(acos(1.0 - 2.0 * (double)u.x), 2.0 * ALPI_PI * (double)u.y - ALPI_PI);
+        const vec3 whole = alpi_sky_radiance(s.sky, d);
+        const vec3 soft = alpi_sky_radiance(s.soft, d), spot = alpi_sky_radiance(s.spots, d);
+        ASSERT_NEAR(soft.x + spot.x, whole.x, 1e-6 * (double)whole.x); // three roundings
+        ASSERT_NEAR(soft.z + spot.z, whole.z, 1e-6 * (double)whole.z);
+        assert_true(spot.y >= 0.0f && soft.y >= 0.0f);
+        sum += alpi_sky_brightness(soft) / LOOKS;
+        squares += alpi_sky_brightness(soft) * alpi_sky_brightness(soft) / LOOKS;
+    }
+    // Means over pixels, between which it is bilinear and a little more even.
+    assert_true(squares / (sum * sum) < 2.0 && squares / (sum * sum) > 1.2);
+    const vec3 mean = alpi_sky_mean(s.sky), soft = alpi_sky_mean(s.soft);
+    ASSERT_NEAR(soft.x + alpi_sky_mean(s.spots).x, mean.x, 1e-6 * (double)mean.x);
+    finish(&s);
+}
+
+/// All looks are a sum over the picture, and one in many of them, from anywhere on, nearly so.
+static void looks_are_the_light_of_the_spots(void **state)
+{
+    (void)state;
+    stage s = start(0.3f);
+    const vec3 normals[] = {UP, {0.6f, 0.0f, 0.8f}, {-0.48f, 0.6f, 0.64f}};
+    for (int n = 0; n < 3; n++) {
+        double sum[3];
+        sky_irradiance_sum(s.spots, normals[n], 1024, sum);
+        for (uint32_t every = 1; every <= 64; every *= 64) {
+            const uint32_t count = ALPI_SKY_LOOKS / every;
+            double drawn = 0.0;
+            for (uint32_t i = 0; i < count; i++) {
+                vec3 radiance;
+                float density;
+                const vec2 u = {((float)i + 0.37f) / (float)count, 0.0f};
+                const vec3 d = alpi_sky_draw(s.spots, u, &radiance, &density);
+                const vec3 there = alpi_sky_radiance(s.spots, d);
+                assert_true(radiance.x == there.x && density == alpi_sky_density(s.spots, d));
+                drawn += fmax((double)vec3_dot(d, normals[n]), 0.0) * (double)radiance.x /
+                         ((double)density * count);
+            }
+            // Sums of 1024 rows, and what is left to chance in cells of which many looks are one.
+            ASSERT_NEAR(drawn, sum[0], (every == 1 ? 1e-3 : 1e-2) * sum[0]);
+        }
+    }
+    finish(&s);
+}
+
+/// Of an even table Hilbert's curve goes from cell to neighbouring cell.
+static void looks_that_follow_each_other_are_neighbours(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alpi_sky_table table;
+    alpi_sky_look *looks = NULL;
+    ASSERT_OK(context, alpi_sky_table_create(context, 64, 32, 0.0f, &table));
+    for (uint32_t i = 0; i < 64 * 32; i++) {
+        table.pixels[i] = (vec3){1.0f, 1.0f, 1.0f};
+    }
+    alpi_sky_table_finish(&table);
+    ASSERT_OK(context, alpi_sky_spots_look(context, &table, &looks));
+    // A cell's sides are at most π/32; two neighbours are at most √5 of that apart, and from the
+    // half rows at the poles it is as far.
+    for (uint32_t i = 1; i < ALPI_SKY_LOOKS; i++) {
+        const vec3 step = vec3_sub(looks[i].direction, looks[i - 1].direction);
+        assert_true((double)vec3_length(step) < sqrt(5.0) * ALPI_PI / 32.0);
+    }
+    alpi_release(context, looks);
+    alpi_sky_table_release(context, &table);
+    alp_context_destroy(context);
+}
+
+static void even_skies_have_no_spots(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const alp_sky_kind kinds[] = {ALP_SKY_CONSTANT, ALP_SKY_HEMISPHERE, ALP_SKY_CLEAR};
+    for (int i = 0; i < 3; i++) {
+        alp_sky_options o = sky_options(kinds[i]);
+        alpi_sky *soft, *spots;
+        alpi_sky *sky = sky_make(context, &o, (vec3){0.6f, 0.8f, 0.0f});
+        ASSERT_OK(context, alpi_sky_split(context, sky, &soft, &spots));
+        assert_null(spots);
+        for (uint32_t k = 0; k < 100; k++) {
+            const vec2 u = alpi_sample_2d(5, k);
+            const vec3 d = sky_polar(ALPI_PI * (double)u.x, 2.0 * ALPI_PI * (double)u.y);
+            assert_true(alpi_sky_radiance(sky, d).y == alpi_sky_radiance(soft, d).y);
+            assert_true(alpi_sky_density(sky, d) == alpi_sky_density(soft, d));
+        }
+        alpi_sky_destroy(context, sky);
+        alpi_sky_destroy(context, soft);
+    }
+    alp_context_destroy(context);
+}
+
+static void every_failed_allocation_leaves_nothing(void **state)
+{
+    (void)state;
+    int left = 1000;
+    alp_context *context = test_context_failing(&left);
+    alp_image *image = make_picture(context);
+    alp_sky_options o = sky_options(ALP_SKY_IMAGE);
+    o.image = image;
+    alpi_sky *sky = sky_make(context, &o, UP), *soft = NULL, *spots = NULL;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    int allowed = 0;
+    for (; result != ALP_OK; allowed++) {
+        left = allowed;
+        result = alpi_sky_split(context, sky, &soft, &spots);
+        assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && soft == NULL));
+    }
+    assert_true(allowed > 10); // two skies, two tables of four, looks and cells
+    left = 1000;
+    alpi_sky_destroy(context, sky);
+    alpi_sky_destroy(context, soft);
+    alpi_sky_destroy(context, spots);
+    alp_image_destroy(image);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_add_up),
+        cmocka_unit_test(looks_are_the_light_of_the_spots),
+        cmocka_unit_test(looks_that_follow_each_other_are_neighbours),
+        cmocka_unit_test(even_skies_have_no_spots),
+        cmocka_unit_test(every_failed_allocation_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
