@@ -195,6 +195,17 @@ static bool find_double_sided(const scopes *in)
     return false;
 }
 
+/// What a bake's image of light stands for: see the writer.
+static double find_strength(const xmlNode *technique)
+{
+    static const char *const way[] = {"extra", "technique", "emission_strength", NULL};
+    const char *at = alpi_xml_text(alpi_xml_descend(technique, way));
+    double strength = 1.0;
+    at += strspn(at, " \t\r\n");
+    return alpi_text_number(&at, &strength) && strength >= 0.0 && isfinite(strength) ? strength
+                                                                                     : 1.0;
+}
+
 static void read_opaque(const xmlNode *shader, alpi_collada_effect *effect)
 {
     static const char *const names[] = {"A_ONE", "A_ZERO", "RGB_ONE", "RGB_ZERO"};
@@ -235,6 +246,9 @@ static alp_result fill_effect(alpi_collada_reader *reader, const xmlNode *elemen
     read_opaque(shader, effect);
     ALP_TRY(read_number(reader, &in, shader, "transparency", &effect->transparency));
     effect->double_sided = find_double_sided(&in);
+    for (int k = 0; k < 3 && effect->emission.image != ALPI_NONE; k++) {
+        effect->emission.color[k] *= find_strength(in.technique);
+    }
     const char *texcoord = effect->ambient.texcoord;
     effect->baked = texcoord != NULL && strcmp(texcoord, ALPI_COLLADA_BAKED_UV) == 0;
     return ALP_OK;

@@ -38,7 +38,7 @@ typedef struct alpi_collada_class {
 
 /// A material made for one page.
 typedef struct alpi_collada_made {
-    const xmlNode *material; // NULL: for primitives without one
+    uint32_t material; // of the scene, ALPI_NONE: for primitives without one
     uint32_t page;
     char *id;
 } alpi_collada_made;
@@ -64,6 +64,7 @@ typedef struct alpi_collada_patcher {
     uint32_t
         *effect_pages; // [elements] 1 + the only page of an effect, SHARED = several, 0 = unused
     bool *effect_done; // [elements] edited
+    uint32_t *effect_users; // [elements] 1 + the only material of the scene with it, or SHARED
     alpi_collada_made *made;
     uint32_t made_count;
     size_t made_capacity;

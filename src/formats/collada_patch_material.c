@@ -46,10 +46,14 @@ alp_result alpi_collada_plan_effects(alpi_collada_patcher *p)
 {
     ALPI_TRY_NEW(p->context, p->effect_pages, p->document->element_count);
     ALPI_TRY_NEW(p->context, p->effect_done, p->document->element_count);
+    ALPI_TRY_NEW(p->context, p->effect_users, p->document->element_count);
     for (uint32_t s = 0; s < p->scene->surface_count; s++) {
         const alpi_surface *surface = &p->scene->surfaces[s];
         const xmlNode *effect = effect_of(p, material_of(p, s));
         const bool shown = p->baked[s] && p->placement_class[surface->node] != ALPI_NONE;
+        if (effect != NULL) {
+            note_page(&p->effect_users[alpi_xml_index(effect)], surface->material);
+        }
         for (uint32_t i = 0; effect != NULL && i < surface->triangle_count; i++) {
             note_page(&p->effect_pages[alpi_xml_index(effect)],
                       shown ? p->pages[surface->first_triangle + i] : ALPI_NONE);
@@ -111,10 +115,19 @@ static void set_member(const alpi_collada_patcher *p, alpi_edits *edits, const x
     alpi_xml_insert(edits, first ? span->begin : span->end, value);
 }
 
+/// What 1 in the image of light stands for: the common profile has no place for it, an <extra> has.
+static void print_strength(const alpi_collada_patcher *p, uint32_t material, alpi_bytes *text)
+{
+    const uint32_t index = material == ALPI_NONE ? p->scene->material_count : material;
+    alpi_bytes_print(text, "<extra><technique profile=\"alpenglow\"><emission_strength>");
+    alpi_bytes_float(text, p->patch->light->scales[index]);
+    alpi_bytes_print(text, "</emission_strength></technique></extra>");
+}
+
 /// All that an effect gains for a page. One edit of an empty shader is all it can take: then
 /// everything goes in at once.
-static void edit_effect(const alpi_collada_patcher *p, const xmlNode *effect, uint32_t page,
-                        alpi_edits *edits)
+static void edit_effect(const alpi_collada_patcher *p, const xmlNode *effect, uint32_t material,
+                        uint32_t page, alpi_edits *edits)
 {
     static const char black[] = "<diffuse><color>0 0 0 1</color></diffuse>";
     const xmlNode *shader = alpi_collada_shader(effect), *technique = shader->parent;
@@ -143,6 +156,16 @@ static void edit_effect(const alpi_collada_patcher *p, const xmlNode *effect, ui
             alpi_xml_replace(p->document, edits, diffuse, black);
         }
     }
+    if (kinds[1].wanted) {
+        alpi_bytes extra = alpi_bytes_create(p->context);
+        print_strength(p, material, &extra);
+        edits->inserted.failed |= extra.failed;
+        if (!extra.failed) {
+            alpi_xml_insert(edits, alpi_xml_span_of(p->document, shader)->end,
+                            (const char *)extra.bytes);
+        }
+        alpi_bytes_destroy(&extra);
+    }
     edits->inserted.failed |= params.failed || all.failed;
     if (empty && !all.failed && all.size > 0) {
         alpi_xml_append(p->document, edits, shader, NULL, (const char *)all.bytes);
@@ -156,8 +179,8 @@ static void edit_effect(const alpi_collada_patcher *p, const xmlNode *effect, ui
 }
 
 /// A copy of an effect with another id, for library_effects.
-static alp_result copy_effect(alpi_collada_patcher *p, const xmlNode *effect, uint32_t page,
-                              const char *id)
+static alp_result copy_effect(alpi_collada_patcher *p, const xmlNode *effect, uint32_t material,
+                              uint32_t page, const char *id)
 {
     const alpi_xml_span *span = alpi_xml_span_of(p->document, effect);
     alpi_edits edits = alpi_edits_create(p->context, p->document->text);
@@ -165,7 +188,7 @@ static alp_result copy_effect(alpi_collada_patcher *p, const xmlNode *effect, ui
     if (alpi_xml_find_value(p->document, effect, "id", &value)) {
         alpi_edits_replace(&edits, value, "%s", id);
     }
-    edit_effect(p, effect, page, &edits);
+    edit_effect(p, effect, material, page, &edits);
     alp_result result =
         alpi_edits_apply(&edits, (alpi_json_span){span->begin, span->end}, &p->effects);
     alpi_edits_destroy(&edits);
@@ -190,17 +213,19 @@ static void add_grey_effect(alpi_collada_patcher *p, uint32_t page, const char *
         }
     }
     const char *grey = kinds[1].wanted ? "0 0 0 1" : "0.5 0.5 0.5 1";
-    alpi_bytes_print(&p->effects,
-                     "<diffuse><color>%s</color></diffuse></lambert></technique></profile_COMMON>"
-                     "</effect>",
-                     grey);
+    alpi_bytes_print(&p->effects, "<diffuse><color>%s</color></diffuse></lambert>", grey);
+    if (kinds[1].wanted) {
+        print_strength(p, ALPI_NONE, &p->effects);
+    }
+    alpi_bytes_print(&p->effects, "</technique></profile_COMMON></effect>");
 }
 
 // --- materials -----------------------------------------------------------------------------------
 
-static alp_result add_material(alpi_collada_patcher *p, const xmlNode *material, uint32_t page,
+static alp_result add_material(alpi_collada_patcher *p, uint32_t surface, uint32_t page,
                                alpi_collada_made *made)
 {
+    const xmlNode *material = material_of(p, surface);
     const xmlNode *effect = effect_of(p, material);
     char effect_id[96];
     snprintf(effect_id, sizeof effect_id, "%s-effect-%u", p->prefix, p->made_count);
@@ -208,10 +233,10 @@ static alp_result add_material(alpi_collada_patcher *p, const xmlNode *material,
     if (made->id == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    made->material = material;
+    made->material = p->scene->surfaces[surface].material;
     made->page = page;
     if (effect != NULL) {
-        ALP_TRY(copy_effect(p, effect, page, effect_id));
+        ALP_TRY(copy_effect(p, effect, made->material, page, effect_id));
     } else {
         add_grey_effect(p, page, effect_id);
     }
@@ -232,25 +257,27 @@ alp_result alpi_collada_get_material(alpi_collada_patcher *p, uint32_t surface, 
 {
     const xmlNode *material = material_of(p, surface), *effect = effect_of(p, material);
     const char *own = alpi_xml_attribute(material, "id");
+    const uint32_t index = p->scene->surfaces[surface].material;
     p->page_used[page] = true;
-    if (effect != NULL && own != NULL && p->effect_pages[alpi_xml_index(effect)] == page + 1) {
+    if (effect != NULL && own != NULL && p->effect_pages[alpi_xml_index(effect)] == page + 1 &&
+        (p->patch->light == NULL || p->effect_users[alpi_xml_index(effect)] == index + 1)) {
         bool *done = &p->effect_done[alpi_xml_index(effect)];
         if (!*done) {
-            edit_effect(p, effect, page, &p->edits);
+            edit_effect(p, effect, index, page, &p->edits);
             *done = true;
         }
         *id = own;
         return ALP_OK;
     }
     for (uint32_t i = 0; i < p->made_count; i++) {
-        if (p->made[i].material == material && p->made[i].page == page) {
+        if (p->made[i].material == index && p->made[i].page == page) {
             *id = p->made[i].id;
             return ALP_OK;
         }
     }
     ALP_TRY(alpi_collada_grow(p->context, &p->made, &p->made_capacity, p->made_count + 1,
                               sizeof *p->made));
-    alp_result result = add_material(p, material, page, &p->made[p->made_count]);
+    alp_result result = add_material(p, surface, page, &p->made[p->made_count]);
     *id = p->made[p->made_count].id;
     p->made_count++; // released with the others, also after a failure
     return result;

@@ -105,9 +105,9 @@ static void patcher_destroy(alpi_collada_patcher *p)
     for (uint32_t i = 0; i < p->made_count; i++) {
         alpi_release(p->context, p->made[i].id);
     }
-    void *const owned[] = {p->pages,           p->baked,   p->first_surfaces,
-                           p->placement_class, p->classes, p->effect_pages,
-                           p->effect_done,     p->made,    p->page_used};
+    void *const owned[] = {p->pages,     p->baked,        p->first_surfaces, p->placement_class,
+                           p->classes,   p->effect_pages, p->effect_done,    p->made,
+                           p->page_used, p->effect_users};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(p->context, owned[i]);
     }
