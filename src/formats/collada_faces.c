@@ -23,7 +23,7 @@ typedef struct work {
     xmlNode *element;
     const alpi_collada_inputs *inputs;
     alpi_collada_faces *faces;
-    size_t index_count, index_capacity, triangle_capacity;
+    size_t index_count, index_capacity, triangle_capacity, polygon_capacity;
     ring *rings;
     size_t ring_count, ring_capacity;
     float (*points)[3]; // of one polygon
@@ -52,6 +52,7 @@ void alpi_collada_faces_destroy(alp_context *context, alpi_collada_faces *faces)
 {
     alpi_release(context, faces->indices);
     alpi_release(context, faces->triangles);
+    alpi_release(context, faces->polygons);
     *faces = (alpi_collada_faces){0};
 }
 
@@ -224,6 +225,10 @@ static alp_result add_polygon(work *w, size_t first_ring, size_t end_ring, uint3
     ALP_TRY(add_triangles(w, count, &triangles));
     ALP_TRY(alpi_polygon_triangulate(&w->reader->cutter, &polygon, triangles, &tidy));
     w->faces->untidy += !tidy;
+    ALP_TRY(alpi_collada_grow(context, &w->faces->polygons, &w->polygon_capacity,
+                              (size_t)w->faces->polygon_count + 1, sizeof *w->faces->polygons));
+    w->faces->polygons[w->faces->polygon_count++] =
+        (alpi_collada_polygon){corner, rings == 1 ? total : 0, count};
     for (uint32_t t = 0; t < count; t++) {
         for (int k = 0; k < 3; k++) {
             triangles[t][k] += corner;

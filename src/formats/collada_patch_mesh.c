@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bake coordinates of a geometry: one new source for all its primitives, and an index more for
 // each corner. A primitive whose corners have two coordinates, or whose triangles lie on several
-// pages, becomes <triangles>; the others keep their polygons.
+// pages, is written anew; polygons without either stay polygons.
 #include "formats/collada_patch.h"
 
 #include "base/hash.h"
@@ -250,15 +250,76 @@ static void print_old_input(const work *w, const xmlNode *input, alpi_bytes *tex
     alpi_bytes_destroy(&value);
 }
 
+/// Whether a polygon can stay one: no holes, all of it on the page, one coordinate at each corner.
+static bool stays_whole(const work *w, const part *a, const alpi_collada_polygon *polygon,
+                        uint32_t triangle, uint32_t page)
+{
+    const uint32_t first = w->patcher->scene->surfaces[a->surface].first_triangle;
+    bool whole = polygon->corner_count > 0;
+    for (uint32_t t = triangle; whole && t < triangle + polygon->triangle_count; t++) {
+        whole = w->patcher->pages[first + t] == page;
+        for (int k = 0; whole && k < 3 && a->corner_uvs != NULL; k++) {
+            whole = a->corner_uvs[t][k] == a->uv_of_corner[a->faces.triangles[t][k]];
+        }
+    }
+    return whole;
+}
+
+/// <vcount> and <p> of a page: polygons that stay whole, and triangles.
+typedef struct piece_text {
+    alpi_bytes counts, corners;
+    uint32_t count;
+} piece_text;
+
+static void print_triangle(const work *w, const part *a, uint32_t t, piece_text *text)
+{
+    for (int k = 0; k < 3; k++) {
+        print_corner(w, a, a->faces.triangles[t][k],
+                     a->corner_uvs != NULL ? a->corner_uvs[t][k] : 0, &text->corners);
+    }
+    alpi_xml_print_index(&text->counts, 3);
+    text->count++;
+}
+
+static void print_faces(const work *w, const part *a, uint32_t page, piece_text *text)
+{
+    const uint32_t first = w->patcher->scene->surfaces[a->surface].first_triangle;
+    uint32_t t = 0;
+    for (uint32_t i = 0; i < a->faces.polygon_count; i++) {
+        const alpi_collada_polygon *polygon = &a->faces.polygons[i];
+        if (stays_whole(w, a, polygon, t, page)) {
+            for (uint32_t c = 0; c < polygon->corner_count; c++) {
+                const uint32_t corner = polygon->first_corner + c;
+                print_corner(w, a, corner, a->uv_of_corner != NULL ? a->uv_of_corner[corner] : 0,
+                             &text->corners);
+            }
+            alpi_xml_print_index(&text->counts, polygon->corner_count);
+            text->count++;
+            t += polygon->triangle_count;
+            continue;
+        }
+        for (const uint32_t end = t + polygon->triangle_count; t < end; t++) {
+            if (w->patcher->pages[first + t] == page) {
+                print_triangle(w, a, t, text);
+            }
+        }
+    }
+    for (; t < a->faces.triangle_count; t++) { // of other kinds
+        if (w->patcher->pages[first + t] == page) {
+            print_triangle(w, a, t, text);
+        }
+    }
+}
+
+/// What lies on one page, as <polylist> or <triangles>.
 static void print_piece(const work *w, const part *a, uint32_t page, const char *symbol,
                         alpi_bytes *text)
 {
-    const uint32_t first = w->patcher->scene->surfaces[a->surface].first_triangle;
-    uint32_t count = 0;
-    for (uint32_t t = 0; t < a->faces.triangle_count; t++) {
-        count += w->patcher->pages[first + t] == page;
-    }
-    alpi_bytes_print(text, "<triangles count=\"%u\" material=\"", count);
+    const char *name = a->faces.polygon_count > 0 ? "polylist" : "triangles";
+    piece_text piece = {.counts = alpi_bytes_create(w->patcher->context),
+                        .corners = alpi_bytes_create(w->patcher->context)};
+    print_faces(w, a, page, &piece);
+    alpi_bytes_print(text, "<%s count=\"%u\" material=\"", name, piece.count);
     alpi_xml_print_text(text, symbol);
     alpi_bytes_print(text, "\">");
     const xmlNode *input = alpi_xml_child(a->element, "input");
@@ -266,17 +327,20 @@ static void print_piece(const work *w, const part *a, uint32_t page, const char 
         print_old_input(w, input, text);
     }
     print_input(w, a, text);
-    alpi_bytes_print(text, "<p>");
-    for (uint32_t t = 0; t < a->faces.triangle_count; t++) {
-        for (int k = 0; k < 3 && w->patcher->pages[first + t] == page; k++) {
-            print_corner(w, a, a->faces.triangles[t][k],
-                         a->corner_uvs != NULL ? a->corner_uvs[t][k] : 0, text);
-        }
+    if (a->faces.polygon_count > 0) {
+        alpi_bytes_print(text, "<vcount>");
+        alpi_bytes_add(text, piece.counts.bytes, piece.counts.size);
+        alpi_bytes_print(text, "</vcount>");
     }
-    alpi_bytes_print(text, "</p></triangles>");
+    alpi_bytes_print(text, "<p>");
+    alpi_bytes_add(text, piece.corners.bytes, piece.corners.size);
+    alpi_bytes_print(text, "</p></%s>", name);
+    text->failed |= piece.counts.failed || piece.corners.failed;
+    alpi_bytes_destroy(&piece.counts);
+    alpi_bytes_destroy(&piece.corners);
 }
 
-/// The element becomes one <triangles> for each page.
+/// The element becomes one for each page.
 static alp_result replace_part(work *w, const part *a)
 {
     alpi_collada_patcher *p = w->patcher;

@@ -44,11 +44,19 @@ typedef struct alpi_collada_inputs {
     uint32_t most_uv_number; // largest set="" of a TEXCOORD, ALPI_NONE = there is none
 } alpi_collada_inputs;
 
+/// A polygon of a <polylist> or <polygons>; its triangles follow one another.
+typedef struct alpi_collada_polygon {
+    uint32_t first_corner, corner_count; // 0 corners: it has holes
+    uint32_t triangle_count;
+} alpi_collada_polygon;
+
 /// Triangles of a primitive element as corners; corner c has indices[c * stride] …
 typedef struct alpi_collada_faces {
     uint32_t corner_count, triangle_count;
     uint32_t *indices;
     uint32_t (*triangles)[3];
+    alpi_collada_polygon *polygons; // all of them; none of other kinds
+    uint32_t polygon_count;
     uint32_t untidy;  // polygons that cross themselves
     uint32_t dropped; // faces of fewer than three corners, and numbers left over
 } alpi_collada_faces;
