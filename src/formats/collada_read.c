@@ -42,7 +42,7 @@ void alpi_collada_reader_destroy(alpi_collada_reader *r)
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(r->context, owned[i]);
     }
-    alpi_polygon_cutter_destroy(&r->cutter);
+    alpi_ear_cutter_destroy(&r->cutter);
 }
 
 static void destroy_origin(alp_context *context, void *data)

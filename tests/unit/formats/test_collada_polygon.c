@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "base/memory.h"
-#include "formats/polygon.h"
+#include "formats/collada_polygon.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,13 +49,13 @@ static double ring_area(uint32_t begin, uint32_t end)
 static double check(bool expect_tidy)
 {
     alp_context *context = test_context(1);
-    alpi_polygon_cutter cutter = {.context = context};
-    const alpi_polygon polygon = {(const float(*)[3])points, ends, ring_count};
-    const uint32_t count = alpi_polygon_triangle_count(&polygon);
+    alpi_ear_cutter cutter = {.context = context};
+    const alpi_ear_polygon polygon = {(const float(*)[3])points, ends, ring_count};
+    const uint32_t count = alpi_ear_triangle_count(&polygon);
     assert_int_equal(count, point_count + 2 * (ring_count - 1) - 2);
     uint32_t(*triangles)[3] = alpi_allocate(context, count, sizeof *triangles);
     bool tidy = false;
-    ASSERT_OK(context, alpi_polygon_triangulate(&cutter, &polygon, triangles, &tidy));
+    ASSERT_OK(context, alpi_ear_triangulate(&cutter, &polygon, triangles, &tidy));
     assert_int_equal(tidy, expect_tidy);
     double area = 0.0, expected = ring_area(0, ends[0]);
     for (uint32_t r = 1; r < ring_count; r++) {
@@ -74,7 +74,7 @@ static double check(bool expect_tidy)
     }
     ASSERT_NEAR(area, expected, 1e-9 * point_count + 1e-12 * fabs(expected));
     alpi_release(context, triangles);
-    alpi_polygon_cutter_destroy(&cutter);
+    alpi_ear_cutter_destroy(&cutter);
     alp_context_destroy(context);
     return area;
 }

@@ -5,14 +5,14 @@
 // Eberly. Triangulation by Ear Clipping. Geometric Tools, 2002 (bridges to holes).
 // Newell's normal: Sutherland, Sproull, Schumacker. A Characterization of Ten Hidden-Surface
 // Algorithms. ACM Computing Surveys 6, 1974.
-#include "formats/polygon.h"
+#include "formats/collada_polygon.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct alpi_polygon_corner {
+typedef struct alpi_ear_corner {
     double x, y;
     uint32_t point, previous, next;
     bool gone, reflex, queued;
@@ -23,8 +23,8 @@ typedef struct alpi_polygon_corner {
 #define BRIDGE_LIMIT ((uint64_t)1 << 28)
 
 typedef struct cut {
-    alpi_polygon_cutter *cutter;
-    const alpi_polygon *polygon;
+    alpi_ear_cutter *cutter;
+    const alpi_ear_polygon *polygon;
     corner *corners;
     uint32_t count, left; // corners made, and still there
     int axis_u, axis_v;   // coordinates that are kept
@@ -39,22 +39,22 @@ typedef struct cut {
     bool tidy;
 } cut;
 
-void alpi_polygon_cutter_destroy(alpi_polygon_cutter *cutter)
+void alpi_ear_cutter_destroy(alpi_ear_cutter *cutter)
 {
     alp_context *context = cutter->context;
     alpi_release(context, cutter->corners);
     alpi_release(context, cutter->queue);
     alpi_release(context, cutter->cells);
     alpi_release(context, cutter->members);
-    *cutter = (alpi_polygon_cutter){.context = context};
+    *cutter = (alpi_ear_cutter){.context = context};
 }
 
-static uint32_t corner_count(const alpi_polygon *polygon)
+static uint32_t corner_count(const alpi_ear_polygon *polygon)
 {
     return polygon->ring_ends[polygon->ring_count - 1];
 }
 
-uint32_t alpi_polygon_triangle_count(const alpi_polygon *polygon)
+uint32_t alpi_ear_triangle_count(const alpi_ear_polygon *polygon)
 {
     return corner_count(polygon) + 2 * (polygon->ring_count - 1) - 2;
 }
@@ -67,7 +67,7 @@ static double turn(const corner *a, const corner *b, const corner *c)
     return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
 }
 
-static void newell_normal(const alpi_polygon *polygon, double normal[3])
+static void newell_normal(const alpi_ear_polygon *polygon, double normal[3])
 {
     const uint32_t count = polygon->ring_ends[0];
     const float *origin = polygon->points[0];
@@ -237,7 +237,7 @@ static void build_bridge(cut *c, uint32_t outer, uint32_t inner)
 /// Joins all holes to the outline, those furthest to the right first.
 static alp_result join_holes(cut *c, uint32_t outer)
 {
-    const alpi_polygon *polygon = c->polygon;
+    const alpi_ear_polygon *polygon = c->polygon;
     const uint32_t holes = polygon->ring_count - 1;
     if ((uint64_t)holes * (corner_count(polygon) + 2 * holes) > BRIDGE_LIMIT ||
         (uint64_t)holes * holes > BRIDGE_LIMIT) {
@@ -302,7 +302,7 @@ static alp_result make_room(alp_context *context, uint32_t **items, size_t *capa
 /// Counting sort of the reflex corners into cells.
 static alp_result fill_grid(cut *c)
 {
-    alpi_polygon_cutter *cutter = c->cutter;
+    alpi_ear_cutter *cutter = c->cutter;
     uint32_t reflex_count = 0;
     for (uint32_t i = 0; i < c->count; i++) {
         corner *at = &c->corners[i];
@@ -519,7 +519,7 @@ static bool cut_quad(cut *c)
 
 static alp_result make_corners(cut *c)
 {
-    alpi_polygon_cutter *cutter = c->cutter;
+    alpi_ear_cutter *cutter = c->cutter;
     const size_t most = (size_t)corner_count(c->polygon) + 2 * (size_t)c->polygon->ring_count;
     void *corners = cutter->corners;
     alp_result result =
@@ -531,8 +531,8 @@ static alp_result make_corners(cut *c)
     return c->polygon->ring_count > 1 ? join_holes(c, outer) : ALP_OK;
 }
 
-alp_result alpi_polygon_triangulate(alpi_polygon_cutter *cutter, const alpi_polygon *polygon,
-                                    uint32_t (*triangles)[3], bool *tidy)
+alp_result alpi_ear_triangulate(alpi_ear_cutter *cutter, const alpi_ear_polygon *polygon,
+                                uint32_t (*triangles)[3], bool *tidy)
 {
     cut c = {.cutter = cutter, .polygon = polygon, .triangles = triangles, .tidy = true};
     choose_plane(&c);
