@@ -32,7 +32,11 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfigVersion.cmake
         DESTINATION ${ALP_PACKAGE_FOLDER})
 
-# pkg-config. Embree 3 has no .pc file of its own.
+# pkg-config. Embree 3 and meshoptimizer have no .pc file of their own.
+if(ALP_HAS_DRACO)
+    set(ALP_PKGCONFIG_REQUIRES " draco")
+    set(ALP_PKGCONFIG_LIBS " -lstdc++")
+endif()
 set(ALP_PKGCONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH ALP_PKGCONFIG_TO_PREFIX "${CMAKE_INSTALL_PREFIX}/${ALP_PKGCONFIG_FOLDER}"
      "${CMAKE_INSTALL_PREFIX}")

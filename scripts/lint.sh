@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 sources() {
-    find src include apps examples tests -path '*/node_modules' -prune -o -name '*.[ch]' -print0
+    find src include apps examples tests -path '*/node_modules' -prune -o \( -name '*.[ch]' -o -name '*.cpp' \) -print0
 }
 
 check_format() {

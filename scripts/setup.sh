@@ -15,6 +15,7 @@ cd "$(dirname "$0")/.."
 # A package, and the command that proves it is there ("-": ask dpkg). A tool counts however it came.
 build_packages="
     gcc                 gcc
+    g++                 g++
     libc6-dev           -
     make                make
     cmake               cmake
@@ -27,9 +28,11 @@ build_packages="
     libopenexr-dev      -
     libxml2-dev         -
     libzstd-dev         -
+    libmeshoptimizer-dev -
+    libdraco-dev        -
+    libwebp-dev         -
     zlib1g-dev          -"
 check_packages="
-    g++                 g++
     python3             -
     libcmocka-dev       -
     clang               clang

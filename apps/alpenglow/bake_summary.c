@@ -45,6 +45,17 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
            o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
 }
 
+/// Ends the line of a map. @param p99 that 99 % of the standard errors do not exceed
+static void print_stated_error(double relative, double p99)
+{
+    if (isfinite(relative)) {
+        printf("; stated error %.2g %% of the mean, 99 %% of the texels within %.2g %%\n",
+               100.0 * relative, 100.0 * p99);
+    } else {
+        printf("; error unknown\n");
+    }
+}
+
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
     printf("occlusion  %u rays per %s, ", r->ao_samples,
@@ -71,12 +82,7 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (r->unknown > 0) {
         printf(", %llu without a value filled", (unsigned long long)r->unknown);
     }
-    if (isfinite(r->ao_relative_error)) {
-        printf("; stated error %.2g %% of the mean, 99 %% of the texels within %.2g %%\n",
-               100.0 * r->ao_relative_error, 100.0 * r->ao_p99_error);
-    } else {
-        printf("; error unknown\n");
-    }
+    print_stated_error(r->ao_relative_error, r->ao_p99_error);
 }
 
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
@@ -97,10 +103,7 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
                100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
     }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
-    if (isfinite(r->light_relative_error)) {
-        printf("; standard error %.2g %% of the mean", 100.0 * r->light_relative_error);
-    }
-    putchar('\n');
+    print_stated_error(r->light_relative_error, r->light_p99_error);
     const alp_light_energy *e = &r->light_energy;
     if (r->light_passes > 0 && e->known) {
         printf(

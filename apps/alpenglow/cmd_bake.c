@@ -84,7 +84,7 @@ int command_bake(const command_line *a)
     session s;
     code = session_open(&s, a);
     if (code == EXIT_DONE) {
-        code = session_load(&s, a->operands[0]);
+        code = session_load(&s, a);
     }
     alp_image *sky = NULL;
     if (code == EXIT_DONE) {

@@ -270,7 +270,7 @@ int command_info(const command_line *a)
     session s;
     int code = session_open(&s, a);
     if (code == EXIT_DONE) {
-        code = session_load(&s, a->operands[0]);
+        code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
         code = session_end(&s, alp_scene_examine(s.scene, NULL, session_progress, &s));

@@ -266,7 +266,7 @@ int command_render(const command_line *a)
     session s;
     code = session_open(&s, a);
     if (code == EXIT_DONE) {
-        code = session_load(&s, a->operands[0]);
+        code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
         code = check_camera(&s, a, &options);

@@ -136,14 +136,11 @@ static void print_place(const completion *c)
 
 static void print_places_of(command_id command)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
     const char *name = command_table()[command].name;
     completion c = completion_of_operand(command);
     printf("    %s)", name);
     print_place(&c);
-    for (size_t i = 0; i < count; i++) {
-        const option *o = &table[i];
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
         if (!completion_offers(command, o) || o->kind == KIND_FLAG) {
             continue;
         }
@@ -172,30 +169,27 @@ static void print_places(void)
     puts("    *) return 1 ;;\n    esac\n}\n");
 }
 
-static void print_names(const option *table, size_t count, command_id command)
+static void print_names(const option *o, const char *separator)
 {
-    const char *separator = "";
-    for (size_t i = 0; i < count; i++) {
-        if (command != COMMAND_COUNT && !completion_offers(command, &table[i])) {
-            continue;
-        }
-        printf("%s%s%s%s", separator, table[i].name, table[i].alias ? " " : "",
-               table[i].alias ? table[i].alias : "");
-        separator = " ";
-    }
+    printf("%s%s%s%s", separator, o->name, o->alias ? " " : "", o->alias ? o->alias : "");
 }
 
 static void print_options(void)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
     puts("# The options of a command, and how many operands it takes.\n"
          "_alpenglow_options() {\n"
          "    case $1 in");
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
-        const command_entry *c = &command_table()[i];
-        printf("    %s) operands=%d options='", c->name, command_operand_limit(i));
-        print_names(table, count, i);
+    for (command_id command = 0; command < COMMAND_BUILT_COUNT; command++) {
+        const char *name = command_table()[command].name;
+        printf("    %s) operands=%d options='", name, command_operand_limit(command));
+        const char *separator = "";
+        for (const option *o = option_after(command, NULL); o != NULL;
+             o = option_after(command, o)) {
+            if (completion_offers(command, o)) {
+                print_names(o, separator);
+                separator = " ";
+            }
+        }
         puts("' ;;");
     }
     puts("    esac\n}\n");
@@ -211,7 +205,9 @@ void completion_print_bash(void)
         printf(" %s", command_table()[i].name);
     }
     fputs("'\n_alpenglow_program='", stdout);
-    print_names(program, count, COMMAND_COUNT);
+    for (size_t i = 0; i < count; i++) {
+        print_names(&program[i], i > 0 ? " " : "");
+    }
     puts("'\n");
     print_places();
     print_options();

@@ -96,8 +96,6 @@ static void print_option(const char *condition, const option *o)
 static void print_command(command_id command)
 {
     char condition[64];
-    size_t count = 0;
-    const option *table = option_table(&count);
     const command_entry *entry = &command_table()[command];
     completion operand = completion_of_operand(command);
     snprintf(condition, sizeof condition, "__alpenglow_behind %s", entry->name);
@@ -107,9 +105,9 @@ static void print_command(command_id command)
         put_offer(&operand);
         putchar('\n');
     }
-    for (size_t i = 0; i < count; i++) {
-        if (completion_offers(command, &table[i])) {
-            print_option(condition, &table[i]);
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        if (completion_offers(command, o)) {
+            print_option(condition, o);
         }
     }
 }

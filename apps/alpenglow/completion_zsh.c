@@ -117,14 +117,12 @@ static void print_option(const option *o)
 
 static void print_command(command_id command)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
     const command_entry *entry = &command_table()[command];
     completion operand = completion_of_operand(command);
     printf("        %s)\n            _arguments -S \\\n", entry->name);
-    for (size_t i = 0; i < count; i++) {
-        if (completion_offers(command, &table[i])) {
-            print_option(&table[i]);
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        if (completion_offers(command, o)) {
+            print_option(o);
         }
     }
     for (int i = 0; i < command_operand_limit(command); i++) {

@@ -66,25 +66,21 @@ static void print_option(const option *o)
 static void print_later(command_id command)
 {
     enum { INDENT = 2 };
-    size_t count = 0;
-    const option *table = option_table(&count);
     int column = INDENT;
-    bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        if (table[i].group == GROUP_LATER && (table[i].commands & (1u << command)) != 0) {
-            if (!any) {
-                printf("\n%s:\n  ", option_group_title(GROUP_LATER));
-            }
-            print_wrapped(table[i].name, INDENT, &column);
-            any = true;
-        }
+    const option *o = option_next(command, GROUP_LATER, NULL);
+    bool any = o != NULL;
+    if (any) {
+        printf("\n%s:\n  ", option_group_title(GROUP_LATER));
     }
-    for (size_t i = 0; i < count; i++) {
-        if (table[i].later_choices != NULL && (table[i].commands & (1u << command)) != 0) {
+    for (; o != NULL; o = option_next(command, GROUP_LATER, o)) {
+        print_wrapped(o->name, INDENT, &column);
+    }
+    for (o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        if (o->later_choices != NULL) {
             if (!any) {
                 printf("\n%s:", option_group_title(GROUP_LATER));
             }
-            printf("\n  %s %s", table[i].name, table[i].later_choices);
+            printf("\n  %s %s", o->name, o->later_choices);
             any = true;
         }
     }
@@ -110,7 +106,7 @@ static void print_scenes(void)
     size_t count = 0;
     const char *const *names = builtin_scene_names(&count);
     int column = INDENT;
-    printf("\nSCENE is a .gltf or .glb file, or one of\n%*s", INDENT, "");
+    printf("\nSCENE is a .gltf, .glb or .obj file, or one of\n%*s", INDENT, "");
     for (size_t i = 0; i < count; i++) {
         print_wrapped(names[i], INDENT, &column);
     }

@@ -193,13 +193,10 @@ static void put_group(command_id command, option_group group)
 /// What is refused by name: options, and choices of options that are built.
 static void put_later(command_id command)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
     bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        bool later = table[i].group == GROUP_LATER;
-        if ((table[i].commands & (1u << command)) == 0 ||
-            (!later && table[i].later_choices == NULL)) {
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        bool later = o->group == GROUP_LATER;
+        if (!later && o->later_choices == NULL) {
             continue;
         }
         if (!any) {
@@ -209,8 +206,8 @@ static void put_later(command_id command)
             fputs(".br\n", stdout);
         }
         any = true;
-        put_font('B', table[i].name, strlen(table[i].name));
-        const char *value = later ? table[i].value : table[i].later_choices;
+        put_font('B', o->name, strlen(o->name));
+        const char *value = later ? o->value : o->later_choices;
         if (value != NULL) {
             putchar(' ');
             put_usage(value);
@@ -225,7 +222,7 @@ static void put_scenes(void)
     const char *const *names = builtin_scene_names(&count);
     fputs(".PP\n", stdout);
     put_usage("SCENE");
-    fputs("\nis a .gltf or .glb file, or one of these, which need none:\n", stdout);
+    fputs("\nis a .gltf, .glb or .obj file, or one of these, which need none:\n", stdout);
     for (size_t i = 0; i < count; i++) {
         put_font('B', names[i], strlen(names[i]));
         fputs(i + 1 < count ? ",\n" : ".\n", stdout);

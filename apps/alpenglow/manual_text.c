@@ -11,6 +11,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                    {"OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png",
                     "What an OUT.gltf refers to: geometry, what the bake adds to it, and the map's "
                     "pages."},
+                   {"OUT.obj, OUT.mtl, OUT.ao.png", "The same as OBJ, its materials and the map."},
                    {"DIR/ao.exr, DIR/ao.png, DIR/ao.1.exr", "The map's pages as files."}},
          .examples =
              {{"Bake a scene for a viewer:", "alpenglow bake scene.glb -o baked.glb"},
@@ -53,7 +54,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                        "alpenglow bench transport --scene scene.glb"}}},
     [COMMAND_COUNT] = {.failed =
                            "The command failed; a message on standard error says what and where.",
-                       .files = {{"*.gltf, *.glb, *.dae, *.zae",
+                       .files = {{"*.gltf, *.glb, *.obj, *.dae, *.zae",
                                   "Scenes, read and written (a .zae is read)."},
                                  {"*.exr", "Maps and pictures in linear float."},
                                  {"*.png", "Maps and pictures of 8 bits."}},

@@ -168,14 +168,12 @@ static size_t distance_limit(const char *written)
 
 const char *option_nearest(command_id command, const char *name)
 {
-    size_t count = 0, best = distance_limit(name);
-    const option *table = option_table(&count);
+    size_t best = distance_limit(name);
     const char *nearest = NULL;
-    for (size_t i = 0; i < count; i++) {
-        const char *names[2] = {table[i].name, table[i].alias};
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        const char *names[2] = {o->name, o->alias};
         for (int k = 0; k < 2; k++) {
-            if ((table[i].commands & (1u << command)) == 0 || names[k] == NULL ||
-                strlen(names[k]) < 3) {
+            if (names[k] == NULL || strlen(names[k]) < 3) {
                 continue;
             }
             size_t distance = word_distance(name, names[k]);
@@ -315,12 +313,9 @@ static bool same_word(const char *known, const char *word, size_t length)
 
 const option *option_find(command_id command, const char *name, size_t length)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
-    for (size_t i = 0; i < count; i++) {
-        if ((table[i].commands & (1u << command)) != 0 &&
-            (same_word(table[i].name, name, length) || same_word(table[i].alias, name, length))) {
-            return &table[i];
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        if (same_word(o->name, name, length) || same_word(o->alias, name, length)) {
+            return o;
         }
     }
     return NULL;
@@ -402,11 +397,9 @@ static int parse_option(command_id command, int count, char **words, int *at, co
 
 static void set_defaults(command_id command, command_line *parsed)
 {
-    size_t count = 0;
-    const option *table = option_table(&count);
-    for (size_t i = 0; i < count; i++) {
-        if ((table[i].commands & (1u << command)) != 0 && table[i].initial != NULL) {
-            (void)parse_value(command, &table[i], table[i].initial, &parsed->values[table[i].id]);
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        if (o->initial != NULL) {
+            (void)parse_value(command, o, o->initial, &parsed->values[o->id]);
         }
     }
 }

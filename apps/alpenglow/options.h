@@ -78,6 +78,7 @@ typedef enum option_id {
     OPTION_ADAPTIVE,
     OPTION_KEEP_PARTIAL,
     OPTION_WITH,
+    OPTION_SCENE,
     OPTION_CAMERA,
     OPTION_RESOLUTION,
     OPTION_SAMPLES,
@@ -177,14 +178,15 @@ typedef struct command_entry {
     const char *help; // paragraph under the synopsis; not built: what exists
 } command_entry;
 
-const command_entry *command_table(void); ///< [COMMAND_COUNT]
-const option *option_table(size_t *count);
+const command_entry *command_table(void);          ///< [COMMAND_COUNT]
 const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
 const char *const *builtin_scene_names(size_t *count);
 const char *builtin_scene_settings(void); ///< lines that say which scenes take settings
 const char *option_group_title(option_group group);
-/// The options that a command has in a group, in order: the one after `last`, or the first (NULL).
+/// The options that a command has, in order: the one after `last`, or the first (NULL).
 /// @return NULL after the last one
+const option *option_after(command_id command, const option *last);
+/// The same of one group.
 const option *option_next(command_id command, option_group group, const option *last);
 /// How many operands a command takes at most.
 int command_operand_limit(command_id command);

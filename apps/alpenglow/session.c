@@ -28,10 +28,11 @@ int session_open(session *s, const command_line *a)
     return result == ALP_OK ? EXIT_DONE : failure(alp_result_name(result));
 }
 
-int session_load(session *s, const char *path)
+int session_load(session *s, const command_line *a)
 {
     double start = clock_seconds();
-    alp_result result = alp_scene_load(s->context, path, &s->scene);
+    alp_result result =
+        alp_scene_load_choice(s->context, a->operands[0], a->values[OPTION_SCENE].text, &s->scene);
     s->load_seconds = clock_seconds() - start;
     return result == ALP_OK ? session_judge_warnings(s) : session_end(s, result);
 }

@@ -21,8 +21,8 @@ typedef struct session {
 /// Makes the context that the arguments ask for. `s` must stay where it is.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
 int session_open(session *s, const command_line *arguments);
-/// Loads operand 0. @return EXIT_DONE, or EXIT_FAILED after a message
-int session_load(session *s, const char *path);
+/// Loads operand 0, of it what --scene says. @return EXIT_DONE, or EXIT_FAILED after a message
+int session_load(session *s, const command_line *arguments);
 void session_close(session *s);
 
 /// An alp_progress_fn; `user` is a session. False on Ctrl-C, and on a warning that is an error.

@@ -192,7 +192,7 @@ typedef struct alp_sampling_options {
     /// little.
     uint64_t memory_limit;
     /// A cancelled bake ends with what it has instead of with nothing; light has nothing before its
-    /// first round ends.
+    /// first round ends, and is not denoised any more (a warning "not-denoised").
     bool keep_partial;
 } alp_sampling_options;
 
@@ -228,7 +228,9 @@ typedef struct alp_bake_options {
     const char *only;
     /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
     const char *occluders;
-    const char *output; ///< .glb, .gltf or (of a COLLADA scene) .dae; NULL: no asset
+    /// .glb, .gltf, .obj (occlusion maps, or light as emission) or, of a scene that was read from
+    /// COLLADA, .dae (the same); NULL: no asset
+    const char *output;
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
     /// bent.png (n · ½ + ½). ALP_MAP_OBSCURANCE: obscurance.exr and .png, linear. ALP_MAP_LIGHT:
@@ -237,9 +239,9 @@ typedef struct alp_bake_options {
     /// ALP_ATLAS_VERTEX: NULL.
     const char *maps_folder;
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "dilation"; "write". With
-    /// ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short work
-    /// may stay unheard.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "write".
+    /// With ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short
+    /// work may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
@@ -284,11 +286,13 @@ typedef struct alp_bake_report {
     float light_changes[64];
     alp_light_energy light_energy;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
-    /// Rays of occlusion, plus what light took: with bounces its paths, each of which is several
-    /// rays, and where light_direct the rays sent from texels. A ray that goes on behind a pane is
-    /// not counted again.
+    /// Rays of occlusion, plus what light took: the rays of direct light, of all passes of
+    /// radiosity and of the texels that gathered; of ALP_GATHER_PATHS its paths, each of which is
+    /// several rays. A ray that goes on behind a pane is not counted again.
     uint64_t rays;
-    uint32_t light_samples;  ///< paths of a texel, of ALP_MAP_LIGHT; of each light: light_direct
+    /// Of ALP_MAP_LIGHT: rays of a texel that gathered; PATHS: its paths; light_direct: its samples
+    /// of each light.
+    uint32_t light_samples;
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`
     uint32_t threads;
@@ -317,13 +321,14 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// Maps over the pages of an atlas, or values at vertices.
 typedef struct alp_lightmap alp_lightmap;
 
-/// Bakes occlusion of a scene and writes what the options ask for. Every output is written beside
-/// its place and renamed, after everything has succeeded.
+/// Bakes the maps of a scene that the options ask for and writes them. Every output is written
+/// beside its place and renamed, after everything has succeeded.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
 ///         INVALID_DATA (nothing to bake, or a second UV set that cannot
-///         be kept); UNSUPPORTED (an output that is no .glb, .gltf or .dae); LIMIT; IO;
+///         be kept); UNSUPPORTED (an output that is none of .glb, .gltf, .dae, .obj,
+///         or that has no place for what is baked); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);

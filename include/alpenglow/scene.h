@@ -11,7 +11,7 @@ ALP_BEGIN_DECLS
 /// a scene run on the context it was made with: one at a time.
 typedef struct alp_scene alp_scene;
 
-/// Reads a scene file (.gltf, .glb, .dae, .zae) or makes a built-in one ("builtin:cornell",
+/// Reads a scene file (.gltf, .glb, .obj, .dae, .zae) or makes a built-in one ("builtin:cornell",
 /// "builtin:furnace", "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane",
 /// "builtin:teapot-room", "builtin:windows", "builtin:atrium", "builtin:terrain"). Two can be made
 /// of any size, to 15 %: "builtin:atrium,triangles=N", 20000 to 4000000, default 50000;
@@ -22,6 +22,12 @@ typedef struct alp_scene alp_scene;
 ///         required extension, a file kind that is not read yet); LIMIT; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char *path,
                                                 alp_scene **scene);
+
+/// The same with one of the scenes of a file that holds several: `choice` is its number from 0, or
+/// its name; NULL takes the one that the file shows first, as alp_scene_load does.
+/// @return also INVALID_ARGUMENT: no such scene (the message lists them), or a file of one scene
+ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
+                                                       const char *choice, alp_scene **scene);
 
 /// A mesh handed over as arrays, already in world space.
 typedef struct alp_mesh {

@@ -82,9 +82,12 @@ static void grower_destroy(grower *g)
     alpi_fold_destroy(&g->fold);
 }
 
-static uint32_t node_of(const alp_scene *scene, uint32_t triangle)
+/// Whether one node shows both triangles, in one instance of its mesh.
+static bool share_node(const alp_scene *scene, uint32_t a, uint32_t b)
 {
-    return scene->surfaces[scene->triangle_surface[triangle]].node;
+    const alpi_surface *first = &scene->surfaces[scene->triangle_surface[a]];
+    const alpi_surface *second = &scene->surfaces[scene->triangle_surface[b]];
+    return first->node == second->node && first->instance == second->instance;
 }
 
 static bool may_join(const grower *g, uint32_t triangle, uint32_t seed_triangle)
@@ -92,7 +95,7 @@ static bool may_join(const grower *g, uint32_t triangle, uint32_t seed_triangle)
     return triangle != ALPI_NONE && g->clusters->of_triangle[triangle] == ALPI_NONE &&
            g->visited[triangle] != g->clusters->count + 1 &&
            vec3_dot(g->normals[triangle], g->normals[seed_triangle]) >= g->min_cosine &&
-           node_of(g->scene, triangle) == node_of(g->scene, seed_triangle);
+           share_node(g->scene, triangle, seed_triangle);
 }
 
 /// Appends what can be reached from the members, up to `limit` of them.

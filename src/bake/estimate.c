@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake will take, told before it: texels by areas, rays and seconds by a few points that are
 // lit as the texels will be.
+#include "bake/layers.h"
 #include "bake/light.h"
 
 #include "base/memory.h"
@@ -14,7 +15,9 @@ enum { POINTS = 128, DIRECT_SAMPLES = 16, PATHS = 16, STREAM_PILOT = 90 };
 // Measured on the truth table (docs/conventions.md, "Estimates").
 static const double PAGE_SHARE = 0.75; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
-static const double TRACED_SHARE = 0.35;   // of texels that gather: others are interpolated
+// Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
+// share falls with the side of a map.
+static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
 static const double BOUNCED_ERROR = 0.04;  // of 64 rays, over the mean of all light
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
 static const double EDGE_SHARE = 1.5;      // noisy texels with those around them, over noisy ones
@@ -220,6 +223,13 @@ static double count_direct(const alp_light_options *o, pilot *p, uint32_t count)
     return all;
 }
 
+static double find_traced_share(const alp_bake_options *o, double texels)
+{
+    return o->sampling.accuracy == ALP_ADAPTIVE_OFF
+               ? 1.0
+               : fmin(LATTICE_SHARE + EDGE_TEXELS / sqrt(fmax(texels, 1.0)), 1.0);
+}
+
 static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_bake_work *w)
 {
     const alp_light_options *l = &o->light;
@@ -234,7 +244,7 @@ static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_b
     } else if (l->gather == ALP_GATHER_RAYS && l->error > 0.0f) {
         rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, 2.0), 1.0);
     }
-    const double share = o->sampling.accuracy == ALP_ADAPTIVE_OFF ? 1.0 : TRACED_SHARE;
+    const double share = find_traced_share(o, (double)w->texels);
     rays = rays * share + (l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0);
     w->rays += (uint64_t)(texels * (rays + direct * p->rays));
     w->seconds += texels * (rays * p->ray_seconds + direct * p->direct_seconds);
@@ -243,7 +253,7 @@ static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_b
 static void add_occlusion(const alp_bake_options *o, const pilot *p, alp_bake_work *w)
 {
     const double wanted = (double)o->sampling.error;
-    const double share = o->sampling.accuracy == ALP_ADAPTIVE_OFF ? 1.0 : TRACED_SHARE;
+    const double share = find_traced_share(o, (double)w->texels);
     double rays = o->occlusion.samples;
     if (wanted > 0.0) { // the error of these sequences falls as samples^−0.7
         rays = fmin(rays, 64.0 * fmax(pow(0.03 / wanted, 1.0 / 0.7), 1.0));
@@ -263,11 +273,13 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     double area;
     uint32_t count = 0;
     pilot p;
+    uint32_t lights;
     ALP_TRY(alpi_bake_choose(job));
+    ALP_TRY(alpi_bake_find_layers(job, &lights));
     const alp_atlas_info atlas = guess_atlas(job, &area);
     ALP_TRY(run_pilot(job, area, &p, &count));
     work->texels = atlas.texels;
-    work->bytes = alpi_bake_memory(&atlas, job->scene, o);
+    work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
     work->seconds = (double)atlas.texels * TEXEL_SECONDS;
     if (alpi_bake_wants_occlusion(job)) {
         add_occlusion(o, &p, work);
@@ -296,6 +308,7 @@ alp_result alp_bake_estimate(const alp_scene *scene, const alp_bake_options *opt
         return ALP_OK;
     }
     const alp_result result = estimate(&job, work);
+    alpi_bake_release_layers(&job);
     alpi_release(job.context, job.only);
     alpi_release(job.context, job.occluders);
     alpi_release(job.context, job.originals);

@@ -127,7 +127,8 @@ alp_result alpi_bake_check_light_asset(const alpi_bake_job *job);
 alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
 void alpi_bake_release_light_asset(alpi_bake_job *job);
 /// Bytes that making it takes at its peak, besides the encoded ones.
-uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_bake_options *options);
+uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
+                                      const alp_bake_options *options);
 /// Whether a viewer's own file is written in the place of an asset (viewer_file.c).
 bool alpi_bake_is_viewer_file(const alp_bake_options *options);
 /// Its ending, and that all its files can be written.

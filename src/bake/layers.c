@@ -145,17 +145,12 @@ static alp_result plan_parts(alpi_bake_job *job, const alpi_lighting *lighting,
     if (count > 0 && parts[count - 1].kind == ALPI_DIRECT_SKY) { // the sky is the last
         plan->sky = plan->part_layers[count - 1];
     }
-    if (own == count) {
-        return ALP_OK;
-    }
-    alpi_warn(job->context, "many-layers", job->scene->name,
-              "%u lights make %d layers: the last %u of them are together in \"others\"", count,
-              ALPI_LAYER_LIMIT, count - own);
-    return add_layer(job->context, plan, "others", "");
+    return own == count ? ALP_OK : add_layer(job->context, plan, "others", "");
 }
 
-alp_result alpi_bake_plan_layers(alpi_bake_job *job)
+alp_result alpi_bake_find_layers(alpi_bake_job *job, uint32_t *lights)
 {
+    *lights = 0;
     if (!job->options.light.layers) {
         return ALP_OK;
     }
@@ -168,13 +163,24 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job)
         .context = job->context, .scene = job->scene, .lighting = lighting, .samples = 1};
     alp_result result = alpi_direct_create(&options, &direct);
     if (result == ALP_OK) {
-        uint32_t count = 0;
-        const alpi_direct_part *parts = alpi_direct_parts(direct, &count);
-        result = plan_parts(job, lighting, parts, count);
+        const alpi_direct_part *parts = alpi_direct_parts(direct, lights);
+        result = plan_parts(job, lighting, parts, *lights);
     }
     alpi_direct_destroy(direct);
     alpi_lighting_destroy(job->context, lighting);
     return result;
+}
+
+alp_result alpi_bake_plan_layers(alpi_bake_job *job)
+{
+    uint32_t lights;
+    ALP_TRY(alpi_bake_find_layers(job, &lights));
+    if (lights > ALPI_LAYER_LIMIT) {
+        alpi_warn(job->context, "many-layers", job->scene->name,
+                  "%u lights make %d layers: the last %u of them are together in \"others\"",
+                  lights, ALPI_LAYER_LIMIT, lights - ALPI_LAYER_LIMIT + 1);
+    }
+    return ALP_OK;
 }
 
 void alpi_bake_release_layers(alpi_bake_job *job)

@@ -65,4 +65,11 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
                              const alpi_gatherer *fixed, alpi_radiosity *solution);
 
+/// Takes noise off task->values, and keeps the sky's share of them. Whoever ends the bake before,
+/// or meanwhile, and keeps what there is, gets the light as it was gathered: no texel is changed
+/// before all are known.
+/// @param skies [texels] what of the values is a soft sky's
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_light_denoise(alpi_bake_job *job, const alpi_light_task *task, float (*skies)[3]);
+
 #endif

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
 // larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
-// their own; what they find is averaged by their numbers of samples. So are its variances: the part
-// of them that interpolation is to blame for is alike in all rounds, and stated a little low.
+// their own; what they find is averaged by their numbers of samples.
+//
+// With shares wᵢ of the samples and errors bᵢ + eᵢ of the rounds, bᵢ the bias of interpolation and
+// eᵢ noise, a texel's squared error is
+//
+//     E[(Σ wᵢ (bᵢ + eᵢ))²] = (Σ wᵢ bᵢ)² + Σ wᵢ² Var eᵢ
+//
+// Noise falls with the number of rounds. Bias does not: the same texels between the same others
+// miss the same light in each. So what was ever interpolated cannot be told from the errors of
+// single rounds: some texels, held out, are gathered beside the map in each round, x̂ = Σ wᵢ yᵢ, and
+// the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
 #include "bake/layers.h"
 #include "bake/light.h"
 
@@ -10,7 +19,6 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/bounced_map.h"
-#include "maps/denoise.h"
 #include "transport/cosine_rays.h"
 
 #include <math.h>
@@ -37,6 +45,9 @@ typedef struct rounds {
     float (*fresh_skies)[3];             // [texels]
     alpi_directional *fresh_directional; // [texels]; NULL: not wanted
     uint8_t *states;                     // [texels]
+    uint8_t *between;                    // [texels] whether ever interpolated
+    alpi_held_out *held_out;             // by the rays of the last round
+    alpi_reference_value *held;          // [held_out->count] by those of all rounds
     uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
     uint32_t *counts;                    // [texels] samples of direct light so far
     uint32_t *list;                      // [texels]
@@ -80,7 +91,10 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .replicates = REPLICATES,
         .seed = alpi_hash64(job->options.occlusion.seed + r->number),
     };
+    alpi_cosine_rays others = cosine;
+    others.seed = alpi_hash64(~cosine.seed);
     const alpi_gatherer own = alpi_cosine_rays_gatherer(&cosine);
+    const alpi_gatherer beside = alpi_cosine_rays_gatherer(&others);
     const alpi_gather_job gather = {.context = job->context,
                                     .from = &from,
                                     .gatherer = r->fixed != NULL ? r->fixed : &own,
@@ -97,6 +111,8 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .near = job->validity.near,
         .adaptive = r->fixed == NULL && !job->options.light.denoise &&
                     job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .held_out = r->rays == 0 || r->held_out->count > 0 ? r->held_out : NULL,
+        .beside = &beside,
     };
     alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
     const double began = alpi_seconds();
@@ -130,6 +146,35 @@ static void mix(const rounds *r, alpi_directional *directional, uint32_t texel, 
     }
 }
 
+static void note_interpolated(const rounds *r)
+{
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        r->between[t] |= r->states[t] == ALPI_TEXEL_INTERPOLATED;
+    }
+}
+
+/// States the squared error of what was ever interpolated; see above.
+static void merge_held_out(const rounds *r, uint32_t rays)
+{
+    const alpi_held_out *h = r->held_out;
+    float variance[3];
+    note_interpolated(r);
+    for (uint32_t i = 0; i < h->count; i++) {
+        merge_one(&r->held[i], &h->values[i], r->rays, rays);
+    }
+    if (h->count == 0) { // nothing was in the first round: each round tells its own
+        return;
+    }
+    alpi_held_out_error(h->texels, r->held, h->count, r->task->values, variance);
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        const uint32_t t = r->task->order[i];
+        if (r->between[t] != 0) {
+            memcpy(r->task->values[t].variance, variance, sizeof variance);
+        }
+    }
+}
+
 static alp_result add_bounced(rounds *r, uint32_t rays)
 {
     ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
@@ -142,6 +187,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
     }
+    merge_held_out(r, rays);
     r->rays += rays;
     r->job->report.light_samples = r->rays;
     return ALP_OK;
@@ -192,6 +238,16 @@ static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool me
     }
 }
 
+/// What rays meet from now on reflects the direct light that is known now: the few samples of the
+/// first round make noise in corners, where a texel sees few others, that no number of rays takes
+/// off. What blocks gathered stays. Where only some surfaces are baked, rays meet other texels.
+static alp_result show_direct(const rounds *r)
+{
+    return r->solution->texels != NULL
+               ? ALP_OK
+               : alpi_radiosity_show(r->solution, ALPI_NONE, &r->task->progress);
+}
+
 /// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
 /// root mean square that would do.
 static alp_result add_direct(rounds *r, double more, double wanted)
@@ -215,7 +271,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
         r->counts[texel] += samples;
     }
     r->direct += samples;
-    return ALP_OK;
+    return show_direct(r);
 }
 
 // --- errors --------------------------------------------------------------------------------------
@@ -355,6 +411,7 @@ static alp_result begin(rounds *r)
     const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
     ALPI_TRY_NEW(context, r->skies, texels);
     ALPI_TRY_NEW(context, r->states, texels);
+    ALPI_TRY_NEW(context, r->held_out, 1);
     alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
     ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies,
                            r->task->directional));
@@ -380,6 +437,10 @@ static alp_result go_on(rounds *r)
     ALPI_TRY_NEW(context, r->counts, texels);
     ALPI_TRY_NEW(context, r->list, texels);
     ALPI_TRY_NEW(context, r->noisy, texels);
+    ALPI_TRY_NEW(context, r->between, texels);
+    ALPI_TRY_NEW(context, r->held, r->held_out->count);
+    memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
+    note_interpolated(r);
     for (uint32_t t = 0; t < texels; t++) {
         r->counts[t] = r->direct;
     }
@@ -431,61 +492,7 @@ static alp_result run_rounds(rounds *r)
     return result;
 }
 
-// --- noise ---------------------------------------------------------------------------------------
-
-/// The texels of the order as the denoiser wants them.
-typedef struct denoise_arrays {
-    float (*means)[3], (*variances)[3], (*positions)[3], (*normals)[3];
-    float *sides;
-} denoise_arrays;
-
-static void fill_arrays(const rounds *r, const denoise_arrays *a)
-{
-    const alpi_texels *texels = r->task->lattice->texels;
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        const alpi_reference_value *v = &r->task->values[t];
-        alpi_receiver_point point;
-        alpi_texels_point(texels, t, &point);
-        const float position[3] = {point.position.x, point.position.y, point.position.z};
-        memcpy(a->positions[i], position, sizeof position);
-        memcpy(a->normals[i], texels->normals[t], sizeof texels->normals[t]);
-        memcpy(a->means[i], v->mean, sizeof v->mean);
-        memcpy(a->variances[i], v->variance, sizeof v->variance);
-        a->sides[i] = sqrtf(texels->areas[t] / texels->coverages[t]);
-    }
-}
-
-static alp_result filter(rounds *r, denoise_arrays *a)
-{
-    alp_context *context = r->job->context;
-    const uint32_t count = r->task->count;
-    ALPI_TRY_NEW(context, a->means, count);
-    ALPI_TRY_NEW(context, a->variances, count);
-    ALPI_TRY_NEW(context, a->positions, count);
-    ALPI_TRY_NEW(context, a->normals, count);
-    ALPI_TRY_NEW(context, a->sides, count);
-    fill_arrays(r, a);
-    const alpi_denoise_texels texels = {.count = count,
-                                        .means = (const float(*)[3])a->means,
-                                        .variances = (const float(*)[3])a->variances,
-                                        .positions = (const float(*)[3])a->positions,
-                                        .normals = (const float(*)[3])a->normals,
-                                        .sides = a->sides};
-    ALP_TRY(alpi_denoise(context, r->task->tracer, &texels, &r->task->progress, a->means,
-                         a->variances));
-    for (uint32_t i = 0; i < count; i++) {
-        alpi_reference_value *v = &r->task->values[r->task->order[i]];
-        float *sky = r->skies[r->task->order[i]];
-        for (int k = 0; k < 3; k++) {
-            const float mean = fmaxf(a->means[i][k], 0.0f);
-            sky[k] *= v->mean[k] > 0.0f ? mean / v->mean[k] : 1.0f; // keeps its share
-            v->mean[k] = mean;
-            v->variance[k] = a->variances[i][k];
-        }
-    }
-    return ALP_OK;
-}
+// --- the end -------------------------------------------------------------------------------------
 
 /// What only further rounds need.
 static void release_rounds(rounds *r)
@@ -497,27 +504,15 @@ static void release_rounds(rounds *r)
     alpi_release(context, r->counts);
     alpi_release(context, r->list);
     alpi_release(context, r->noisy);
+    alpi_release(context, r->between);
+    alpi_release(context, r->held);
+    r->between = NULL;
+    r->held = NULL;
     r->fresh_directional = NULL;
     r->fresh = NULL;
     r->fresh_skies = NULL;
     r->counts = r->list = NULL;
     r->noisy = NULL;
-}
-
-/// Takes noise off the bounced light; direct light has edges that must stay.
-static alp_result denoise(rounds *r)
-{
-    alp_context *context = r->job->context;
-    denoise_arrays a = {0};
-    release_rounds(r);
-    r->task->clock->deadline = HUGE_VAL; // what is whole is filtered as a whole
-    const alp_result result = filter(r, &a);
-    alpi_release(context, a.means);
-    alpi_release(context, a.variances);
-    alpi_release(context, a.positions);
-    alpi_release(context, a.normals);
-    alpi_release(context, a.sides);
-    return result;
 }
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
@@ -553,13 +548,15 @@ alp_result alpi_light_rounds(alpi_bake_job *job, const alpi_light_task *task,
     rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
     alp_result result = run_rounds(&r);
     if (result == ALP_OK && job->options.light.denoise) {
-        result = denoise(&r);
+        release_rounds(&r);
+        result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
         put_together(&r);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
+    alpi_release(job->context, r.held_out);
     release_rounds(&r);
     return result;
 }

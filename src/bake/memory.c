@@ -19,6 +19,7 @@ enum {
     BYTES_OF_PROBES = 8192 * 44,
     BYTES_PER_PAGE_TEXEL = 20, // of every page: float RGBA, grid 4
     BYTES_TO_DILATE = 5,       // of one page at a time: filled 1, queue 4
+    LATTICE_BYTES = 14,        // of a texel's 73: gone when files are written, as are side maps
     // Of each map beside occlusion.
     SIDE_BYTES_PER_TEXEL = 12,
     // Light by direction: kept, and of direct light while that is gathered and in rounds. One map
@@ -41,7 +42,7 @@ enum {
     BLOCK_BYTES = 64,  // of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8
     // alpi_bounced_map: marks 1, list 4, values 4, variances 12; and skies 12, states 1
     GATHER_BYTES_PER_TEXEL = 34,
-    ROUND_BYTES_PER_TEXEL = 45,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 1
+    ROUND_BYTES_PER_TEXEL = 46,    // of later rounds: fresh 24 + 12, counts 4, list 4, marks 2
     DENOISE_BYTES_PER_TEXEL = 256, // in their place, measured
     SPACING = 4                    // texels along a block
 };
@@ -147,13 +148,15 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
         const uint64_t gather = solve > m.rounds ? solve : m.rounds;
         rays = rays > gather ? rays : gather;
     }
-    const uint64_t store = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages +
-                           (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
+    const uint64_t stored = SIDE_BYTES_PER_PAGE_TEXEL * (sides + directional) * pages;
+    const uint64_t store = stored + (directional > 0 ? SIDE_BYTES_PER_TEXEL * atlas->texels : 0u) +
                            BYTES_TO_DILATE * page;
-    const uint64_t light = alpi_bake_light_asset_memory(atlas, options);
-    const uint64_t most = rays > store ? rays : store;
+    const uint64_t write = stored + alpi_bake_light_asset_memory(atlas, scene, options);
+    const uint64_t gone = (SIDE_BYTES_PER_TEXEL * sides + LATTICE_BYTES) * atlas->texels;
+    uint64_t most = rays > store ? rays : store;
+    most = write > most + gone ? write - gone : most;
     return find_kept(atlas, scene, sides) + find_directional(atlas, options) +
-           find_around(atlas, scene, options) + (most > store + light ? most : store + light);
+           find_around(atlas, scene, options) + most;
 }
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,

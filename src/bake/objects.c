@@ -82,7 +82,7 @@ static bool has_texels(const alpi_bake_job *job, uint32_t surface)
 }
 
 typedef struct node_surface {
-    uint32_t node, surface;
+    uint32_t node, instance, surface;
 } node_surface;
 
 static int compare_nodes(const void *left, const void *right)
@@ -90,6 +90,9 @@ static int compare_nodes(const void *left, const void *right)
     const node_surface *a = left, *b = right;
     if (a->node != b->node) {
         return a->node < b->node ? -1 : 1;
+    }
+    if (a->instance != b->instance) {
+        return a->instance < b->instance ? -1 : 1;
     }
     return a->surface < b->surface ? -1 : a->surface > b->surface;
 }
@@ -114,7 +117,8 @@ static float diagonal(const alp_scene *scene, const uint32_t *surfaces, uint32_t
     return found ? vec3_length(vec3_sub(vec3_load(high), vec3_load(low))) : 0.0f;
 }
 
-/// One object for each node that has texels; `owner` gets the object of each surface.
+/// One object for each node, or instance of its mesh, that has texels; `owner` gets the object of
+/// each surface.
 static alp_result list_objects(const alpi_bake_job *job, alpi_objects *objects, uint32_t *owner,
                                node_surface *list)
 {
@@ -123,14 +127,15 @@ static alp_result list_objects(const alpi_bake_job *job, alpi_objects *objects, 
     for (uint32_t s = 0; s < scene->surface_count; s++) {
         owner[s] = ALPI_NONE;
         if (has_texels(job, s)) {
-            list[count++] = (node_surface){scene->surfaces[s].node, s};
+            list[count++] = (node_surface){scene->surfaces[s].node, scene->surfaces[s].instance, s};
         }
     }
     qsort(list, count, sizeof *list, compare_nodes);
     ALPI_TRY_NEW(job->context, objects->items, count);
     ALPI_TRY_NEW(job->context, objects->surfaces, count);
     for (uint32_t i = 0; i < count; i++) {
-        if (i == 0 || list[i].node != list[i - 1].node) {
+        if (i == 0 || list[i].node != list[i - 1].node ||
+            list[i].instance != list[i - 1].instance) {
             objects->items[objects->count++] = (alpi_object){.first_surface = i};
         }
         objects->items[objects->count - 1].surface_count++;

@@ -75,6 +75,22 @@ static bool is_gltf_path(const char *path)
     return alpi_path_has_ending(path, ".glb") || alpi_path_has_ending(path, ".gltf");
 }
 
+/// An OBJ holds occlusion maps, and light as emission.
+static alp_result check_obj_options(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    const char *what =
+        o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
+        : job->packing.count > 0          ? "occlusion packed into an image"
+        : o->lightmap_as == ALP_LIGHTMAP_AS_MOZ || o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS
+            ? "a light map other than emission"
+            : NULL;
+    return what == NULL
+               ? ALP_OK
+               : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                           "%s: an .obj has no place for %s; write .glb or .gltf", o->output, what);
+}
+
 static alp_result check_map(alp_context *context, const char *folder, uint32_t page, map_kind kind,
                             bool overwrite)
 {
@@ -93,15 +109,17 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     if (o->output != NULL && alpi_bake_is_viewer_file(o)) {
         ALP_TRY(alpi_bake_check_viewer_file(job, pages));
     } else if (o->output != NULL) {
-        const bool is_collada = alpi_path_has_ending(o->output, ".dae");
-        if (!is_gltf_path(o->output) && !is_collada) {
+        if (alpi_path_has_ending(o->output, ".obj")) {
+            ALP_TRY(check_obj_options(job));
+        } else if (alpi_path_has_ending(o->output, ".dae")) {
+            if (o->atlas.mode == ALP_ATLAS_VERTEX) {
+                return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                                 "%s: values at vertices are not written to a .dae; write .glb",
+                                 o->output);
+            }
+        } else if (!is_gltf_path(o->output)) {
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: only .glb, .gltf and .dae are written so far", o->output);
-        }
-        if (is_collada && o->atlas.mode == ALP_ATLAS_VERTEX) {
-            return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: values at vertices are not written to a .dae; write .glb",
-                             o->output);
+                             "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
         }
         const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
         const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
@@ -110,8 +128,7 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
                                          .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
                                          .light_is_beside =
                                              o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS};
-        ALP_TRY((is_collada ? alpi_collada_check_outputs : alpi_gltf_check_outputs)(
-            job->scene, &images, o->output, o->overwrite));
+        ALP_TRY(alpi_scene_check_outputs(job->scene, &images, o->output, o->overwrite));
     }
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -434,9 +451,8 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .occlusion_strength = 1.0f,
             .extras_json = extras,
         };
-        const bool is_collada = alpi_path_has_ending(job->options.output, ".dae");
-        result = (is_collada ? alpi_collada_write_patched : alpi_gltf_write_patched)(
-            job->scene, &patch, job->options.output, job->options.overwrite);
+        result = alpi_scene_write_patched(job->scene, &patch, job->options.output,
+                                          job->options.overwrite);
     }
     alpi_release(job->context, pngs);
     alpi_release(job->context, sizes);

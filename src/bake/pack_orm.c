@@ -61,7 +61,7 @@ static alp_result check_storage(const alpi_bake_job *job, uint32_t image, alpi_i
     }
     if (pixels == NULL || pixels->info.component != ALP_COMPONENT_U8 ||
         source->encoding == ALPI_IMAGE_ENCODING_OTHER) {
-        return give_reason(job, "it could not be read as PNG or JPEG", reason);
+        return give_reason(job, "it could not be read as PNG, JPEG or WebP", reason);
     }
     return ALP_OK;
 }
@@ -123,12 +123,14 @@ static void settle_materials(alpi_bake_job *job, uint32_t image, const alpi_imag
     }
     if (reason == NULL) {
         packing->targets[packing->count++] = (alpi_pack_target){.image = image};
+        const char *kind = source->encoding == ALPI_IMAGE_ENCODING_JPEG   ? "JPEG"
+                           : source->encoding == ALPI_IMAGE_ENCODING_WEBP ? "WebP"
+                                                                          : NULL;
         alpi_note(job->context, "ao-packed", job->scene->name,
-                  "occlusion goes into the red channel of %s%s", source->name,
-                  source->encoding == ALPI_IMAGE_ENCODING_JPEG
-                      ? ", which is a JPEG and becomes a PNG, so that its other channels stay as "
-                        "they are"
-                      : "");
+                  "occlusion goes into the red channel of %s%s%s%s", source->name,
+                  kind != NULL ? ", which is a " : "", kind != NULL ? kind : "",
+                  kind != NULL ? " and becomes a PNG, so that its other channels stay as they are"
+                               : "");
     }
 }
 

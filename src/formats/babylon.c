@@ -228,6 +228,14 @@ static alp_result fill(writer *w)
     return w->text.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
+uint64_t alpi_babylon_memory(const alp_scene *scene, uint64_t pixels)
+{
+    enum { IMAGE_BYTES = 12, CODE_BYTES = 8 }; // four bytes of RGBE at most, in room that doubles
+    const uint64_t text = alpi_lightmap_text_size(scene), parts = alpi_lightmap_parts_size(scene);
+    const uint64_t picture = pixels * (IMAGE_BYTES + CODE_BYTES);
+    return text + (parts > picture ? parts : picture);
+}
+
 alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
                                const char *const *page_names, uint8_t **bytes, size_t *size)
 {
@@ -237,6 +245,7 @@ alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *l
                 .page_names = page_names,
                 .parts = {.scene = scene},
                 .text = alpi_bytes_create(scene->context)};
+    alpi_bytes_reserve(&w.text, alpi_lightmap_text_size(scene)); // moved, it would be there twice
     alp_result result = fill(&w);
     *bytes = result == ALP_OK ? w.text.bytes : NULL;
     *size = result == ALP_OK ? w.text.size : 0;

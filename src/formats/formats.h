@@ -9,6 +9,12 @@
 
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
+/// The same with one of its scenes, by number or name; NULL = the one it shows first.
+alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
+                                 alp_scene **scene);
+
+/// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
+alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
 /// Reads a .dae or .zae into a scene and keeps the document with it (ALPI_ATTACHMENT_COLLADA).
 alp_result alpi_collada_read_scene(alp_context *context, const char *path, alp_scene **scene);
@@ -17,6 +23,7 @@ typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,
     ALPI_IMAGE_ENCODING_JPEG,
+    ALPI_IMAGE_ENCODING_WEBP,
     ALPI_IMAGE_ENCODING_OTHER // or not readable, or of a scene without a document
 } alpi_image_encoding;
 typedef struct alpi_image_source {
@@ -57,6 +64,24 @@ alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_pa
 alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                       const char *path, bool overwrite);
 
+/// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
+/// triangles without area left out. Baked coordinates take the place of vt, and textures that need
+/// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd
+/// where that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed
+/// images are UNSUPPORTED). Nothing is overwritten unless asked; all files are put in place
+/// together.
+alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                  const char *path, bool overwrite);
+/// Every file that it would make is checked before the long work.
+alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                  const char *path, bool overwrite);
+
+/// The two for any ending that is written: .obj, .dae, else glTF.
+alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                    const char *path, bool overwrite);
+alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                    const char *path, bool overwrite);
+
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
 alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size);
@@ -78,11 +103,17 @@ typedef struct alpi_light_pages {
 /// @return ALP_OK; LIMIT; OUT_OF_MEMORY
 alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *light, uint8_t **bytes,
                              size_t *size);
+/// About how many bytes that takes at its peak, the text that it becomes included.
+/// @param pixels of all pages
+uint64_t alpi_three_memory(const alp_scene *scene, uint64_t pixels);
 /// The same as a .babylon file, whose maps are the Radiance pictures `page_names` beside it:
 /// PBRMaterial with useLightmapAsShadowmap, T = E/π.
 /// @return also UNSUPPORTED (pages of less than 8 × 8 texels)
 alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
                                const char *const *page_names, uint8_t **bytes, size_t *size);
+/// About how many bytes the file and one of its pictures, of so many pixels, take together at their
+/// peak.
+uint64_t alpi_babylon_memory(const alp_scene *scene, uint64_t pixels);
 /// One of those pictures.
 alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pages *light,
                                     uint32_t page, uint8_t **bytes, size_t *size);
@@ -91,6 +122,9 @@ alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pag
 alp_result alpi_png_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);
 alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_t *bytes,
+                            size_t size, alp_image **image);
+/// Three channels, or four where it has alpha; animated ones are UNSUPPORTED.
+alp_result alpi_webp_decode(alp_context *context, const char *name, const uint8_t *bytes,
                             size_t size, alp_image **image);
 alp_result alpi_exr_decode(alp_context *context, const char *name, const uint8_t *bytes,
                            size_t size, alp_image **image);

@@ -154,7 +154,10 @@ static alp_result find_layout(const alpi_gltf_document *document, size_t index, 
     found->values.normalized = json_is_true(json_object_get(accessor, "normalized")) &&
                                type != COMPONENT_FLOAT && type != COMPONENT_U32;
     found->element_size = found->values.components * (size_t)found->values.component_size;
-    if (json_object_get(accessor, "bufferView") != NULL) {
+    if (index < document->decoded_count && document->decoded[index].values.bytes != NULL) {
+        found->values.count = document->decoded[index].values.count; // a strip comes as triangles
+        found->base = (byte_run){document->decoded[index].values.bytes, found->element_size};
+    } else if (json_object_get(accessor, "bufferView") != NULL) {
         ALP_TRY(find_run(document, accessor, owner, count, found->element_size, &found->base));
     } else if (count > ZEROS_LIMIT) {
         return alpi_fail(document->context, ALP_ERROR_LIMIT,
@@ -211,6 +214,35 @@ alp_result alpi_gltf_accessor_check(const alpi_gltf_document *document, size_t a
     alp_result result = find_layout(document, accessor, owner, &found);
     *values = found.values;
     return result;
+}
+
+alp_result alpi_gltf_accessor_matrices(const alpi_gltf_document *document, size_t accessor,
+                                       uint32_t count, double (*matrices)[16])
+{
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "accessor %zu", accessor);
+    json_t *object = alpi_gltf_item(document, "accessors", accessor);
+    const char *shape = alpi_gltf_text(object, "type");
+    size_t type, stated;
+    byte_run run;
+    ALP_TRY(alpi_gltf_size(document, object, "componentType", owner, &type));
+    ALP_TRY(alpi_gltf_size(document, object, "count", owner, &stated));
+    if (shape == NULL || strcmp(shape, "MAT4") != 0 || type != COMPONENT_FLOAT || stated < count ||
+        json_object_get(object, "sparse") != NULL) {
+        return alpi_gltf_fail(document, owner,
+                              "%zu elements of type %.20s where %u MAT4 of floats "
+                              "are needed",
+                              stated, shape != NULL ? shape : "none", count);
+    }
+    ALP_TRY(find_run(document, object, owner, count, 16 * sizeof(float), &run));
+    for (size_t i = 0; i < count; i++) {
+        float values[16];
+        memcpy(values, run.bytes + i * run.stride, sizeof values);
+        for (int k = 0; k < 16; k++) {
+            matrices[i][k] = (double)values[k];
+        }
+    }
+    return ALP_OK;
 }
 
 alp_result alpi_gltf_accessor_read(const alpi_gltf_document *document, size_t accessor,

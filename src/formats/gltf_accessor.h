@@ -9,6 +9,11 @@
 alp_result alpi_gltf_accessor_check(const alpi_gltf_document *document, size_t accessor,
                                     alpi_gltf_values *values);
 
+/// `count` matrices of four by four floats, column by column, from an accessor that has as many or
+/// more.
+alp_result alpi_gltf_accessor_matrices(const alpi_gltf_document *document, size_t accessor,
+                                       uint32_t count, double (*matrices)[16]);
+
 /// How many triangles alpi_gltf_primitive_triangles will give, and how many indices are left over.
 /// *drawable is false for points and lines.
 alp_result alpi_gltf_primitive_count(const alpi_gltf_document *document, json_t *primitive,

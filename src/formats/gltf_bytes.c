@@ -191,6 +191,15 @@ alp_result alpi_gltf_view_read(const alpi_gltf_document *document, size_t index,
     ALP_TRY(alpi_gltf_size_or(document, object, "byteOffset", owner, 0, &offset));
     ALP_TRY(alpi_gltf_size(document, object, "byteLength", owner, &length));
     ALP_TRY(alpi_gltf_size_or(document, object, "byteStride", owner, 0, &view->stride));
+    if (index < document->decoded_view_count && document->decoded_views[index] != NULL) {
+        view->bytes = document->decoded_views[index];
+        view->size = length; // what it decodes to, checked then
+        return ALP_OK;
+    }
+    if (document->buffers[buffer].bytes == NULL) {
+        return alpi_gltf_fail(document, owner,
+                              "lies in buffer %zu, which is a fallback for other readers", buffer);
+    }
     size_t available = document->buffers[buffer].size;
     if (offset > available || length > available - offset) {
         return alpi_gltf_fail(document, owner,

@@ -133,6 +133,22 @@ static alp_result embed_image(alpi_gltf_patcher *p, size_t index)
     return ALP_OK;
 }
 
+/// Fallbacks for readers that do not decompress hold no bytes of ours: they stay buffers of their
+/// own, behind the one that holds all others.
+static bool is_fallback(const alpi_gltf_document *document, size_t buffer)
+{
+    return document->buffers[buffer].bytes == NULL;
+}
+
+static size_t count_fallbacks(const alpi_gltf_document *document, size_t end)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < end; i++) {
+        count += is_fallback(document, i);
+    }
+    return count;
+}
+
 /// Moves a view (or what an extension says of its compressed form) to where its buffer went.
 static alp_result move_view(alpi_gltf_patcher *p, json_t *view, alpi_json_span span,
                             const size_t *bases)
@@ -140,7 +156,9 @@ static alp_result move_view(alpi_gltf_patcher *p, json_t *view, alpi_json_span s
     size_t buffer, offset;
     ALP_TRY(alpi_gltf_index(p->document, view, "buffer", "buffers", "bufferViews", &buffer));
     ALP_TRY(alpi_gltf_size_or(p->document, view, "byteOffset", "bufferViews", 0, &offset));
-    if (buffer != ALPI_GLTF_NONE && buffer != 0) {
+    if (buffer != ALPI_GLTF_NONE && is_fallback(p->document, buffer)) {
+        alpi_edits_set_index(&p->edits, span, "buffer", 1 + count_fallbacks(p->document, buffer));
+    } else if (buffer != ALPI_GLTF_NONE && buffer != 0) {
         alpi_edits_set_index(&p->edits, span, "buffer", 0);
         alpi_edits_set_index(&p->edits, span, "byteOffset", offset + bases[buffer]);
     }
@@ -167,19 +185,37 @@ static alp_result move_views(alpi_gltf_patcher *p, const size_t *bases)
     return ALP_OK;
 }
 
-/// The one buffer that is left. A lone buffer keeps its name and extras.
+/// The text of the buffers that are left.
+static void print_buffers(alpi_gltf_patcher *p, size_t size, alpi_bytes *text)
+{
+    alpi_bytes_print(text, "[{\"byteLength\":%zu}", size);
+    for (size_t i = 0; i < p->document->buffer_count; i++) {
+        if (is_fallback(p->document, i)) {
+            alpi_json_span span = p->lists[ALPI_GLTF_BUFFERS].spans[i];
+            alpi_bytes_print(text, ",");
+            alpi_bytes_add(text, p->document->text + span.begin, span.end - span.begin);
+        }
+    }
+    alpi_bytes_print(text, "]");
+}
+
+/// The one buffer that is left, with fallbacks. A lone buffer keeps its name and extras.
 static alp_result replace_buffers(alpi_gltf_patcher *p, size_t size)
 {
     const char *text = p->document->text;
     alpi_json_span array;
     char fresh[64];
     int length = snprintf(fresh, sizeof fresh, "{\"byteLength\":%zu}", size);
-    if (p->document->buffer_count == 1) {
+    if (p->document->buffer_count == 1 && !is_fallback(p->document, 0)) {
         alpi_json_span buffer = p->lists[ALPI_GLTF_BUFFERS].spans[0];
         alpi_edits_set_index(&p->edits, buffer, "byteLength", size);
         alpi_edits_remove(&p->edits, buffer, "uri");
-    } else if (p->document->buffer_count > 1 && alpi_json_find(text, p->root, "buffers", &array)) {
-        alpi_edits_replace(&p->edits, array, "[%s]", fresh);
+    } else if (p->document->buffer_count > 0 && alpi_json_find(text, p->root, "buffers", &array)) {
+        alpi_bytes buffers = alpi_bytes_create(p->context);
+        print_buffers(p, size, &buffers);
+        p->data.failed |= buffers.failed;
+        alpi_edits_set(&p->edits, p->root, "buffers", buffers.bytes, buffers.size);
+        alpi_bytes_destroy(&buffers);
     } else if (size > 0) {
         alpi_patcher_append(p, ALPI_GLTF_BUFFERS, fresh, (size_t)length);
     }

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/gltf_bytes.h"
+#include "formats/gltf_compression.h"
 #include "formats/gltf_tree.h"
 
 #include <inttypes.h>
@@ -161,7 +162,7 @@ static alp_result check_arrays(const alpi_gltf_document *document)
 {
     static const char *const kinds[] = {"accessors", "bufferViews", "buffers", "cameras",
                                         "images",    "materials",   "meshes",  "nodes",
-                                        "samplers",  "scenes",      "textures"};
+                                        "samplers",  "scenes",      "skins",   "textures"};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         json_t *array = json_object_get(document->root, kinds[k]);
         if (array != NULL && !json_is_array(array)) {
@@ -198,6 +199,9 @@ static alp_result check_version(const alpi_gltf_document *document)
 static bool extension_is_known(const char *name)
 {
     static const char *const known[] = {
+        "EXT_mesh_gpu_instancing",
+        "EXT_meshopt_compression",
+        "EXT_texture_webp",
         "KHR_lights_punctual",
         "KHR_materials_anisotropy",
         "KHR_materials_clearcoat",
@@ -219,7 +223,23 @@ static bool extension_is_known(const char *name)
             return true;
         }
     }
-    return false;
+    return strcmp(name, "KHR_draco_mesh_compression") == 0 && alpi_draco_is_built();
+}
+
+/// What to do about an extension that is not read.
+static const char *way_out(const char *name)
+{
+    static const char *const ways[][2] = {
+        {"KHR_draco_mesh_compression", "build with libdraco, or export without compression"},
+        {"KHR_meshopt_compression", "compress by EXT_meshopt_compression, or not at all"},
+        {"KHR_texture_basisu", "convert its textures to PNG, JPEG or WebP"},
+    };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        if (strcmp(name, ways[i][0]) == 0) {
+            return ways[i][1];
+        }
+    }
+    return "export without it";
 }
 
 static alp_result check_extensions(const alpi_gltf_document *document)
@@ -239,15 +259,21 @@ static alp_result check_extensions(const alpi_gltf_document *document)
             snprintf(shown, sizeof shown, "%s", name);
             alpi_gltf_clean(shown);
             return alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: requires the extension %s, which this build does not read; "
-                             "export without it",
-                             document->path, shown);
+                             "%s: requires the extension %s, which this build does not read; %s",
+                             document->path, shown, way_out(name));
         }
     }
     return ALP_OK;
 }
 
 // --- buffers ------------------------------------------------------------------------------------
+
+/// Whether a buffer stands for what readers without a decoder need: we have one.
+static bool is_fallback(json_t *buffer)
+{
+    return json_is_true(
+        json_object_get(alpi_gltf_extension(buffer, "EXT_meshopt_compression"), "fallback"));
+}
 
 static alp_result read_buffer(alpi_gltf_document *document, size_t index)
 {
@@ -260,6 +286,9 @@ static alp_result read_buffer(alpi_gltf_document *document, size_t index)
     json_t *uri = json_object_get(object, "uri");
     if (uri != NULL && !json_is_string(uri)) {
         return alpi_gltf_fail(document, owner, "uri must be a string");
+    }
+    if (is_fallback(object)) {
+        return ALP_OK;
     }
     if (uri != NULL) {
         ALP_TRY(alpi_gltf_uri_read(document, json_string_value(uri), owner, &buffer->owned,
@@ -317,7 +346,9 @@ static alp_result fill_document(alpi_gltf_document *document, const char *path)
     ALP_TRY(check_version(document));
     ALP_TRY(check_extensions(document));
     ALP_TRY(check_arrays(document));
-    return read_buffers(document);
+    ALP_TRY(read_buffers(document));
+    ALP_TRY(alpi_gltf_decode_views(document));
+    return alpi_gltf_decode_primitives(document);
 }
 
 alp_result alpi_gltf_document_parse(alp_context *context, const char *path, uint8_t *bytes,
@@ -360,7 +391,15 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
     for (size_t i = 0; i < document->buffer_count; i++) {
         alpi_release(context, document->buffers[i].owned);
     }
+    for (size_t i = 0; i < document->decoded_view_count; i++) {
+        alpi_release(context, document->decoded_views[i]);
+    }
+    for (size_t i = 0; i < document->decoded_count; i++) {
+        alpi_release(context, document->decoded[i].values.bytes);
+    }
     json_decref(document->root);
+    alpi_release(context, document->decoded_views);
+    alpi_release(context, document->decoded);
     alpi_release(context, document->buffers);
     alpi_release(context, document->file_bytes);
     alpi_release(context, document->folder);

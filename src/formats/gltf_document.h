@@ -9,8 +9,8 @@
 #include <jansson.h>
 
 typedef struct alpi_gltf_buffer {
-    const uint8_t *bytes; // NULL where nothing needed it
-    size_t size;          // ≥ the buffer's byteLength
+    const uint8_t *bytes; // NULL: a fallback for readers that do not decompress, never read
+    size_t size;          // ≥ the buffer's byteLength; 0 of a fallback
     uint8_t *owned;       // released with the document, or NULL (inside file_bytes)
 } alpi_gltf_buffer;
 
@@ -30,6 +30,10 @@ typedef struct alpi_gltf_document {
     json_t *root; // an object
     alpi_gltf_buffer *buffers;
     size_t buffer_count;
+    uint8_t **decoded_views;           // [bufferViews] what compressed ones hold, NULL = plain
+    struct alpi_gltf_decoded *decoded; // [accessors] of compressed primitives; NULL = none
+    size_t decoded_view_count, decoded_count; // as many as there are, once anything is decoded
+    uint64_t decoded_size;                    // bytes of all of them
 } alpi_gltf_document;
 
 /// Reads and checks the container and the JSON, then every buffer. Sizes are checked before memory
@@ -69,6 +73,13 @@ typedef struct alpi_gltf_values {
     bool normalized;
     uint8_t *bytes; // released by the caller (alpi_release)
 } alpi_gltf_values;
+
+/// An accessor whose values came out of a compressed primitive.
+typedef struct alpi_gltf_decoded {
+    alpi_gltf_values values; // bytes NULL: it did not
+    size_t view;             // where they were
+    size_t attribute;        // Draco's number of it, ALPI_GLTF_NONE = indices
+} alpi_gltf_decoded;
 
 /// @return ALP_OK; INVALID_DATA (index, view, buffer, offsets, counts: named); OUT_OF_MEMORY
 alp_result alpi_gltf_accessor_read(const alpi_gltf_document *document, size_t accessor,

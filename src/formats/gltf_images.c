@@ -113,6 +113,10 @@ static alpi_image_encoding find_encoding(const alpi_gltf_view *view)
     if (view->size > 3 && memcmp(view->bytes, "\xff\xd8\xff", 3) == 0) {
         return ALPI_IMAGE_ENCODING_JPEG;
     }
+    if (view->size > 12 && memcmp(view->bytes, "RIFF", 4) == 0 &&
+        memcmp(view->bytes + 8, "WEBP", 4) == 0) {
+        return ALPI_IMAGE_ENCODING_WEBP;
+    }
     return ALPI_IMAGE_ENCODING_OTHER;
 }
 

@@ -42,6 +42,26 @@ static alp_result read_transform(const source *from, json_t *info, alpi_texture 
     return alpi_gltf_size_or(document, transform, "texCoord", from->owner, *uv_set, uv_set);
 }
 
+/// The image of a texture: of EXT_texture_webp first, which is what the file was made to show.
+static alp_result find_image(const source *from, json_t *texture, const char *owner, size_t *image)
+{
+    const alpi_gltf_document *document = from->reader->document;
+    json_t *webp = alpi_gltf_extension(texture, "EXT_texture_webp");
+    ALP_TRY(alpi_gltf_index(document, webp, "source", "images", owner, image));
+    if (*image == ALPI_GLTF_NONE) {
+        ALP_TRY(alpi_gltf_index(document, texture, "source", "images", owner, image));
+    }
+    if (*image == ALPI_GLTF_NONE) {
+        alpi_warn(from->reader->context, "image", owner,
+                  "has no PNG, JPEG or WebP image%s; the factor of %s is used alone",
+                  alpi_gltf_extension(texture, "KHR_texture_basisu") != NULL
+                      ? " but one of KHR_texture_basisu, which is not read"
+                      : "",
+                  from->owner);
+    }
+    return ALP_OK;
+}
+
 /// The textureInfo `member` of an object; no texture when absent or not readable (with a warning).
 static alp_result read_texture(const source *from, json_t *object, const char *member,
                                alpi_texture *texture)
@@ -62,11 +82,9 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
     json_t *entry = alpi_gltf_item(document, "textures", index);
     char owner[ALPI_GLTF_OWNER_SIZE];
     snprintf(owner, sizeof owner, "texture %zu", index);
-    ALP_TRY(alpi_gltf_index(document, entry, "source", "images", owner, &image));
     ALP_TRY(alpi_gltf_index(document, entry, "sampler", "samplers", owner, &sampler));
+    ALP_TRY(find_image(from, entry, owner, &image));
     if (image == ALPI_GLTF_NONE) {
-        alpi_warn(from->reader->context, "image", owner,
-                  "has no PNG or JPEG image; the factor of %s is used alone", from->owner);
         return ALP_OK;
     }
     if (uv_set >= ALPI_UV_SET_LIMIT) {

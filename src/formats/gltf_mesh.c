@@ -5,18 +5,20 @@
 
 #include "base/memory.h"
 #include "formats/gltf_accessor.h"
+#include "formats/gltf_pose.h"
 #include "formats/gltf_tree.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/// Nodes may share meshes and so may multiply a small file: what they may add up to.
-enum { EXPANSION_LIMIT = 1 << 28, SURFACE_LIMIT = 1 << 22 };
+/// What nodes that share meshes may add up to, with ALPI_GLTF_SURFACE_LIMIT.
+enum { EXPANSION_LIMIT = 1 << 28 };
 
 /// What a surface is made from. Accessor ALPI_GLTF_NONE = absent.
 typedef struct part {
     json_t *primitive;
     uint32_t node, source_count; // vertices of the primitive
+    size_t placement;            // of an instance, ALPI_GLTF_NONE = the node's
     size_t position, normal, uvs[ALPI_UV_SET_LIMIT], color;
 } part;
 
@@ -24,6 +26,8 @@ typedef struct plan {
     alpi_gltf_reader *reader;
     part *parts; // one per surface
     size_t part_capacity, surface_capacity;
+    mat4 *placements; // of instances, in the world
+    size_t placement_count, placement_capacity;
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SET_LIMIT], has_colors;
     // for one note a file each
@@ -95,11 +99,11 @@ static alp_result check_limits(const plan *p)
 {
     uint64_t largest = p->vertices > p->triangles ? p->vertices : p->triangles;
     largest = largest > p->sources ? largest : p->sources;
-    if (largest > EXPANSION_LIMIT || p->visits > SURFACE_LIMIT) {
+    if (largest > EXPANSION_LIMIT || p->visits > ALPI_GLTF_SURFACE_LIMIT) {
         return alpi_fail(p->reader->context, ALP_ERROR_LIMIT,
                          "%s: the nodes place more than %d vertices or triangles, or more than %d "
                          "primitives; split the scene",
-                         p->reader->document->path, EXPANSION_LIMIT, SURFACE_LIMIT);
+                         p->reader->document->path, EXPANSION_LIMIT, ALPI_GLTF_SURFACE_LIMIT);
     }
     return ALP_OK;
 }
@@ -155,11 +159,11 @@ static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
     return ALP_OK;
 }
 
-static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surface)
+static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surface, size_t placement)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
     snprintf(owner, sizeof owner, "mesh %u, primitive %u", surface.mesh, surface.primitive);
-    part from = {.primitive = primitive, .node = surface.node};
+    part from = {.primitive = primitive, .node = surface.node, .placement = placement};
     if (!json_is_object(primitive)) {
         return alpi_gltf_fail(p->reader->document, owner, "must be an object");
     }
@@ -190,6 +194,49 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     return add_surface(p, &from, &surface);
 }
 
+/// The primitives of one placement of a node's mesh.
+static alp_result plan_mesh(plan *p, json_t *primitives, alpi_surface surface, size_t placement)
+{
+    for (size_t i = 0; i < json_array_size(primitives); i++) {
+        surface.primitive = (uint32_t)i;
+        ALP_TRY(plan_primitive(p, json_array_get(primitives, i), surface, placement));
+    }
+    return ALP_OK;
+}
+
+static alp_result plan_instances(plan *p, json_t *primitives, alpi_surface surface,
+                                 const alpi_gltf_instance *instances, uint32_t count)
+{
+    p->instanced++;
+    for (uint32_t i = 0; i < count; i++) {
+        void *items = p->placements;
+        alp_result result = alpi_grow(p->reader->context, &items, &p->placement_capacity,
+                                      p->placement_count + 1, sizeof(mat4));
+        p->placements = items;
+        ALP_TRY(result);
+        mat4 local =
+            alpi_gltf_compose(instances[i].translation, instances[i].rotation, instances[i].scale);
+        mat4 *world = &p->placements[p->placement_count++];
+        *world = mat4_multiply(&p->reader->world[surface.node], &local);
+        surface.instance = i;
+        surface.mirrored = mat4_determinant3(world) < 0.0;
+        ALP_TRY(plan_mesh(p, primitives, surface, p->placement_count - 1));
+    }
+    return ALP_OK;
+}
+
+/// Whether a skin mirrors, by its first joint: the parts of a figure do not differ in that.
+static alp_result find_mirrored(plan *p, alpi_surface *surface)
+{
+    alpi_gltf_pose pose;
+    ALP_TRY(alpi_gltf_pose_create(p->reader, surface->node, true, &pose));
+    if (pose.joints != NULL) {
+        surface->mirrored = mat4_determinant3(&pose.joints[0]) < 0.0;
+    }
+    alpi_gltf_pose_destroy(p->reader, &pose);
+    return ALP_OK;
+}
+
 static alp_result plan_node(plan *p, uint32_t node)
 {
     const alpi_gltf_document *document = p->reader->document;
@@ -201,8 +248,6 @@ static alp_result plan_node(plan *p, uint32_t node)
     if (mesh == ALPI_GLTF_NONE) {
         return ALP_OK;
     }
-    p->skinned += json_object_get(object, "skin") != NULL;
-    p->instanced += alpi_gltf_extension(object, "EXT_mesh_gpu_instancing") != NULL;
     json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
     if (!json_is_array(primitives)) {
         snprintf(owner, sizeof owner, "mesh %zu", mesh);
@@ -210,11 +255,18 @@ static alp_result plan_node(plan *p, uint32_t node)
     }
     alpi_surface surface = {.node = node, .mesh = (uint32_t)mesh};
     surface.mirrored = mat4_determinant3(&p->reader->world[node]) < 0.0;
-    for (size_t i = 0; i < json_array_size(primitives); i++) {
-        surface.primitive = (uint32_t)i;
-        ALP_TRY(plan_primitive(p, json_array_get(primitives, i), surface));
+    if (json_object_get(object, "skin") != NULL) {
+        p->skinned++;
+        ALP_TRY(find_mirrored(p, &surface));
     }
-    return ALP_OK;
+    alpi_gltf_instance *instances = NULL;
+    uint32_t count = 0;
+    ALP_TRY(alpi_gltf_read_instances(document, node, &instances, &count));
+    alp_result result = instances == NULL
+                            ? plan_mesh(p, primitives, surface, ALPI_GLTF_NONE)
+                            : plan_instances(p, primitives, surface, instances, count);
+    alpi_release(p->reader->context, instances);
+    return result;
 }
 
 // --- filling ------------------------------------------------------------------------------------
@@ -283,11 +335,49 @@ static vec3 value_vec3(const alpi_gltf_values *values, uint32_t element)
                   alpi_gltf_values_float(values, element, 2)};
 }
 
+static const mat4 *world_of(const plan *p, const part *from)
+{
+    return from->placement == ALPI_GLTF_NONE ? &p->reader->world[from->node]
+                                             : &p->placements[from->placement];
+}
+
+/// Positions or normals that a skin or morph targets move. *done is false where nothing does.
+static alp_result fill_posed(const plan *p, const part *from, const alpi_surface *surface,
+                             bool normals, bool *done)
+{
+    alp_scene *scene = p->reader->scene;
+    alpi_gltf_pose pose;
+    ALP_TRY(alpi_gltf_pose_create(p->reader, from->node, false, &pose));
+    *done = pose.joints != NULL || pose.weights != NULL;
+    if (!*done) {
+        return ALP_OK;
+    }
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "mesh %u, primitive %u", surface->mesh, surface->primitive);
+    float(*vertices)[3] = NULL, (*places)[3] = normals ? scene->normals : scene->positions;
+    const alpi_gltf_posed posed = {
+        from->primitive,   owner,   from->source_count,
+        world_of(p, from), normals, normals ? from->normal : from->position};
+    alp_result result = alpi_gltf_pose_vertices(p->reader, &pose, &posed, &vertices);
+    for (uint32_t i = 0; result == ALP_OK && i < surface->vertex_count; i++) {
+        uint32_t v = surface->first_vertex + i;
+        memcpy(places[v], vertices[scene->vertex_source[v]], sizeof places[v]);
+    }
+    alpi_release(p->reader->context, vertices);
+    alpi_gltf_pose_destroy(p->reader, &pose);
+    return result;
+}
+
 static alp_result fill_positions(const plan *p, const part *from, const alpi_surface *surface)
 {
     alp_scene *scene = p->reader->scene;
-    const mat4 *world = &p->reader->world[from->node];
+    const mat4 *world = world_of(p, from);
     alpi_gltf_values values;
+    bool done;
+    ALP_TRY(fill_posed(p, from, surface, false, &done));
+    if (done) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_gltf_accessor_read(p->reader->document, from->position, &values));
     for (uint32_t i = 0; i < surface->vertex_count; i++) {
         uint32_t v = surface->first_vertex + i;
@@ -320,8 +410,13 @@ static alp_result fill_normals(const plan *p, const part *from, const alpi_surfa
         return ALP_OK;
     }
     alp_scene *scene = p->reader->scene;
-    const mat4 *world = &p->reader->world[from->node];
+    const mat4 *world = world_of(p, from);
     alpi_gltf_values values;
+    bool done;
+    ALP_TRY(fill_posed(p, from, surface, true, &done));
+    if (done) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_gltf_accessor_read(p->reader->document, from->normal, &values));
     for (uint32_t i = 0; i < surface->vertex_count; i++) {
         uint32_t v = surface->first_vertex + i;
@@ -410,17 +505,18 @@ static void tell_oddities(const plan *p)
     }
     if (p->skinned > 0) {
         alpi_note(context, "skin", path,
-                  "%u skinned nodes are taken as their mesh stands at the node, without the skin",
+                  "%u skinned nodes are taken as their joints stand when nothing is played",
                   p->skinned);
     }
     if (p->morphed > 0) {
-        alpi_note(context, "morph", path, "primitives taken without their morph targets: %u",
+        alpi_note(context, "morph", path,
+                  "primitives with morph targets, taken with their default weights: %u",
                   p->morphed);
     }
     if (p->instanced > 0) {
-        alpi_warn(context, "instancing", path,
-                  "%u nodes use EXT_mesh_gpu_instancing: their mesh is taken once, at the node",
-                  p->instanced);
+        alpi_note(context, "instancing", path,
+                  "%u nodes show their mesh in instances (EXT_mesh_gpu_instancing), %zu in all",
+                  p->instanced, p->placement_count);
     }
 }
 
@@ -464,5 +560,6 @@ alp_result alpi_gltf_read_meshes(alpi_gltf_reader *reader)
     plan p = {.reader = reader};
     alp_result result = read_surfaces(&p);
     alpi_release(reader->context, p.parts);
+    alpi_release(reader->context, p.placements);
     return result;
 }

@@ -8,6 +8,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void name_node(char owner[ALPI_GLTF_OWNER_SIZE], size_t node)
 {
@@ -92,8 +94,7 @@ static alp_result find_cycles(const alpi_gltf_reader *reader, const uint32_t *pa
 
 // --- transforms ---------------------------------------------------------------------------------
 
-/// Translation · rotation (unit quaternion x y z w) · scale.
-static mat4 compose(const double t[3], const double q[4], const double s[3])
+mat4 alpi_gltf_compose(const double t[3], const double q[4], const double s[3])
 {
     double x = q[0], y = q[1], z = q[2], w = q[3];
     return (mat4){{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + w * z),
@@ -130,7 +131,7 @@ static alp_result read_transform(const alpi_gltf_reader *reader, uint32_t node, 
     for (int k = 0; k < 4; k++) {
         q[k] /= length;
     }
-    *local = compose(t, q, s);
+    *local = alpi_gltf_compose(t, q, s);
     return ALP_OK;
 }
 
@@ -142,14 +143,69 @@ typedef struct node_stack {
     uint32_t count;
 } node_stack;
 
-/// Pushes the roots of the default scene, the last one first. All roots where there is no scene.
+/// Says which scenes there are to choose from.
+static alp_result refuse_choice(const alpi_gltf_reader *reader, size_t count)
+{
+    enum { TOLD = 8 };
+    const alpi_gltf_document *document = reader->document;
+    char list[400] = "", choice[100];
+    size_t used = 0;
+    for (size_t i = 0; i < count && i < TOLD && used < sizeof list; i++) {
+        const char *name = alpi_gltf_text(alpi_gltf_item(document, "scenes", i), "name");
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%zu%s%.30s%s",
+                                 i > 0 ? ", " : "", i, name != NULL ? " \"" : "",
+                                 name != NULL ? name : "", name != NULL ? "\"" : "");
+    }
+    snprintf(choice, sizeof choice, "%s", reader->choice);
+    alpi_gltf_clean(choice);
+    alpi_gltf_clean(list);
+    return alpi_fail(reader->context, ALP_ERROR_INVALID_ARGUMENT,
+                     "%s: has no scene \"%s\"; it has %s%s", document->path, choice,
+                     count == 0 ? "none" : list, count > TOLD ? " and more" : "");
+}
+
+/// The scene that was asked for, else the default one, else the first.
+static alp_result choose_scene(const alpi_gltf_reader *reader, size_t *scene)
+{
+    const alpi_gltf_document *document = reader->document;
+    const size_t count = alpi_gltf_count(document, "scenes");
+    ALP_TRY(alpi_gltf_index(document, document->root, "scene", "scenes", "scene", scene));
+    *scene = *scene == ALPI_GLTF_NONE ? 0 : *scene;
+    if (reader->choice == NULL) {
+        if (count > 1) {
+            const char *name = alpi_gltf_text(alpi_gltf_item(document, "scenes", *scene), "name");
+            char shown[60];
+            snprintf(shown, sizeof shown, "%s", name != NULL ? name : "");
+            alpi_gltf_clean(shown);
+            alpi_note(reader->context, "scenes", document->path,
+                      "of its %zu scenes number %zu%s%s%s is taken, which viewers show first",
+                      count, *scene, name != NULL ? " (" : "", shown, name != NULL ? ")" : "");
+        }
+        return ALP_OK;
+    }
+    char *end;
+    const unsigned long long number = strtoull(reader->choice, &end, 10);
+    if (reader->choice[0] >= '0' && reader->choice[0] <= '9' && *end == '\0' && number < count) {
+        *scene = (size_t)number;
+        return ALP_OK;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const char *name = alpi_gltf_text(alpi_gltf_item(document, "scenes", i), "name");
+        if (name != NULL && strcmp(name, reader->choice) == 0) {
+            *scene = i;
+            return ALP_OK;
+        }
+    }
+    return refuse_choice(reader, count);
+}
+
+/// Pushes the roots of the chosen scene, the last one first. All roots where there is no scene.
 static alp_result push_roots(const alpi_gltf_reader *reader, const uint32_t *parent, bool *seen,
                              node_stack *stack)
 {
     const alpi_gltf_document *document = reader->document;
     size_t scene;
-    ALP_TRY(alpi_gltf_index(document, document->root, "scene", "scenes", "scene", &scene));
-    scene = scene == ALPI_GLTF_NONE ? 0 : scene;
+    ALP_TRY(choose_scene(reader, &scene));
     if (alpi_gltf_count(document, "scenes") == 0) {
         for (uint32_t i = reader->node_count; i-- > 0;) {
             if (parent[i] == ALPI_NONE) {
@@ -190,6 +246,7 @@ static alp_result walk(alpi_gltf_reader *reader, const uint32_t *parent, node_st
         reader->world[node] =
             parent[node] == ALPI_NONE ? local : mat4_multiply(&reader->world[parent[node]], &local);
         reader->order[reader->order_count++] = node;
+        reader->placed[node] = true;
         json_t *children;
         ALP_TRY(read_children(reader, node, &children));
         for (size_t k = json_array_size(children); k-- > 0;) {
@@ -216,6 +273,7 @@ static alp_result read_trees(alpi_gltf_reader *reader, work *w)
     ALPI_TRY_NEW(reader->context, w->stack.nodes, count);
     ALPI_TRY_NEW(reader->context, reader->world, count);
     ALPI_TRY_NEW(reader->context, reader->order, count);
+    ALPI_TRY_NEW(reader->context, reader->placed, count);
     ALP_TRY(find_parents(reader, w->parent));
     ALP_TRY(find_cycles(reader, w->parent, w->marks));
     ALP_TRY(push_roots(reader, w->parent, w->seen, &w->stack));

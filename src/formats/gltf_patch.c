@@ -110,6 +110,9 @@ void alpi_patcher_destroy(alpi_gltf_patcher *p)
     alpi_release(p->context, p->plans);
     alpi_release(p->context, p->showings);
     alpi_release(p->context, p->pieces);
+    alpi_release(p->context, p->instance_counts);
+    alpi_release(p->context, p->instance_firsts);
+    alpi_release(p->context, p->instances);
     alpi_release(p->context, p->page_textures);
     alpi_release(p->context, p->light_textures);
     alpi_release(p->context, p->packed_images);
@@ -345,14 +348,16 @@ static void state_origin(alpi_gltf_patcher *p)
 
 alp_result alpi_patcher_run(alpi_gltf_patcher *patcher)
 {
+    ALP_TRY(alpi_patcher_find_instances(patcher));
     ALP_TRY(alpi_patcher_plan(patcher));
     if (patcher->patch->vertex_values == NULL) {
         ALP_TRY(alpi_patcher_materials(patcher));
-        alpi_patcher_state_extension(patcher);
     } else {
         alpi_patcher_warn_of_former(patcher);
     }
     ALP_TRY(alpi_patcher_meshes(patcher));
+    ALP_TRY(alpi_patcher_expand_instances(patcher));
+    alpi_patcher_state_extensions(patcher);
     state_origin(patcher);
     return patcher->data.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }

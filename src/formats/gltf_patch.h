@@ -9,6 +9,8 @@
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
 //   gltf_patch_vertex.c    values at vertices as an attribute
+//   gltf_patch_instances.c nodes that show their mesh in instances
+//   gltf_patch_extensions.c what is used and required
 //   gltf_container.c       where binary data lives: BIN chunk, files, data URIs
 //   gltf_write.c           file names, files
 #ifndef ALPI_FORMATS_GLTF_PATCH_H
@@ -64,10 +66,16 @@ typedef struct alpi_gltf_plan {
     size_t showing_first, showing_end; // of the first plan of a user: its nodes
 } alpi_gltf_plan;
 
-/// A node that shows the mesh of a user.
+/// A node that shows the mesh of a user. Instances count as nodes, behind those of the document.
 typedef struct alpi_gltf_showing {
     size_t user, node;
 } alpi_gltf_showing;
+
+/// An instance of a node's mesh.
+typedef struct alpi_gltf_shown {
+    size_t node; // of the document
+    size_t mesh; // that it comes to show
+} alpi_gltf_shown;
 
 // --- the patcher ---------------------------------------------------------------------------------
 
@@ -97,6 +105,11 @@ typedef struct alpi_gltf_patcher {
     size_t showing_count;
     alpi_gltf_piece *pieces;
     size_t piece_count, piece_capacity;
+    size_t *instance_counts, *instance_firsts; // [nodes of the document] count 0: a plain node
+    alpi_gltf_shown *instances;
+    size_t expanded_count; // nodes whose instances became nodes
+    size_t plain_count;    // primitives that were compressed and are no more
+    size_t undraco_count;  // primitives of the document that lost Draco's extension
 
     // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
     size_t *page_textures;   // [page_count]
@@ -164,8 +177,9 @@ void alpi_patcher_light_material(alpi_gltf_patcher *patcher, const alpi_gltf_lig
 /// the primitive had no material; left out where the new one does not look like that any more
 void alpi_patcher_print_light(alpi_gltf_patcher *patcher, const alpi_gltf_light_use *use,
                               const char *mark, alpi_bytes *text);
-/// Adds the extension that was used to extensionsUsed, after all materials.
-void alpi_patcher_state_extension(alpi_gltf_patcher *patcher);
+/// Adds the extension that materials use to extensionsUsed and takes out what nothing uses any
+/// more; after all else.
+void alpi_patcher_state_extensions(alpi_gltf_patcher *patcher);
 /// Whether light goes to a surface's material: not to one that light shines through.
 bool alpi_patcher_is_lit(const alpi_gltf_patcher *patcher, const alpi_surface *surface);
 
@@ -176,6 +190,17 @@ alp_result alpi_patcher_pack_material(alpi_gltf_patcher *patcher, size_t materia
                                       alpi_edits *edits);
 /// Edits the meshes of the plan and the nodes that use copies.
 alp_result alpi_patcher_meshes(alpi_gltf_patcher *patcher);
+
+/// Counts the instances of the scene's nodes; before the plan.
+alp_result alpi_patcher_find_instances(alpi_gltf_patcher *patcher);
+/// The node that shows a surface: of the document, or an instance.
+size_t alpi_patcher_node_of(const alpi_gltf_patcher *patcher, uint32_t surface);
+/// The node of the document that it is, or is an instance of.
+size_t alpi_patcher_file_node(const alpi_gltf_patcher *patcher, size_t node);
+/// Makes it show another mesh.
+void alpi_patcher_show(alpi_gltf_patcher *patcher, size_t node, size_t mesh);
+/// Makes nodes of instances that differ; after the meshes.
+alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 // --- values at vertices --------------------------------------------------------------------------
 
@@ -244,6 +269,8 @@ typedef struct alpi_gltf_files {
 /// Takes over path and owned, also on failure.
 alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file);
 void alpi_gltf_files_destroy(alpi_gltf_files *files);
+/// Writes them: nothing is renamed before the last byte of the last file is on its way to the disk.
+alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite);
 
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {

@@ -242,26 +242,3 @@ void alpi_patcher_print_light(alpi_gltf_patcher *p, const alpi_gltf_light_use *u
         break;
     }
 }
-
-// --- the document --------------------------------------------------------------------------------
-
-/// Never in extensionsRequired: some readers refuse the file then.
-void alpi_patcher_state_extension(alpi_gltf_patcher *p)
-{
-    alpi_json_span used;
-    if (p->extension == NULL) {
-        return;
-    }
-    json_t *names = json_object_get(p->document->root, "extensionsUsed");
-    for (size_t i = 0; i < json_array_size(names); i++) {
-        const char *name = json_string_value(json_array_get(names, i));
-        if (name != NULL && strcmp(name, p->extension) == 0) {
-            return;
-        }
-    }
-    char value[64];
-    const bool there = alpi_json_find(p->document->text, p->root, "extensionsUsed", &used);
-    const int length = snprintf(value, sizeof value, there ? "\"%s\"" : "[\"%s\"]", p->extension);
-    alpi_edits_add(&p->edits, there ? used : p->root, there ? NULL : "extensionsUsed", value,
-                   (size_t)length);
-}

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "formats/gltf_accessor.h"
 #include "formats/gltf_bytes.h"
+#include "formats/gltf_compression.h"
 #include "formats/gltf_tree.h"
 
 #include <math.h>
@@ -32,6 +33,9 @@ typedef struct rewrite {
     uint32_t triangle_count;
     float (*corner_uvs)[3][2]; // in the file's order
     alpi_gltf_split split;
+    bool parted;           // vertices were split
+    bool compressed;       // some of its accessors are, and none of them may stay so
+    bool has_draco;        // its extension, that is
     char added_name[32];   // of the attribute that is added
     size_t added_accessor; // ALPI_GLTF_NONE: kept coordinates
     attribute_edit *attribute_edits;
@@ -226,7 +230,9 @@ static alp_result split_attributes(alpi_gltf_patcher *p, rewrite *r, alpi_json_s
     while (alpi_json_next(&cursor)) {
         bool replaced = object.begin == r->attributes.begin &&
                         alpi_json_key_is(text, cursor.key, r->added_name);
-        if (!replaced) {
+        bool stays = !r->parted &&
+                     !alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
+        if (!replaced && !stays) {
             ALP_TRY(split_attribute(p, r, cursor.value,
                                     alpi_json_key_is(text, cursor.key, "POSITION")));
         }
@@ -301,6 +307,8 @@ static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
                                    .usable =
                                        p->scene->triangle_usable + r->surface->first_triangle};
     ALP_TRY(alpi_gltf_split_create(p->context, &input, &r->split));
+    r->parted = r->split.changed;
+    r->split.changed |= r->compressed;
     if (r->split.changed) {
         ALP_TRY(split_attributes(p, r, r->attributes));
         ALP_TRY(split_targets(p, r));
@@ -308,12 +316,25 @@ static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
     return at_vertices ? add_values(p, r) : add_coordinates(p, r);
 }
 
+/// Kept coordinates: the vertices stay what they are, and are written uncompressed.
+static alp_result write_plain(alpi_gltf_patcher *p, rewrite *r)
+{
+    ALPI_TRY_NEW(p->context, r->split.sources, r->vertex_count);
+    for (uint32_t v = 0; v < r->vertex_count; v++) {
+        r->split.sources[v] = v;
+    }
+    r->split.vertex_count = r->vertex_count;
+    r->split.changed = true;
+    ALP_TRY(split_attributes(p, r, r->attributes));
+    return split_targets(p, r);
+}
+
 /// The triangles of one page, as a new index accessor. The largest index of a type is no vertex:
 /// it restarts primitives.
 static alp_result write_indices(alpi_gltf_patcher *p, const rewrite *r, uint32_t page,
                                 size_t *accessor)
 {
-    uint32_t(*indices)[3] = r->split.changed ? r->split.indices : r->indices;
+    uint32_t(*indices)[3] = r->split.indices != NULL ? r->split.indices : r->indices;
     uint32_t vertex_count = r->split.changed ? r->split.vertex_count : r->vertex_count;
     bool is_short = vertex_count <= 65535;
     alpi_bytes bytes = alpi_bytes_create(p->context);
@@ -340,23 +361,49 @@ static alp_result write_indices(alpi_gltf_patcher *p, const rewrite *r, uint32_t
 
 // --- the text of a primitive ---------------------------------------------------------------------
 
-/// Compressed copies of attributes that change are taken out: their order of vertices is another.
-static void drop_compression(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r)
+/// Draco's version of a primitive that changes is taken out: its order of vertices is another.
+static void drop_draco(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r)
 {
-    static const char name[] = "KHR_draco_mesh_compression";
-    json_t *extensions = json_object_get(r->primitive, "extensions");
     alpi_json_span span;
-    if (json_object_get(extensions, name) == NULL ||
-        !alpi_json_find(p->document->text, r->span, "extensions", &span)) {
+    if (!r->has_draco || !alpi_json_find(p->document->text, r->span, "extensions", &span)) {
         return;
     }
-    if (json_object_size(extensions) == 1) {
+    if (json_object_size(json_object_get(r->primitive, "extensions")) == 1) {
         alpi_edits_remove(edits, r->span, "extensions");
     } else {
-        alpi_edits_remove(edits, span, name);
+        alpi_edits_remove(edits, span, ALPI_GLTF_DRACO);
     }
-    alpi_note(p->context, "compression", r->owner,
-              "its compressed copy is left out, because the plain one gained an attribute");
+}
+
+/// Whether a primitive is written without compression: it gains an attribute, or is split into
+/// pieces that Draco's one stream cannot stand for.
+static bool becomes_plain(const alpi_gltf_patcher *p, const rewrite *r)
+{
+    return p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL ||
+           (r->has_draco && r->plan->piece_count > 1);
+}
+
+/// Whether any accessor of a primitive is compressed.
+static bool any_compressed(const alpi_gltf_patcher *p, const rewrite *r)
+{
+    const char *text = p->document->text;
+    alpi_json_span span;
+    bool any = alpi_json_find(text, r->span, "indices", &span) &&
+               alpi_gltf_accessor_is_compressed(p->document, read_index(p, span));
+    alpi_json_cursor cursor = alpi_json_open(text, r->attributes);
+    while (alpi_json_next(&cursor)) {
+        any |= alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
+    }
+    if (alpi_json_find(text, r->span, "targets", &span)) {
+        alpi_json_cursor targets = alpi_json_open(text, span);
+        while (alpi_json_next(&targets)) {
+            cursor = alpi_json_open(text, targets.value);
+            while (alpi_json_next(&cursor)) {
+                any |= alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
+            }
+        }
+    }
+    return any;
 }
 
 static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
@@ -368,7 +415,9 @@ static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const 
     }
     if (r->added_accessor != ALPI_GLTF_NONE) {
         alpi_edits_set_index(edits, r->attributes, r->added_name, r->added_accessor);
-        drop_compression(p, edits, r);
+    }
+    if (becomes_plain(p, r)) {
+        drop_draco(p, edits, r);
     }
     if (r->split.changed || r->plan->piece_count > 1) {
         size_t accessor, mode;
@@ -429,6 +478,20 @@ static alp_result read_triangles(alpi_gltf_patcher *p, rewrite *r)
     return ALP_OK;
 }
 
+/// New coordinates or values, and no compression where it cannot stay.
+static alp_result change_vertices(alpi_gltf_patcher *p, rewrite *r, bool in_place)
+{
+    r->has_draco = alpi_gltf_extension(r->primitive, ALPI_GLTF_DRACO) != NULL;
+    const bool plain = becomes_plain(p, r);
+    r->compressed = plain && any_compressed(p, r);
+    p->plain_count += r->compressed;
+    p->undraco_count += plain && r->has_draco && in_place;
+    if (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL) {
+        return split_vertices(p, r);
+    }
+    return r->compressed ? write_plain(p, r) : ALP_OK;
+}
+
 static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                                     const alpi_gltf_plan *plan, alpi_json_span span,
                                     alpi_json_span primitives)
@@ -440,9 +503,8 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                  .added_accessor = ALPI_GLTF_NONE};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
     alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
-    if (result == ALP_OK && !plan->packed &&
-        (p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL)) {
-        result = split_vertices(p, &r);
+    if (result == ALP_OK && !plan->packed) {
+        result = change_vertices(p, &r, edits == &p->edits);
     }
     if (result == ALP_OK) {
         result = write_pieces(p, edits, &r, primitives);
@@ -484,8 +546,7 @@ static alp_result copy_mesh(alpi_gltf_patcher *p, size_t first, size_t end)
     if (result == ALP_OK) {
         size_t mesh = alpi_patcher_append(p, ALPI_GLTF_MESHES, text.bytes, text.size);
         for (size_t i = plan->showing_first; i < plan->showing_end; i++) {
-            alpi_json_span node = p->lists[ALPI_GLTF_NODES].spans[p->showings[i].node];
-            alpi_edits_set_index(&p->edits, node, "mesh", mesh);
+            alpi_patcher_show(p, p->showings[i].node, mesh);
         }
     }
     alpi_bytes_destroy(&text);
@@ -501,6 +562,12 @@ alp_result alpi_patcher_meshes(alpi_gltf_patcher *p)
         }
         ALP_TRY(p->plans[first].in_a_copy ? copy_mesh(p, first, end)
                                           : rewrite_mesh(p, &p->edits, first, end));
+    }
+    if (p->plain_count > 0) {
+        alpi_warn(p->context, "compression", p->document->path,
+                  "%zu compressed primitives are written uncompressed, because they gain an "
+                  "attribute or are split",
+                  p->plain_count);
     }
     return ALP_OK;
 }

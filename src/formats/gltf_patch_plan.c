@@ -95,14 +95,10 @@ static bool gets_occlusion(const alpi_gltf_patcher *p, size_t material)
     return (p->patch->page_pngs != NULL || p->patch->vertex_values != NULL) && !keeps;
 }
 
-static size_t node_of(const alpi_gltf_patcher *p, uint32_t surface)
-{
-    return p->exported ? surface : p->scene->surfaces[surface].node;
-}
-
 static alp_result find_mesh(const alpi_gltf_patcher *p, size_t node, size_t *mesh)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
+    node = alpi_patcher_file_node(p, node);
     snprintf(owner, sizeof owner, "node %zu", node);
     return alpi_gltf_needed_index(p->document, alpi_gltf_item(p->document, "nodes", node), "mesh",
                                   "meshes", owner, mesh);
@@ -113,9 +109,9 @@ static alp_result find_mesh(const alpi_gltf_patcher *p, size_t node, size_t *mes
 static alp_result find_user(const alpi_gltf_patcher *p, uint32_t index, alpi_gltf_plan *plan)
 {
     const uint32_t *originals = p->patch->originals;
-    plan->user = keeps_uvs(p) ? plan->mesh : node_of(p, index);
+    plan->user = keeps_uvs(p) ? plan->mesh : alpi_patcher_node_of(p, index);
     if (!keeps_uvs(p) && originals != NULL && originals[index] != index) {
-        size_t mesh, node = node_of(p, originals[index]);
+        size_t mesh, node = alpi_patcher_node_of(p, originals[index]);
         ALP_TRY(find_mesh(p, node, &mesh));
         plan->user = mesh == plan->mesh ? node : plan->user;
     }
@@ -133,7 +129,7 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
         return ALP_OK;
     }
     *plan = (alpi_gltf_plan){.surface = index, .primitive = p->exported ? 0 : surface->primitive};
-    ALP_TRY(find_mesh(p, node_of(p, index), &plan->mesh));
+    ALP_TRY(find_mesh(p, alpi_patcher_node_of(p, index), &plan->mesh));
     ALP_TRY(find_user(p, index, plan));
     json_t *primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive);
     snprintf(owner, sizeof owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
@@ -205,7 +201,8 @@ static alp_result list_showings(alpi_gltf_patcher *p)
 {
     ALPI_TRY_NEW(p->context, p->showings, p->plan_count);
     for (size_t i = 0; i < p->plan_count; i++) {
-        p->showings[i] = (alpi_gltf_showing){p->plans[i].user, node_of(p, p->plans[i].surface)};
+        p->showings[i] =
+            (alpi_gltf_showing){p->plans[i].user, alpi_patcher_node_of(p, p->plans[i].surface)};
     }
     if (p->plan_count > 0) {
         qsort(p->showings, p->plan_count, sizeof *p->showings, compare_showings);
@@ -231,7 +228,7 @@ static alp_result count_mesh_users(const alpi_gltf_patcher *p, size_t *users)
         ALP_TRY(alpi_gltf_index(p->document, alpi_gltf_item(p->document, "nodes", i), "mesh",
                                 "meshes", owner, &mesh));
         if (mesh != ALPI_GLTF_NONE) {
-            users[mesh]++;
+            users[mesh] += p->instance_counts[i] > 0 ? p->instance_counts[i] : 1;
         }
     }
     return ALP_OK;

@@ -22,6 +22,10 @@ static alp_result find_corners(const alpi_gltf_document *document, json_t *primi
     }
     ALP_TRY(alpi_gltf_index(document, primitive, "indices", "accessors", owner, &list->accessor));
     list->count = vertex_count;
+    if (list->accessor < document->decoded_count &&
+        document->decoded[list->accessor].values.bytes != NULL) {
+        list->mode = MODE_TRIANGLES; // strips too come out of Draco as triangles
+    }
     if (list->accessor == ALPI_GLTF_NONE) {
         return ALP_OK;
     }

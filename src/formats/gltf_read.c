@@ -46,10 +46,11 @@ static void destroy_document(alp_context *context, void *data)
     alpi_gltf_document_destroy(data);
 }
 
-alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene **scene)
+static alp_result read_document(alpi_gltf_document *document, const char *choice, alp_scene **scene)
 {
     *scene = NULL;
-    alpi_gltf_reader reader = {.context = document->context, .document = document};
+    alpi_gltf_reader reader = {
+        .context = document->context, .document = document, .choice = choice};
     alp_result result = alpi_scene_create(reader.context, document->path, &reader.scene);
     if (result != ALP_OK) {
         alpi_gltf_document_destroy(document);
@@ -61,6 +62,7 @@ alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene
     result = fill_scene(&reader);
     alpi_release(reader.context, reader.world);
     alpi_release(reader.context, reader.order);
+    alpi_release(reader.context, reader.placed);
     alpi_release(reader.context, reader.material_used);
     if (result != ALP_OK) {
         alp_scene_destroy(reader.scene);
@@ -70,10 +72,21 @@ alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene
     return ALP_OK;
 }
 
+alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene **scene)
+{
+    return read_document(document, NULL, scene);
+}
+
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene)
+{
+    return alpi_gltf_read_choice(context, path, NULL, scene);
+}
+
+alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
+                                 alp_scene **scene)
 {
     alpi_gltf_document *document = NULL;
     *scene = NULL;
     ALP_TRY(alpi_gltf_document_read(context, path, &document));
-    return alpi_gltf_scene_from_document(document, scene);
+    return read_document(document, choice, scene);
 }

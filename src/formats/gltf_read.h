@@ -10,11 +10,13 @@
 typedef struct alpi_gltf_reader {
     alp_context *context;
     const alpi_gltf_document *document;
-    alp_scene *scene; // being filled
+    const char *choice; // number or name of the scene to read; NULL = the file's first
+    alp_scene *scene;   // being filled
     uint32_t node_count;
     mat4 *world;     // [node_count] node → world, of the nodes in `order`
     uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
     uint32_t order_count;
+    bool *placed;        // [node_count] whether a node is in `order`
     bool *material_used; // [scene.material_count]
 } alpi_gltf_reader;
 
@@ -33,6 +35,22 @@ alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader);
 
 /// gltf_read.c: all of them. The scene takes the document over (also on failure).
 alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene **scene);
+
+/// Translation · rotation (unit quaternion x y z w) · scale.
+mat4 alpi_gltf_compose(const double t[3], const double q[4], const double s[3]);
+
+/// Nodes may share meshes and so may multiply a small file: primitives that they may place.
+enum { ALPI_GLTF_SURFACE_LIMIT = 1 << 22 };
+
+/// One instance of EXT_mesh_gpu_instancing, placed in its node's space.
+typedef struct alpi_gltf_instance {
+    double translation[3], rotation[4], scale[3]; // rotation: unit
+} alpi_gltf_instance;
+/// The attributes of a node whose mesh is shown in instances, NULL where it is not.
+json_t *alpi_gltf_instancing(json_t *node);
+/// They, released by the caller; NULL and 0 where the node does not show its mesh in instances.
+alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t node,
+                                    alpi_gltf_instance **instances, uint32_t *count);
 
 /// object.name with control characters replaced; "" when there is none. Released by the caller.
 char *alpi_gltf_copy_name(alp_context *context, json_t *object);

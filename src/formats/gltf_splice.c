@@ -30,6 +30,19 @@ static bool make_room(alpi_bytes *bytes, size_t size)
     return !bytes->failed;
 }
 
+void alpi_bytes_reserve(alpi_bytes *bytes, size_t more)
+{
+    if (bytes->failed || more > SIZE_MAX - 1 - bytes->size ||
+        bytes->size + more + 1 <= bytes->capacity) {
+        return; // the size is known to be too much, or comes out where it is added
+    }
+    const size_t capacity = bytes->size + more + 1;
+    void *moved = alpi_reallocate(bytes->context, bytes->bytes, capacity, 1);
+    bytes->failed = moved == NULL;
+    bytes->bytes = moved != NULL ? moved : bytes->bytes;
+    bytes->capacity = moved != NULL ? capacity : bytes->capacity;
+}
+
 void alpi_bytes_add(alpi_bytes *bytes, const void *data, size_t size)
 {
     if (make_room(bytes, size)) {
@@ -220,23 +233,46 @@ void alpi_edits_set_index(alpi_edits *edits, alpi_json_span object, const char *
     alpi_edits_set(edits, object, name, digits, (size_t)length);
 }
 
-void alpi_edits_remove(alpi_edits *edits, alpi_json_span object, const char *name)
+static bool key_is_one_of(const char *text, alpi_json_span key, const char *const *names,
+                          size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (alpi_json_key_is(text, key, names[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void alpi_edits_remove_all(alpi_edits *edits, alpi_json_span object, const char *const *names,
+                           size_t count)
 {
     alpi_json_cursor cursor = alpi_json_open(edits->text, object);
-    size_t before = 0;
+    alpi_json_span gone = {0};
+    size_t kept_end = 0; // of the last member that stays
+    bool going = false;  // neighbours go together, so that no comma goes twice
     while (alpi_json_next(&cursor)) {
-        if (alpi_json_key_is(edits->text, cursor.key, name)) {
-            alpi_json_span gone = {cursor.key.begin, cursor.value.end};
-            if (alpi_json_next(&cursor)) {
-                gone.end = cursor.key.begin;
-            } else if (before > 0) {
-                gone.begin = before;
-            }
-            alpi_edits_replace(edits, gone, "%s", "");
-            return;
+        if (key_is_one_of(edits->text, cursor.key, names, count)) {
+            gone.begin = going ? gone.begin : cursor.key.begin;
+            gone.end = cursor.value.end;
+            going = true;
+            continue;
         }
-        before = cursor.value.end;
+        if (going) {
+            alpi_edits_replace(edits, (alpi_json_span){gone.begin, cursor.key.begin}, "%s", "");
+        }
+        going = false;
+        kept_end = cursor.value.end;
     }
+    if (going) {
+        gone.begin = kept_end > 0 ? kept_end : gone.begin;
+        alpi_edits_replace(edits, gone, "%s", "");
+    }
+}
+
+void alpi_edits_remove(alpi_edits *edits, alpi_json_span object, const char *name)
+{
+    alpi_edits_remove_all(edits, object, &name, 1);
 }
 
 static int compare_edits(const void *left, const void *right)

@@ -23,6 +23,8 @@ static inline alpi_bytes alpi_bytes_create(alp_context *context)
     return (alpi_bytes){.context = context};
 }
 void alpi_bytes_destroy(alpi_bytes *bytes);
+/// Makes room for `more` bytes and no others: what is added within them moves nothing.
+void alpi_bytes_reserve(alpi_bytes *bytes, size_t more);
 void alpi_bytes_add(alpi_bytes *bytes, const void *data, size_t size);
 void alpi_bytes_print(alpi_bytes *bytes, const char *format, ...) ALP_PRINTF(2, 3);
 /// A finite number with a point as decimal sign whatever the locale; `digits` significant.
@@ -66,6 +68,9 @@ void alpi_edits_set(alpi_edits *edits, alpi_json_span object, const char *name, 
 void alpi_edits_set_index(alpi_edits *edits, alpi_json_span object, const char *name, size_t index);
 /// Takes a member out of its object, with one comma. Not for an object that members are added to.
 void alpi_edits_remove(alpi_edits *edits, alpi_json_span object, const char *name);
+/// Several; members may be added to an object of which one stays.
+void alpi_edits_remove_all(alpi_edits *edits, alpi_json_span object, const char *const *names,
+                           size_t count);
 
 /// Appends text[range] to `out` with the edits made. Every edit must lie in the range and no two
 /// may overlap.

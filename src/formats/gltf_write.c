@@ -52,8 +52,7 @@ static alp_result open_files(const alpi_gltf_files *files, bool overwrite,
     return ALP_OK;
 }
 
-/// Nothing is renamed before the last byte of the last file is on its way to the disk.
-static alp_result write_files(const alpi_gltf_files *files, bool overwrite)
+alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite)
 {
     alpi_file_writer *writers = ALPI_NEW(files->context, alpi_file_writer, files->count);
     if (writers == NULL) {
@@ -118,14 +117,17 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
     return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
 }
 
+/// @param fallbacks copy buffers only that are fallbacks: the others went into the asset
 static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *document,
-                             const char *kind, const bool *skipped, const char *folder)
+                             const char *kind, const bool *skipped, bool fallbacks,
+                             const char *folder)
 {
     size_t count = alpi_gltf_count(document, kind);
     for (size_t i = 0; i < count; i++) {
         const char *uri = alpi_gltf_text(alpi_gltf_item(document, kind, i), "uri");
         char *source = NULL;
-        if (uri == NULL || (skipped != NULL && skipped[i])) {
+        if (uri == NULL || (skipped != NULL && skipped[i]) ||
+            (fallbacks && document->buffers[i].bytes != NULL)) {
             continue;
         }
         alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
@@ -150,11 +152,9 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
     }
     alp_result result = ALP_OK;
     if (!same_folder(folder, document->folder)) {
-        if (!merged) {
-            result = add_copies(files, document, "buffers", NULL, folder);
-        }
+        result = add_copies(files, document, "buffers", NULL, merged, folder);
         if (result == ALP_OK) {
-            result = add_copies(files, document, "images", image_embedded, folder);
+            result = add_copies(files, document, "images", image_embedded, false, folder);
         }
     }
     alpi_release(files->context, folder);
@@ -330,7 +330,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite
         result = make_folders(&w->files);
     }
     if (result == ALP_OK) {
-        result = write_files(&w->files, overwrite);
+        result = alpi_gltf_files_write(&w->files, overwrite);
     }
     alpi_patcher_destroy(&w->patcher);
     return result;

@@ -25,6 +25,9 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
     if (begins_with(bytes, size, "\xff\xd8\xff", 3)) {
         return alpi_jpeg_decode(context, name, bytes, size, image);
     }
+    if (begins_with(bytes, size, "RIFF", 4) && size >= 12 && memcmp(bytes + 8, "WEBP", 4) == 0) {
+        return alpi_webp_decode(context, name, bytes, size, image);
+    }
     if (begins_with(bytes, size, "\x76\x2f\x31\x01", 4)) {
         return alpi_exr_decode(context, name, bytes, size, image);
     }
@@ -32,8 +35,8 @@ alp_result alpi_image_decode(alp_context *context, const char *name, const uint8
         return alpi_hdr_decode(context, name, bytes, size, image);
     }
     return alpi_fail(context, ALP_ERROR_INVALID_DATA,
-                     "%s: is not a PNG, JPEG, OpenEXR or Radiance (.hdr) image (by its first "
-                     "bytes)",
+                     "%s: is not a PNG, JPEG, WebP, OpenEXR or Radiance (.hdr) image (by its "
+                     "first bytes)",
                      name);
 }
 

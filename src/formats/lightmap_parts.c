@@ -196,6 +196,45 @@ void alpi_lightmap_parts_destroy(alpi_lightmap_parts *parts)
     alpi_release(context, parts->indices);
 }
 
+// --- sizes ---------------------------------------------------------------------------------------
+
+/// Vertices where charts meet come out once for each.
+static uint64_t guess_vertices(const alp_scene *scene)
+{
+    const uint64_t corners = 3 * (uint64_t)scene->usable_count;
+    const uint64_t vertices = scene->vertex_count + scene->vertex_count / 4u;
+    return vertices < corners ? vertices : corners;
+}
+
+uint64_t alpi_lightmap_text_size(const alp_scene *scene)
+{
+    enum {
+        PART_BYTES = 800, // what is said of a surface, its material, and a camera
+        PLACE_BYTES = 11, // a number between 1e-3 and 1e3, with its comma
+        SIGN_BYTES = 11,  // one between −1 and 1
+        INDEX_BYTES = 6
+    };
+    const bool textured = scene->uvs[0] != NULL && scene->image_count > 0;
+    const uint64_t of_vertex = 3 * PLACE_BYTES + 3 * SIGN_BYTES + 2 * PLACE_BYTES +
+                               (textured ? 2 * PLACE_BYTES : 0u) +
+                               (scene->colors != NULL ? 4 * SIGN_BYTES : 0u);
+    uint64_t images = 0;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const alp_image *image = scene->images[i];
+        images += image == NULL ? 0u
+                                : (uint64_t)image->info.width * image->info.height *
+                                      image->info.channels; // PNG saves what base64 costs
+    }
+    return of_vertex * guess_vertices(scene) + 3 * INDEX_BYTES * (uint64_t)scene->usable_count +
+           PART_BYTES * ((uint64_t)scene->surface_count + scene->camera_count + 1) + images;
+}
+
+uint64_t alpi_lightmap_parts_size(const alp_scene *scene)
+{
+    const uint64_t of_corner = sizeof(uint32_t) + sizeof(float[2]) + sizeof(uint32_t);
+    return 3 * of_corner * scene->usable_count;
+}
+
 // --- their numbers -------------------------------------------------------------------------------
 
 void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t count)

@@ -5,13 +5,6 @@
 
 #include <string.h>
 
-static alp_result refuse_kind(alp_context *context, const char *path, const char *kind)
-{
-    return alpi_fail(context, ALP_ERROR_UNSUPPORTED,
-                     "%s: reading %s files is not built yet; convert it to .glb or .gltf", path,
-                     kind);
-}
-
 alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **scene)
 {
     static const char builtin[] = "builtin:";
@@ -32,7 +25,27 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
         return alpi_collada_read_scene(context, path, scene);
     }
     if (alpi_path_has_ending(path, ".obj")) {
-        return refuse_kind(context, path, "OBJ");
+        return alpi_obj_read_scene(context, path, scene);
     }
     return alpi_gltf_read_scene(context, path, scene); // .glb and .gltf are told apart by content
+}
+
+alp_result alp_scene_load_choice(alp_context *context, const char *path, const char *choice,
+                                 alp_scene **scene)
+{
+    static const char *const of_one[] = {".dae", ".zae", ".obj"};
+    if (choice == NULL || context == NULL || path == NULL || scene == NULL || path[0] == '\0') {
+        return alp_scene_load(context, path, scene);
+    }
+    *scene = NULL;
+    bool one = strncmp(path, "builtin:", 8) == 0;
+    for (size_t i = 0; i < sizeof of_one / sizeof *of_one; i++) {
+        one |= alpi_path_has_ending(path, of_one[i]);
+    }
+    if (one) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "%s: holds one scene; \"%.100s\" can be chosen of a .gltf or .glb alone",
+                         path, choice);
+    }
+    return alpi_gltf_read_choice(context, path, choice, scene);
 }

@@ -335,6 +335,17 @@ static alp_result fill(writer *w)
     return w->text.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
+/// Four halves and their commas: between 0.03 and 65,504 they have five digits each.
+static uint64_t text_size(const alp_scene *scene, uint64_t pixels)
+{
+    return alpi_lightmap_text_size(scene) + pixels * sizeof "15360,15360,15360,15360";
+}
+
+uint64_t alpi_three_memory(const alp_scene *scene, uint64_t pixels)
+{
+    return text_size(scene, pixels) + alpi_lightmap_parts_size(scene);
+}
+
 alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *light, uint8_t **bytes,
                              size_t *size)
 {
@@ -344,6 +355,8 @@ alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *lig
                 .light = light,
                 .parts = {.scene = scene},
                 .text = alpi_bytes_create(context)};
+    const uint64_t pixels = (uint64_t)light->width * light->height * light->page_count;
+    alpi_bytes_reserve(&w.text, text_size(scene, pixels)); // moved, it would be there twice
     alp_result result = fill(&w);
     *bytes = result == ALP_OK ? w.text.bytes : NULL;
     *size = result == ALP_OK ? w.text.size : 0;

@@ -9,11 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, HELD_OUT = 1024 };
+enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10 };
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
 
 typedef struct bounced_job {
     const alpi_bounced_options *options;
@@ -84,41 +83,28 @@ static alp_result trace_wanted(bounced_job *job)
 
 /// What differences of light may be called noise about a texel of this light. In part of the mean
 /// over the map: in the dark it takes less to be good enough.
-static float noise_at(const bounced_job *job, float level)
+static float noise_at(const void *user, float level)
 {
+    const bounced_job *job = user;
     return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
-}
-
-static bool is_smooth(const bounced_job *job, uint32_t texel, const alpi_stencil *s)
-{
-    const bool near = job->options->near != NULL && job->options->near[texel] != ALPI_FAR;
-    const float noise = noise_at(job, alpi_lattice_interpolate(&job->lattice, s));
-    return s->spread <= (near ? NEAR_SPREAD : 1.0f) * SPREAD_LIMIT * noise &&
-           s->bend <= (near ? NEAR_BEND : 1.0f) * BEND_LIMIT * noise;
 }
 
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     bounced_job *job = user;
-    alpi_lattice *l = &job->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->options->order[i];
-        alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_TRACED) {
-            continue;
-        }
-        if (job->flood) {
-            job->wanted[t] = alpi_lattice_kink(l, t) > KINK_LIMIT * noise_at(job, l->values[t]);
-        } else if (alpi_lattice_pass(l->texels->pixels[t]) != job->pass || job->wanted[t]) {
-            continue;
-        } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(job, t, &stencil)) {
-            l->states[t] = ALPI_TEXEL_INTERPOLATED;
-            l->values[t] = alpi_lattice_interpolate(l, &stencil);
-        } else {
-            job->wanted[t] = 1;
-        }
-    }
+    const alpi_lattice_judge judge = {.lattice = &job->lattice,
+                                      .order = job->options->order,
+                                      .near = job->options->near,
+                                      .wanted = job->wanted,
+                                      .spread = SPREAD_LIMIT,
+                                      .bend = BEND_LIMIT,
+                                      .kink = KINK_LIMIT,
+                                      .noise = noise_at,
+                                      .user = job,
+                                      .pass = job->pass,
+                                      .flood = job->flood};
+    alpi_lattice_judge_range(&judge, begin, end);
     return ALP_OK;
 }
 
@@ -130,17 +116,15 @@ static alp_result judge(bounced_job *job, uint32_t pass, bool flood)
     return trace_wanted(job);
 }
 
-/// Wants texels near other surfaces traced; see occlusion_map.c.
+/// Wants texels traced that have another surface near, or all.
 static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const bounced_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->options->order[i];
-        const uint32_t pass = alpi_lattice_pass(job->lattice.texels->pixels[t]);
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
-        job->wanted[t] = !job->options->adaptive || near == ALPI_TOUCHING ||
-                         (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
+        job->wanted[t] = !job->options->adaptive || alpi_lattice_needs_rays(&job->lattice, t, near);
     }
     return ALP_OK;
 }
@@ -292,10 +276,10 @@ static alp_result pool_range(void *user, uint32_t begin, uint32_t end, uint32_t 
 static uint32_t hold_out(const bounced_job *job, uint32_t interpolated)
 {
     uint32_t count = 0, seen = 0;
-    const double step = fmax((double)interpolated / HELD_OUT, 1.0);
+    const double step = fmax((double)interpolated / ALPI_HELD_OUT, 1.0);
     const float offset = alpi_unit_float(alpi_random_key(interpolated, 0, STREAM_HELD_OUT));
     double next = (double)offset * step;
-    for (uint32_t i = 0; i < job->options->count; i++) {
+    for (uint32_t i = 0; i < job->options->count && count < ALPI_HELD_OUT; i++) {
         const uint32_t t = job->options->order[i];
         if (job->lattice.states[t] == ALPI_TEXEL_INTERPOLATED && (double)seen++ >= next) {
             job->list[count++] = t;
@@ -305,36 +289,65 @@ static uint32_t hold_out(const bounced_job *job, uint32_t interpolated)
     return count;
 }
 
+/// Rays of their own from the listed texels, which stay as they are. @param found [count] out
+static alp_result gather_beside(bounced_job *job, uint32_t count, const alpi_gatherer *gatherer,
+                                alpi_reference_value *found)
+{
+    alpi_reference_value *values = job->options->gather->values;
+    for (uint32_t i = 0; i < count; i++) { // the rays write into the map, which gets them back
+        found[i] = values[job->list[i]];
+    }
+    alpi_gather_job alone = *job->options->gather;
+    alone.gatherer = gatherer;
+    alone.skies = NULL;
+    alone.directional = NULL;
+    const alp_result result = gather_list(job, count, alone);
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_reference_value kept = found[i];
+        found[i] = values[job->list[i]];
+        values[job->list[i]] = kept;
+    }
+    return result;
+}
+
+void alpi_held_out_error(const uint32_t *texels, const alpi_reference_value *found, uint32_t count,
+                         const alpi_reference_value *values, float variance[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double sum = 0.0;
+        for (uint32_t i = 0; i < count; i++) {
+            const double apart = (double)values[texels[i]].mean[k] - (double)found[i].mean[k];
+            sum += apart * apart - (double)found[i].variance[k];
+        }
+        variance[k] = (float)fmax(sum / fmax((double)count, 1.0), 0.0);
+    }
+}
+
 /// Mean square error of what was interpolated, by channel: rays of their own from some of it.
 static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, float variance[3])
 {
     alp_context *context = job->lattice.context;
+    const alpi_gather_job *g = job->options->gather;
+    alpi_held_out *held = job->options->held_out;
+    if (held != NULL && held->count > 0) {
+        memcpy(job->list, held->texels, held->count * sizeof *job->list);
+        return gather_beside(job, held->count, job->options->beside, held->values);
+    }
     const uint32_t count = hold_out(job, interpolated);
-    alpi_reference_value *values = job->options->gather->values;
-    alpi_reference_value *kept = ALPI_NEW(context, alpi_reference_value, count);
-    if (kept == NULL) {
+    alpi_reference_value *found = ALPI_NEW(context, alpi_reference_value, count);
+    if (found == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t i = 0; i < count; i++) { // the rays write into the map, which gets them back
-        kept[i] = values[job->list[i]];
+    const alp_result result = gather_beside(job, count, g->gatherer, found);
+    if (result == ALP_OK) {
+        alpi_held_out_error(job->list, found, count, g->values, variance);
     }
-    alpi_gather_job alone = *job->options->gather;
-    alone.skies = NULL;
-    alone.directional = NULL;
-    const alp_result result = gather_list(job, count, alone);
-    for (int k = 0; k < 3; k++) {
-        double sum = 0.0;
-        for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
-            const alpi_reference_value *y = &values[job->list[i]];
-            const double apart = (double)kept[i].mean[k] - (double)y->mean[k];
-            sum += apart * apart - (double)y->variance[k];
-        }
-        variance[k] = (float)fmax(sum / count, 0.0);
+    if (result == ALP_OK && held != NULL) {
+        held->count = count;
+        memcpy(held->texels, job->list, count * sizeof *held->texels);
+        memcpy(held->values, found, count * sizeof *held->values);
     }
-    for (uint32_t i = 0; i < count; i++) {
-        values[job->list[i]] = kept[i];
-    }
-    alpi_release(context, kept);
+    alpi_release(context, found);
     return result;
 }
 
@@ -345,7 +358,8 @@ static alp_result state_errors(bounced_job *job)
     job->report->traced = traced;
     job->report->interpolated = interpolated;
     ALP_TRY(for_texels(job, pool_range));
-    if (interpolated > 0) {
+    const bool held = job->options->held_out != NULL && job->options->held_out->count > 0;
+    if (interpolated > 0 || held) {
         ALP_TRY(measure_interpolated(job, interpolated, variance));
     }
     for (uint32_t i = 0; i < job->options->count; i++) {
@@ -384,7 +398,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     bounced_job job = {.options = options,
                        .lattice = *lattice,
                        .report = report,
-                       .expected = (first ? options->count : report->traced) + HELD_OUT};
+                       .expected = (first ? options->count : report->traced) + ALPI_HELD_OUT};
     *report = (alpi_bounced_report){0};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;

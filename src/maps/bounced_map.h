@@ -12,12 +12,24 @@
 #include "maps/lattice.h"
 #include "transport/gather.h"
 
+/// Texels that several maps of the same light hold out: those, evenly and at random, that the first
+/// of them interpolates, with rays of their own in each.
+enum { ALPI_HELD_OUT = 1024 };
+typedef struct alpi_held_out {
+    uint32_t count; // 0: none yet
+    uint32_t texels[ALPI_HELD_OUT];
+    alpi_reference_value values[ALPI_HELD_OUT]; // by the rays of their own of the last map
+} alpi_held_out;
+
 typedef struct alpi_bounced_options {
     const alpi_gather_job *gather; // its list and count are not read; its gatherer knows its error
     const uint32_t *order;         // [count] texels, neighbours together
     uint32_t count;
-    const uint8_t *near; // [texels] alpi_nearness, or NULL
-    bool adaptive;       // false: all texels are traced
+    const uint8_t *near;         // [texels] alpi_nearness, or NULL
+    bool adaptive;               // false: all texels are traced
+    alpi_held_out *held_out;     // NULL: one map alone; else in and out
+    const alpi_gatherer *beside; // where held_out has some: like that of `gather`, of other random
+                                 // numbers, as some of them may be traced now
 } alpi_bounced_options;
 
 typedef struct alpi_bounced_report {
@@ -29,12 +41,18 @@ typedef struct alpi_bounced_report {
 /// texels of the order. Variances are pooled over a texel and its neighbours. Those of interpolated
 /// texels are the mean square difference to independent rays from some of them, chosen at random,
 /// less the variance of those rays: it holds what interpolation misses, as a mean over all of them.
+/// Where a map before held some out, it is 0: means of maps are held to means of what those found.
 /// @param states [texels] out: alpi_texel_state of those in the order
 /// @param report in: traced, those of a map like it, to tell progress by, or 0; out: all of it
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
                             const alpi_task_progress *progress, uint8_t *states,
                             alpi_bounced_report *report);
+
+/// Mean square error of texels by channel, held to what was found there apart, whose own error is
+/// taken off: E[(x − y)²] − Var y = E[(x − truth)²]. Not below 0.
+void alpi_held_out_error(const uint32_t *texels, const alpi_reference_value *found, uint32_t count,
+                         const alpi_reference_value *values, float variance[3]);
 
 /// The means of an interpolated texel, not below 0, and the sky's part of them.
 void alpi_bounced_interpolate(const alpi_gather_job *gather, uint32_t texel,

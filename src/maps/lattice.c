@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/validity.h"
 
 #include <math.h>
 #include <string.h>
@@ -272,4 +273,54 @@ float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
         return 0.0f;
     }
     return count == 4 ? fabsf(0.25f * sum - value) : 0.5f * step;
+}
+
+// --- the judge -----------------------------------------------------------------------------------
+
+// Shares of the limits for texels near another surface: a tenth and a half cost the same error as
+// tracing all of them, and a quarter less time on cornell.
+static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
+
+bool alpi_lattice_needs_rays(const alpi_lattice *lattice, uint32_t texel, uint8_t near)
+{
+    return near == ALPI_TOUCHING ||
+           (near == ALPI_NEAR &&
+            alpi_lattice_pass(lattice->texels->pixels[texel]) <= ALPI_LATTICE_COARSE);
+}
+
+static float noise_about(const alpi_lattice_judge *j, float level)
+{
+    return j->noise != NULL ? j->noise(j->user, level) : 1.0f;
+}
+
+/// Whether a texel may take the value of its stencil.
+static bool is_smooth(const alpi_lattice_judge *j, uint32_t texel, const alpi_stencil *s)
+{
+    const bool near = j->near != NULL && j->near[texel] != ALPI_FAR;
+    const float noise = noise_about(j, alpi_lattice_interpolate(j->lattice, s));
+    return s->spread <= (near ? NEAR_SPREAD : 1.0f) * j->spread * noise &&
+           s->bend <= (near ? NEAR_BEND : 1.0f) * j->bend * noise;
+}
+
+void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, uint32_t end)
+{
+    alpi_lattice *l = judge->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = judge->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_TRACED) {
+            continue;
+        }
+        if (judge->flood) {
+            judge->wanted[t] =
+                alpi_lattice_kink(l, t) > judge->kink * noise_about(judge, l->values[t]);
+        } else if (alpi_lattice_pass(l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
+            continue;
+        } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(judge, t, &stencil)) {
+            l->states[t] = ALPI_TEXEL_INTERPOLATED;
+            l->values[t] = alpi_lattice_interpolate(l, &stencil);
+        } else {
+            judge->wanted[t] = 1;
+        }
+    }
 }

@@ -2,7 +2,7 @@
 // The adaptive lattice: every 4th texel is traced, those between are interpolated where the traced
 // ones agree, and traced where they do not.
 // Based on: H. Elias. Radiosity (the adaptive light map: spacing 4, passes of two types, half the
-// spacing). What such a lattice misses, small details, the flood of occlusion_map.c finds.
+// spacing). What such a lattice misses, small details, the flood of its judge finds.
 #ifndef ALPI_MAPS_LATTICE_H
 #define ALPI_MAPS_LATTICE_H
 
@@ -74,5 +74,28 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
 /// How far an interpolated texel with a traced one beside it is from the mean of its four
 /// neighbours; half its step to a traced one where a neighbour is missing; 0 with none traced.
 float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel);
+
+/// Whether a texel is traced whatever its stencil says: if it touches another surface, and if one
+/// is near, in every second row every second. A contact shadow may be smaller than the lattice.
+/// Ward's criterion: light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein,
+/// R. D. Clear. A Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
+/// @param near alpi_nearness
+bool alpi_lattice_needs_rays(const alpi_lattice *lattice, uint32_t texel, uint8_t near);
+
+/// Who says which texels may be interpolated.
+typedef struct alpi_lattice_judge {
+    alpi_lattice *lattice; // gets states and values of what is interpolated
+    const uint32_t *order;
+    const uint8_t *near;                           // [texels] alpi_nearness, or NULL: all are far
+    uint8_t *wanted;                               // [texels] to be traced, in and out
+    float spread, bend, kink;                      // the most there may be, times
+    float (*noise)(const void *user, float level); // about a value; NULL: 1
+    const void *user;
+    uint32_t pass; // whose texels are judged by their stencils
+    bool flood;    // instead, interpolated ones of every pass by their kinks
+} alpi_lattice_judge;
+
+/// Interpolates texels order[begin] to order[end − 1] that may be, and wants the others traced.
+void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, uint32_t end);
 
 #endif

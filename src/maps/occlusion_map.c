@@ -25,9 +25,6 @@ enum {
 // the bend a tenth fewer texels are traced and what is interpolated grows three times darker, with
 // twice the others small shadows get lost (docs/accuracy.md).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
-// Shares of these limits for texels near another surface: a tenth and a half cost the same error as
-// tracing all of them, and a quarter less time on cornell.
-static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
 // A 99th percentile of the error above this multiple of the wanted error asks for more too.
 static const double P99_LIMIT = 4.0;
 
@@ -180,37 +177,20 @@ static alp_result trace_wanted(map_job *job)
 
 // --- the lattice ---------------------------------------------------------------------------------
 
-/// Whether a texel may take the value of its stencil.
-static bool is_smooth(const map_job *job, uint32_t texel, const alpi_stencil *s)
-{
-    const bool near = job->options->near != NULL && job->options->near[texel] != ALPI_FAR;
-    return s->spread <= (near ? NEAR_SPREAD : 1.0f) * job->spread_limit &&
-           s->bend <= (near ? NEAR_BEND : 1.0f) * job->bend_limit;
-}
-
-/// Interpolates texels or wants them traced.
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const map_job *job = user;
-    alpi_lattice *l = job->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->order[i];
-        alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_TRACED) {
-            continue;
-        }
-        if (job->flood) {
-            job->wanted[t] = alpi_lattice_kink(l, t) > job->kink_limit;
-        } else if (alpi_lattice_pass(l->texels->pixels[t]) != job->pass || job->wanted[t]) {
-            continue;
-        } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(job, t, &stencil)) {
-            l->states[t] = ALPI_TEXEL_INTERPOLATED;
-            l->values[t] = alpi_lattice_interpolate(l, &stencil);
-        } else {
-            job->wanted[t] = 1;
-        }
-    }
+    const alpi_lattice_judge judge = {.lattice = job->lattice,
+                                      .order = job->order,
+                                      .near = job->options->near,
+                                      .wanted = job->wanted,
+                                      .spread = job->spread_limit,
+                                      .bend = job->bend_limit,
+                                      .kink = job->kink_limit,
+                                      .pass = job->pass,
+                                      .flood = job->flood};
+    alpi_lattice_judge_range(&judge, begin, end);
     return ALP_OK;
 }
 
@@ -249,20 +229,14 @@ static alp_result renew(map_job *job)
     return ALP_OK;
 }
 
-/// Wants texels traced that have another surface near, those that touch it all, the others of every
-/// second row every second: a contact shadow may be smaller than the lattice. Ward's criterion:
-/// light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein, R. D. Clear. A
-/// Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
+/// Wants texels traced that have another surface near.
 static alp_result want_near(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const map_job *job = user;
     for (uint32_t i = begin; i < end && job->options->near != NULL; i++) {
         const uint32_t t = job->order[i];
-        const uint32_t pass = alpi_lattice_pass(job->lattice->texels->pixels[t]);
-        const uint8_t near = job->options->near[t];
-        job->wanted[t] =
-            near == ALPI_TOUCHING || (near == ALPI_NEAR && pass <= ALPI_LATTICE_COARSE);
+        job->wanted[t] = alpi_lattice_needs_rays(job->lattice, t, job->options->near[t]);
     }
     return ALP_OK;
 }

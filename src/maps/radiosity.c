@@ -245,7 +245,7 @@ static void light_cell(const shown_light *s, uint32_t texel, alpi_side side)
 }
 
 /// Radiance of all patches, by their direct light and what was gathered before. Backs that nobody
-/// sees are black.
+/// sees are black; they stay as they are once their direct light is forgotten.
 static alp_result light_cells(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -257,7 +257,7 @@ static alp_result light_cells(void *user, uint32_t begin, uint32_t end, uint32_t
             continue;
         }
         light_cell(s, t, ALPI_FRONT);
-        if (p->two_sided && p->seen_backs[block] == ALPI_BACK_LIT) {
+        if (p->two_sided && !s->radiosity->backs_dropped && p->seen_backs[block] == ALPI_BACK_LIT) {
             light_cell(s, t, ALPI_BACK);
         }
     }
@@ -484,6 +484,7 @@ static alp_result drop_backs(alpi_radiosity *r)
             return ALP_ERROR_OUT_OF_MEMORY;
         }
         r->direct = fronts;
+        r->backs_dropped = true;
     }
     return ALP_OK;
 }

@@ -74,6 +74,7 @@ typedef struct alpi_radiosity {
     float
         changes[ALPI_RADIOSITY_CHANGES]; // |Eₖ − Eₖ₋₁| over all light, by area; of the first passes
     bool kept;                           // rays were traced once
+    bool backs_dropped;                  // direct light of backs is known no more
     uint64_t rays;
     double direct_seconds; // that direct light took
     alpi_energy energy;
@@ -88,7 +89,7 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
 void alpi_radiosity_destroy(alpi_radiosity *radiosity);
 
 /// Puts the light of one layer into the cells, as it goes into the last bounce; ALPI_NONE: of all
-/// of them, which is there after solving.
+/// of them, which is there after solving, by the direct light of then.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_radiosity_show(const alpi_radiosity *radiosity, uint32_t layer,
                                const alpi_task_progress *progress);

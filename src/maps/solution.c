@@ -60,6 +60,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.filter = (alpi_trace_filter){.one_sided = o->one_sided};
     options.gatherer = &s->gatherer;
     options.kept_limit = o->kept_limit > 0 ? o->kept_limit : options.kept_limit;
+    options.direct_samples = o->direct_samples > 0 ? o->direct_samples : options.direct_samples;
     options.bounces = o->bounces;
     options.backs = true;
     options.seed = o->seed;

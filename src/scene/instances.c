@@ -8,17 +8,18 @@
 
 /// A chosen surface, for sorting: surfaces of a mesh, of those the ones of a node, by primitive.
 typedef struct placed {
-    uint32_t mesh, node, primitive, surface, triangle_count;
+    uint32_t mesh, node, instance, primitive, surface, triangle_count;
 } placed;
 
 static int compare_placed(const void *left, const void *right)
 {
     const placed *a = left, *b = right;
-    const uint32_t keys[4][2] = {{a->mesh, b->mesh},
+    const uint32_t keys[5][2] = {{a->mesh, b->mesh},
                                  {a->node, b->node},
+                                 {a->instance, b->instance},
                                  {a->primitive, b->primitive},
                                  {a->surface, b->surface}};
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         if (keys[k][0] != keys[k][1]) {
             return keys[k][0] < keys[k][1] ? -1 : 1;
         }
@@ -26,12 +27,12 @@ static int compare_placed(const void *left, const void *right)
     return 0;
 }
 
-/// End of the run of one node that begins at `first`.
+/// End of the run of one node, or of one of its instances, that begins at `first`.
 static uint32_t node_end(const placed *list, uint32_t count, uint32_t first)
 {
     uint32_t end = first + 1;
     while (end < count && list[end].mesh == list[first].mesh &&
-           list[end].node == list[first].node) {
+           list[end].node == list[first].node && list[end].instance == list[first].instance) {
         end++;
     }
     return end;
@@ -99,8 +100,9 @@ alp_result alpi_scene_instances(const alp_scene *scene, const bool *surfaces, ui
         const alpi_surface *surface = &scene->surfaces[s];
         (*originals)[s] = s;
         if (surfaces == NULL || surfaces[s]) {
-            list[count++] = (placed){surface->mesh, surface->node, surface->primitive, s,
-                                     surface->triangle_count};
+            list[count++] = (placed){
+                surface->mesh,          surface->node, surface->instance, surface->primitive, s,
+                surface->triangle_count};
         }
     }
     qsort(list, count, sizeof *list, compare_placed);

@@ -48,6 +48,7 @@ typedef struct alpi_surface {
     char *name; // node name, else mesh name, else "node N"
     uint32_t node, mesh,
         primitive;     // indices in the source file; surface i, i, 0 when there is none
+    uint32_t instance; // of those in which the node shows its mesh, 0 where it is shown once
     uint32_t material; // ALPI_NONE = none: ρ = .5
     uint32_t first_vertex, vertex_count;
     uint32_t first_triangle,

@@ -363,12 +363,12 @@ static void the_first_band_is_the_irradiance(void **state)
         float error;
     } cases[] = {{"by rays", ALP_GATHER_RAYS, ALP_DIRECT_ON, ALP_BOUNCES_CONVERGE, 0.0f},
                  {"without direct", ALP_GATHER_RAYS, ALP_DIRECT_OFF, ALP_BOUNCES_CONVERGE, 0.0f},
-                 {"to 0.6 %", ALP_GATHER_RAYS, ALP_DIRECT_ON, 1, 0.006f},
+                 {"to 1.2 %", ALP_GATHER_RAYS, ALP_DIRECT_ON, 1, 0.012f},
                  {"by hemicubes", ALP_GATHER_HEMICUBE, ALP_DIRECT_ON, 1, 0.0f},
                  {"direct", ALP_GATHER_RAYS, ALP_DIRECT_ON, 0, 0.0f}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         alp_scene *scene = NULL;
-        alp_bake_options o = light_options(256);
+        alp_bake_options o = light_options(64); // E and the band have the same noise
         double mean = 0.0, squares = 0.0, apart = 0.0, bands = 0.0, worst = 0.0;
         o.light.gather = cases[k].gather;
         o.light.direct = cases[k].direct;

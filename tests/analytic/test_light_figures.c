@@ -11,7 +11,7 @@
 
 enum { TRIANGLE_LIMIT = 8192, AXES = 2, PLACINGS = 8 };
 /// Paths of one placing; more where much of a light lies along the horizon, which makes noise.
-enum { PATHS = 32768, MANY_PATHS = 4 * PATHS, CHANCE_PATHS = 8192 };
+enum { PATHS = 16384, MANY_PATHS = 4 * PATHS, CHANCE_PATHS = 8192 };
 
 /// A light as the receiver sees it, which is at the origin with its normal along +y.
 typedef struct figure {
@@ -278,7 +278,7 @@ static void a_concave_polygon_and_its_back(void **state)
     const figure f = {"polygon like an L", store, 4};
     const double exact = test_polygon_form_factor((double[]){0, 0, 0}, (double[]){0, 1, 0},
                                                   (const double(*)[3])whole, 6);
-    check(&f, exact, exact, 2 * PATHS);
+    check(&f, exact, exact, MANY_PATHS);
     for (int i = 0; i < 4; i++) {
         const vec3 swap = store[i][1];
         store[i][1] = store[i][2];

@@ -226,7 +226,7 @@ static void a_glowing_cap_of_a_sphere(void **state)
     }
     test_lit lit = test_lit_open(scene, NULL);
     for (int way = 0; way < 2; way++) {
-        alpi_reference r = test_lit_reference(&lit, ALPI_REFERENCE_BOUNCE_LIMIT, 262144);
+        alpi_reference r = test_lit_reference(&lit, ALPI_REFERENCE_BOUNCE_LIMIT, 131072);
         r.next_event = way == 0;
         const alpi_reference_value mean = test_lit_mean(&r, ALPI_NONE);
         const double exact = ALPI_PI * lamp / ((1.0 - rho) * scene->area);

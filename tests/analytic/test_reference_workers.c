@@ -5,7 +5,7 @@
 
 #include "transport/reference.h"
 
-enum { POINTS = 32 };
+enum { POINTS = 128 }; // of 112 paths: four ranges of 36
 static float positions[POINTS][3], normals[POINTS][3], offsets[POINTS];
 
 static void gather(const alp_scene *scene, const alpi_tracer *tracer, uint32_t workers,
@@ -45,7 +45,7 @@ static void workers_change_nothing(void **state)
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     for (uint32_t i = 0; i < POINTS; i++) {
-        vec3_store(positions[i], (vec3){0.05f + 0.014f * (float)i, 0.0f, -0.4f});
+        vec3_store(positions[i], (vec3){0.05f + 0.0035f * (float)i, 0.0f, -0.4f});
         vec3_store(normals[i], (vec3){0.0f, 1.0f, 0.0f});
         offsets[i] = 1e-6f;
     }

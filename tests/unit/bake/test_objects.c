@@ -297,7 +297,7 @@ static bool listen(void *user, const alp_progress *progress)
 static void many_objects_are_one_stage(void **state)
 {
     (void)state;
-    enum { COUNT = 1500 };
+    enum { COUNT = 500 };
     alp_context *context = test_context(2);
     alp_mesh *meshes = calloc(COUNT, sizeof *meshes);
     float(*corners)[8][3] = calloc(COUNT, sizeof *corners);
@@ -321,7 +321,7 @@ static void many_objects_are_one_stage(void **state)
     alp_bake_options options = small_options();
     listener l = {0};
     options.ao_self = true;
-    options.atlas.size = 1024;
+    options.atlas.size = 512;
     options.occlusion.samples = 16;
     options.progress = listen;
     options.progress_user = &l;

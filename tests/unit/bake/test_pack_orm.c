@@ -389,7 +389,7 @@ static void an_unreadable_image_is_left(void **state)
     asset.image_size = 13;
     const char *kept = getenv("ALPENGLOW_WRITTEN"); // no validator likes that
     if (kept == NULL) {
-        check_refused(&asset, "PNG or JPEG");
+        check_refused(&asset, "PNG, JPEG or WebP");
     }
 }
 

@@ -122,7 +122,7 @@ static void memory_is_known_beforehand(void **state)
         alp_context *context = test_context(2);
         alp_scene *scene = load(context, "builtin:furnace");
         alp_bake_options options = small_options(maps[i]);
-        options.atlas.size = 1024;
+        options.atlas.size = 512;
         options.occlusion.samples = 1;
         alp_bake_report report;
         alp_lightmap *lightmap = NULL;

@@ -509,10 +509,12 @@ static void oddities_are_told(void **state)
     alp_context *context = test_context(1);
     alp_scene *scene =
         load(context, "'extensionsUsed':['KHR_materials_unlit','EXT_mesh_gpu_instancing'],"
-                      "'nodes':[{'name':'a\\u001b[2Jb','mesh':0,'skin':0,'extensions':"
-                      "{'EXT_mesh_gpu_instancing':{}}}],'meshes':[{'primitives':[{" NORMALS
+                      "'nodes':[{'name':'a\\u001b[2Jb','mesh':0,'skin':0},{'mesh':0,'extensions':"
+                      "{'EXT_mesh_gpu_instancing':{'attributes':{'SCALE':0}}}}],"
+                      "'skins':[{'joints':[0]}],'meshes':[{'primitives':[{" NORMALS
                       ",'indices':4,'targets':[{}]},{'attributes':{}}]}]");
-    assert_int_equal(scene->triangle_count, 2);
+    assert_int_equal(scene->surface_count, 1 + 4);
+    assert_int_equal(scene->triangle_count, 2 * (1 + 4));
     static const char *const codes[] = {"skin", "morph", "instancing", "no-positions"};
     for (size_t i = 0; i < 4; i++) {
         assert_true(test_log_has(codes[i]));

@@ -26,7 +26,6 @@ static const char *const scenes[] = {
     "features/MultiUVTest/MultiUVTest.gltf",
     "features/EmissiveStrengthTest/EmissiveStrengthTest.gltf",
     "features/MeshPrimitiveModes/MeshPrimitiveModes.gltf",
-    "features/SimpleInstancing/SimpleInstancing.gltf",
     "features/TextureTransformTest/TextureTransformTest.gltf",
     "features/emission_strength/14_emission_strength.gltf",
     "features/single_vs_double_sided/01_single_vs_double_sided.gltf",

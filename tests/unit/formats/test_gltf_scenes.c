@@ -23,7 +23,7 @@ static const struct {
     {"features/MultiUVTest/MultiUVTest.gltf", 12, 1, 0},
     {"features/EmissiveStrengthTest/EmissiveStrengthTest.gltf", 90, 6, 0},
     {"features/MeshPrimitiveModes/MeshPrimitiveModes.gltf", 16, 3, 0},
-    {"features/SimpleInstancing/SimpleInstancing.gltf", 12, 1, 0},
+    {"features/SimpleInstancing/SimpleInstancing.gltf", 12 * 125, 125, 0}, // the others count one
     {"features/TextureTransformTest/TextureTransformTest.gltf", 24, 12, 0},
     {"features/emission_strength/14_emission_strength.gltf", 17280, 18, 0},
     {"features/single_vs_double_sided/01_single_vs_double_sided.gltf", 1480, 2, 0},

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SIZE = 96, SAMPLES = 256, TRUTH_SAMPLES = 1 << 14 };
+enum { SIZE = 96, SAMPLES = 256, TRUTH_SAMPLES = 1 << 12 };
 
 typedef struct map_setup {
     alp_context *context;

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SIZE = 64, TRUTH_SAMPLES = 1 << 14 };
+enum { SIZE = 64, TRUTH_SAMPLES = 1 << 13 };
 
 typedef struct map_setup {
     alp_context *context;
@@ -74,11 +74,13 @@ static void find_truth(map_setup *s)
 {
     alp_occlusion_options options = s->options;
     alpi_occlusion_setup setup;
-    alpi_lattice lattice; // a first run finds which strata are valid
+    alpi_lattice lattice; // a first run finds which strata are valid, with as many rays as you like
     alpi_occlusion_map_report report;
     const alpi_occlusion_map_options once = {.accuracy = ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
+    s->options.samples = 4;
     ASSERT_OK(s->context, run(s, &once, &lattice, &report));
     alpi_lattice_destroy(&lattice);
+    s->options.samples = options.samples;
     options.samples = TRUTH_SAMPLES;
     options.seed = 99;
     ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, s->tracer, &options, &setup));

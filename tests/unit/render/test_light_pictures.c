@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures of a lightmap and of a radiosity: rooms whose light is known, the reference, what is
-// black, panes, and the same bits for any workers.
+// black, and panes.
 #include "test_support.h"
 
 #include "maps/lightmap.h"
@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
 
@@ -419,29 +418,7 @@ static void radiosity_goes_through_panes_as_the_reference_does(void **state)
     alp_scene_destroy(scene);
 }
 
-// --- and
-// ------------------------------------------------------------------------------------------
-
-static void workers_change_no_bit(void **state)
-{
-    (void)state;
-    static picture first[2], pixels;
-    const uint32_t workers[] = {1, 2, 7};
-    alp_context *shared = context;
-    for (int i = 0; i < 3; i++) {
-        context = test_context(workers[i]);
-        alp_scene *scene = load("builtin:cornell");
-        alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
-        o.atlas.size = 32;
-        draw(scene, o, i == 0 ? first[0] : pixels, NULL);
-        assert_memory_equal(first[0], i == 0 ? first[0] : pixels, sizeof(picture));
-        draw_lightmap(scene, 32, o, i == 0 ? first[1] : pixels);
-        assert_memory_equal(first[1], i == 0 ? first[1] : pixels, sizeof(picture));
-        alp_scene_destroy(scene);
-        alp_context_destroy(context);
-    }
-    context = shared;
-}
+// --- what is refused, and who ends it ------------------------------------------------------------
 
 static void maps_without_light_are_refused(void **state)
 {
@@ -499,7 +476,6 @@ int main(void)
         cmocka_unit_test(without_light_all_is_black),
         cmocka_unit_test(a_lightmap_is_seen_through_panes),
         cmocka_unit_test(radiosity_goes_through_panes_as_the_reference_does),
-        cmocka_unit_test(workers_change_no_bit),
         cmocka_unit_test(maps_without_light_are_refused),
         cmocka_unit_test(the_solution_can_be_cancelled),
     };

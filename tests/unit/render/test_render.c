@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures with known content: where things appear, what a pixel holds, same bits for any workers.
+// Pictures with known content: where things appear and what a pixel holds.
 #include "test_scenes.h"
 
 #include "scene/scene.h"
@@ -186,29 +186,6 @@ static void the_border_of_things_keeps_their_colour(void **state)
     alp_context_destroy(context);
 }
 
-static void workers_change_no_bit(void **state)
-{
-    (void)state;
-    static float first[40 * 80 * 4];
-    const uint32_t workers[] = {1, 2, 7};
-    for (int i = 0; i < 3; i++) {
-        alp_context *context = test_context(workers[i]);
-        alp_scene *scene = make_scene(context);
-        alp_render_options options = look_ahead();
-        options.method = ALP_RENDER_AO;
-        options.occlusion.samples = 32;
-        alp_image *image = NULL;
-        ASSERT_OK(context, alp_render(scene, &options, &image));
-        if (i == 0) {
-            memcpy(first, alp_image_floats(image), sizeof first);
-        }
-        assert_memory_equal(first, alp_image_floats(image), sizeof first);
-        alp_image_destroy(image);
-        alp_scene_destroy(scene);
-        alp_context_destroy(context);
-    }
-}
-
 static void bad_cameras_are_refused(void **state)
 {
     (void)state;
@@ -310,7 +287,6 @@ int main(void)
         cmocka_unit_test(each_side_has_its_own_occlusion),
         cmocka_unit_test(pixels_have_samples_of_their_own),
         cmocka_unit_test(the_border_of_things_keeps_their_colour),
-        cmocka_unit_test(workers_change_no_bit),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(the_automatic_camera_sees_the_scene),
         cmocka_unit_test(a_flat_scene_is_seen_from_outside),

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The parts that the table of options is put together from, each in a file of its own.
+#ifndef COMMAND_OPTION_PARTS_H
+#define COMMAND_OPTION_PARTS_H
+
+#include "options.h"
+
+#define SCENE_COMMANDS (IN_BAKE | IN_RENDER | IN_INFO)
+#define RAY_COMMANDS (IN_BAKE | IN_RENDER)
+
+typedef struct option_part {
+    const option *rows; // [count]
+    size_t count;
+} option_part;
+
+extern const option_part option_part_output;
+extern const option_part option_part_what;
+extern const option_part option_part_stop;
+extern const option_part option_part_picture;
+extern const option_part option_part_light;
+extern const option_part option_part_ao;
+extern const option_part option_part_run;
+extern const option_part option_part_later;
+
+#endif

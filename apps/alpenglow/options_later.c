@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Rows of the table of options: what the contract names and is not built yet.
+#include "option_parts.h"
+
+#define LATER(commands_, name_, value_, instead_)                                                  \
+    {                                                                                              \
+        .id = OPTION_LATER, .commands = (commands_), .group = GROUP_LATER, .kind = KIND_TEXT,      \
+        .name = (name_), .value = (value_), .help = (instead_)                                     \
+    }
+
+static const option rows[] = {
+    LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
+    LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
+    LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
+    LATER(IN_INFO, "--pictures", "DIR", "render makes a picture"),
+};
+
+const option_part option_part_later = {rows, sizeof rows / sizeof *rows};
