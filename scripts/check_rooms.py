@@ -46,6 +46,7 @@ THIRD_PARTY = {
     r"jpeglib\.h|jerror\.h": ["src/formats"],
     r"(OpenEXR/)?openexr.*\.h": ["src/formats"],
     r"zlib\.h": ["src/formats"],
+    r"libxml/.*\.h": ["src/formats"],
     r"zstd\.h": ["src/formats"],
     r"meshoptimizer\.h": ["src/formats"],
     r"webp/.*": ["src/formats"],

@@ -26,6 +26,7 @@ build_packages="
     libpng-dev          -
     libjpeg62-turbo-dev -
     libopenexr-dev      -
+    libxml2-dev         -
     libzstd-dev         -
     libmeshoptimizer-dev -
     libdraco-dev        -

@@ -16,17 +16,14 @@ static int check_output_name(const char *path, alp_lightmap_as as)
                            path, as == ALP_LIGHTMAP_AS_THREE ? "three" : "babylon", ending);
     }
     if (path == NULL || viewer || path_ends(path, ".glb") || path_ends(path, ".gltf") ||
-        path_ends(path, ".obj")) {
+        path_ends(path, ".obj") || path_ends(path, ".dae")) {
         return EXIT_DONE;
     }
     if (path_ends(path, ".json") || path_ends(path, ".babylon")) {
         return usage_error(COMMAND_BAKE, "-o %s: needs --maps light --lightmap-as %s", path,
                            path_ends(path, ".json") ? "three" : "babylon");
     }
-    if (path_ends(path, ".dae")) {
-        return usage_error(COMMAND_BAKE, "-o %s: .dae is not built yet; write .glb or .gltf", path);
-    }
-    return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb, .gltf or .obj", path);
+    return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb, .gltf, .dae or .obj", path);
 }
 
 /// What has no meaning with values at vertices, or only with them, is refused and never ignored.

@@ -6,7 +6,7 @@
 
 static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_BAKE] =
-        {"bake", "SCENE -o OUT.glb|OUT.gltf|OUT.obj [--maps-dir DIR] [OPTIONS]",
+        {"bake", "SCENE -o OUT.glb|OUT.gltf|OUT.dae|OUT.obj [--maps-dir DIR] [OPTIONS]",
          "bake ambient occlusion into a scene", 1, command_bake,
          "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
          "open, and writes a copy of the scene with that occlusion map attached. What the bake "

@@ -67,7 +67,7 @@ completion completion_of_operand(command_id command)
         for (size_t i = 0; i < count; i++) {
             append(c.words, scenes[i], strlen(scenes[i]));
         }
-        append(c.endings, "glb gltf obj", strlen("glb gltf obj"));
+        append(c.endings, "glb gltf obj dae zae", strlen("glb gltf obj dae zae"));
     } else if (command == COMMAND_COMPARE) {
         append(c.endings, "exr hdr png jpg jpeg", strlen("exr hdr png jpg jpeg"));
     }

@@ -6,7 +6,8 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
     [COMMAND_BAKE] =
         {.failed = "A file could not be read or written, SCENE holds nothing to bake, or a "
                    "warning came under --warnings-as-errors. Nothing was written.",
-         .files = {{"OUT.glb, OUT.gltf", "SCENE with the occlusion map attached to its materials."},
+         .files = {{"OUT.glb, OUT.gltf, OUT.dae",
+                    "SCENE with the occlusion map attached to its materials."},
                    {"OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png",
                     "What an OUT.gltf refers to: geometry, what the bake adds to it, and the map's "
                     "pages."},
@@ -53,7 +54,8 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                        "alpenglow bench transport --scene scene.glb"}}},
     [COMMAND_COUNT] = {.failed =
                            "The command failed; a message on standard error says what and where.",
-                       .files = {{"*.gltf, *.glb, *.obj", "Scenes, read and written."},
+                       .files = {{"*.gltf, *.glb, *.obj, *.dae, *.zae",
+                                  "Scenes, read and written (a .zae is read)."},
                                  {"*.exr", "Maps and pictures in linear float."},
                                  {"*.png", "Maps and pictures of 8 bits."}},
                        .examples = {{"From a scene to a picture of it with its occlusion baked:",

@@ -9,10 +9,11 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "-o",
      .alias = "--output",
-     .value = "OUT.glb|OUT.gltf|OUT.obj",
+     .value = "OUT.glb|OUT.gltf|OUT.dae|OUT.obj",
      .help = "The baked scene (OUT.json, OUT.babylon: see --lightmap-as). A .gltf gets its buffers "
              "and images beside it, an .obj its .mtl and images. Without -o, "
-             "--maps-dir must be given. OUT.dae is not built yet."},
+             "--maps-dir must be given. A .dae, with its images beside it, is written where SCENE "
+             "is COLLADA."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
      .group = GROUP_OUTPUT,

@@ -250,7 +250,8 @@ typedef struct alp_bake_options {
     const char *only;
     /// Which surfaces occlude, by name as in `only`; NULL (default) = all. The others are open.
     const char *occluders;
-    /// .glb, .gltf or .obj (occlusion maps, or light as emission), or NULL: no asset
+    /// .glb, .gltf, .obj (occlusion maps, or light as emission) or, of a scene that was read from
+    /// COLLADA, .dae (the same); NULL: no asset
     const char *output;
     /// ao.exr, ao.1.exr …, ao.png, ao.error.exr (standard error of each texel) and ao.sampling.png
     /// (red traced, green interpolated), or NULL; made if missing. ALP_MAP_BENT: bent.exr and
@@ -349,7 +350,7 @@ typedef struct alp_lightmap alp_lightmap;
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
 ///         INVALID_DATA (nothing to bake, or a second UV set that cannot
-///         be kept); UNSUPPORTED (an output that is none of .glb, .gltf, .obj,
+///         be kept); UNSUPPORTED (an output that is none of .glb, .gltf, .dae, .obj,
 ///         or that has no place for what is baked); LIMIT; IO;
 ///         OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,

@@ -11,7 +11,7 @@ ALP_BEGIN_DECLS
 /// a scene run on the context it was made with: one at a time.
 typedef struct alp_scene alp_scene;
 
-/// Reads a scene file (.gltf, .glb, .obj) or makes a built-in one ("builtin:cornell",
+/// Reads a scene file (.gltf, .glb, .obj, .dae, .zae) or makes a built-in one ("builtin:cornell",
 /// "builtin:furnace", "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane",
 /// "builtin:teapot-room", "builtin:windows", "builtin:atrium", "builtin:terrain"). Two can be made
 /// of any size, to 15 %: "builtin:atrium,triangles=N", 20000 to 4000000, default 50000;

@@ -112,9 +112,15 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     } else if (o->output != NULL) {
         if (alpi_path_has_ending(o->output, ".obj")) {
             ALP_TRY(check_obj_options(job));
+        } else if (alpi_path_has_ending(o->output, ".dae")) {
+            if (o->atlas.mode == ALP_ATLAS_VERTEX) {
+                return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                                 "%s: values at vertices are not written to a .dae; write .glb",
+                                 o->output);
+            }
         } else if (!is_gltf_path(o->output)) {
             return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: only .glb, .gltf and .obj are written so far", o->output);
+                             "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
         }
         const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
         const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,

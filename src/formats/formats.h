@@ -16,6 +16,9 @@ alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const c
 /// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
 alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
+/// Reads a .dae or .zae into a scene and keeps the document with it (ALPI_ATTACHMENT_COLLADA).
+alp_result alpi_collada_read_scene(alp_context *context, const char *path, alp_scene **scene);
+
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,
@@ -52,6 +55,15 @@ typedef struct alpi_gltf_images {
 alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                    const char *path, bool overwrite);
 
+/// Writes the COLLADA document that a scene was read from, with the patch, to `path` (.dae), and
+/// the maps beside it. @return also UNSUPPORTED (another scene, values at vertices, light that is
+/// not emissive)
+alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                      const char *path, bool overwrite);
+/// Every file of it is checked before the long work.
+alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+                                      const char *path, bool overwrite);
+
 /// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
 /// triangles without area left out. Baked coordinates take the place of vt, and textures that need
 /// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd
@@ -64,7 +76,7 @@ alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch 
 alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                   const char *path, bool overwrite);
 
-/// The two for any ending that is written: .obj, else glTF.
+/// The two for any ending that is written: .obj, .dae, else glTF.
 alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                     const char *path, bool overwrite);
 alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,

@@ -5,13 +5,6 @@
 
 #include <string.h>
 
-static alp_result refuse_kind(alp_context *context, const char *path, const char *kind)
-{
-    return alpi_fail(context, ALP_ERROR_UNSUPPORTED,
-                     "%s: reading %s files is not built yet; convert it to .glb or .gltf", path,
-                     kind);
-}
-
 alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **scene)
 {
     static const char builtin[] = "builtin:";
@@ -29,7 +22,7 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
         return alpi_builtin_create(context, path + sizeof builtin - 1, scene);
     }
     if (alpi_path_has_ending(path, ".dae") || alpi_path_has_ending(path, ".zae")) {
-        return refuse_kind(context, path, "COLLADA");
+        return alpi_collada_read_scene(context, path, scene);
     }
     if (alpi_path_has_ending(path, ".obj")) {
         return alpi_obj_read_scene(context, path, scene);

@@ -15,4 +15,3 @@ for command in probes lpv ambience sh view; do
     try $command
     try $command scene.glb --help
 done
-try bake scene.glb -o out.dae

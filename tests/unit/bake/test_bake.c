@@ -192,7 +192,7 @@ static void nothing_is_overwritten_unasked(void **state)
     assert_non_null(strstr(alp_context_message(context), "ao.1."));
     options.output = test_path(folder, "no/such/folder/out.glb");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_IO);
-    options.output = test_path(folder, "out.obj");
+    options.output = test_path(folder, "out.fbx");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
     alp_scene_destroy(scene);
     alp_context_destroy(context);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Between the files that write COLLADA: a document, what is changed in its text, what is added.
+//
+//   collada_plan.c            which geometries get which coordinates and pages; what must be copied
+//   collada_patch_mesh.c      the new source, inputs, and indices of primitives
+//   collada_patch_material.c  images, effects and materials
+//   collada_patch_instance.c  instances: geometry shown, materials bound, sets bound
+//   collada_patch_text.c      pieces of XML text
+//   collada_write.c           the whole sequence, files
+#ifndef ALPI_FORMATS_COLLADA_PATCH_H
+#define ALPI_FORMATS_COLLADA_PATCH_H
+
+#include "formats/collada_read.h"
+#include "formats/collada_write.h"
+#include "formats/gltf_splice.h"
+
+/// texcoord="" of textures that a bake made is ALPI_COLLADA_BAKED_UV.
+enum { ALPI_COLLADA_SHARED = UINT32_MAX };
+
+/// A material symbol of a geometry whose triangles lie on one page.
+typedef struct alpi_collada_symbol {
+    const char *old;    // NULL: the primitive names none
+    char *name;         // in the written file
+    uint32_t page;      // ALPI_NONE: gets no map
+    uint32_t surface;   // place of a surface that uses it within those of the placement
+    uint32_t input_set; // of the coordinates that the map is read with
+} alpi_collada_symbol;
+
+/// A geometry with one set of bake coordinates, and the placements that show it so.
+typedef struct alpi_collada_class {
+    xmlNode *geometry;
+    uint32_t first_surface, surface_end; // of the placement whose coordinates these are
+    bool copied;                         // a copy of the geometry, because others show it too
+    alpi_collada_symbol *symbols;
+    uint32_t symbol_count;
+    size_t symbol_capacity;
+} alpi_collada_class;
+
+/// A material made for one page.
+typedef struct alpi_collada_made {
+    uint32_t material; // of the scene, ALPI_NONE: for primitives without one
+    uint32_t page;
+    char *id;
+} alpi_collada_made;
+
+typedef struct alpi_collada_patcher {
+    alp_context *context;
+    const alp_scene *scene;
+    const alpi_mesh_patch *patch;
+    const alpi_collada_origin *origin;
+    const alpi_collada_document *document;
+    alpi_collada_reader reader; // of primitives, once more
+    alpi_edits edits;           // of the document's text
+    char prefix[32];            // of all new ids; no id of the document holds it
+    bool is_1_5;
+
+    uint32_t *pages;           // [scene triangles] page of each, ALPI_NONE = no map
+    bool *baked;               // [surface_count]
+    uint32_t *first_surfaces;  // [placement_count + 1] surfaces stand by placement
+    uint32_t *placement_class; // [placement_count] ALPI_NONE = stays as it is
+    alpi_collada_class *classes;
+    uint32_t class_count;
+
+    uint32_t
+        *effect_pages; // [elements] 1 + the only page of an effect, SHARED = several, 0 = unused
+    bool *effect_done; // [elements] edited
+    uint32_t *effect_users; // [elements] 1 + the only material of the scene with it, or SHARED
+    alpi_collada_made *made;
+    uint32_t made_count;
+    size_t made_capacity;
+    char *const *image_names; // [page_count] files of occlusion, as the document refers to them
+    char *const *light_names; // the same of light
+    bool *page_used;          // [page_count]
+    alpi_bytes images, effects, materials; // what the libraries gain
+} alpi_collada_patcher;
+
+// --- collada_plan.c ------------------------------------------------------------------------------
+
+alp_result alpi_collada_plan(alpi_collada_patcher *patcher);
+/// The symbol of a class for the triangles of `old` on a page; made at its first use. NULL: no
+/// memory.
+alpi_collada_symbol *alpi_collada_get_symbol(alpi_collada_patcher *patcher,
+                                             alpi_collada_class *class_of, const char *old,
+                                             uint32_t page, uint32_t surface);
+
+// --- collada_patch_mesh.c ------------------------------------------------------------------------
+
+/// Edits the geometry of a class, or adds its copy behind it; fills its symbols.
+alp_result alpi_collada_patch_geometry(alpi_collada_patcher *patcher, uint32_t class_index);
+/// id of the geometry of a class in the written file, as it stands in an attribute.
+void alpi_collada_print_geometry_id(const alpi_collada_patcher *patcher, uint32_t class_index,
+                                    alpi_bytes *text);
+
+// --- collada_patch_material.c --------------------------------------------------------------------
+
+/// Which effects are used with one page only.
+alp_result alpi_collada_plan_effects(alpi_collada_patcher *patcher);
+/// id of the material that shows the map of a page on `material` (NULL: on none).
+alp_result alpi_collada_get_material(alpi_collada_patcher *patcher, uint32_t surface, uint32_t page,
+                                     const char **id);
+/// The elements of library_images.
+void alpi_collada_add_images(alpi_collada_patcher *patcher);
+
+// --- collada_patch_instance.c --------------------------------------------------------------------
+
+/// The whole text of a placement's instance as it is to be.
+alp_result alpi_collada_print_instance(alpi_collada_patcher *patcher, uint32_t placement,
+                                       alpi_bytes *text);
+/// Edits all instances; nodes that <instance_node> shows with different maps are written out.
+alp_result alpi_collada_patch_instances(alpi_collada_patcher *patcher);
+
+// --- collada_patch_text.c ------------------------------------------------------------------------
+
+static inline const alpi_xml_span *alpi_xml_span_of(const alpi_collada_document *document,
+                                                    const xmlNode *node)
+{
+    return &document->spans[alpi_xml_index(node)];
+}
+/// One past the last element inside `node`.
+uint32_t alpi_xml_end_index(const alpi_collada_document *document, const xmlNode *node);
+/// Text for an attribute or content: signs escaped, all but ASCII as numbers, whatever the
+/// encoding.
+void alpi_xml_print_text(alpi_bytes *text, const char *utf8);
+void alpi_xml_print_index(alpi_bytes *text, uint32_t value); ///< a space, then the number
+/// Inside the start tag of `node`: the value of an attribute. False without it.
+bool alpi_xml_find_value(const alpi_collada_document *document, const xmlNode *node,
+                         const char *name, alpi_json_span *value);
+/// The start tag, never closed by "/>", with an attribute set to `value`, which is escaped already.
+void alpi_xml_print_start(const alpi_collada_document *document, const xmlNode *node,
+                          const char *name, const char *value, alpi_bytes *text);
+void alpi_xml_print_end(const alpi_collada_document *document, const xmlNode *node,
+                        alpi_bytes *text);
+/// Puts text before a place of the document.
+void alpi_xml_insert(alpi_edits *edits, size_t place, const char *text);
+/// Puts text at the end of an element's content, before the child `before` where not NULL.
+void alpi_xml_append(const alpi_collada_document *document, alpi_edits *edits, const xmlNode *node,
+                     const xmlNode *before, const char *text);
+void alpi_xml_replace(const alpi_collada_document *document, alpi_edits *edits, const xmlNode *node,
+                      const char *text);
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A baked COLLADA document: of a mirrored node that is shown twice each place gets its own
+// coordinates at the right corners, and what the bake does not touch stays as it was.
+#include "test_collada.h"
+
+#include "formats/collada_read.h"
+#include "formats/formats.h"
+
+#include <stdlib.h>
+
+static const char inside[] = TEST_COLLADA_SQUARE(
+    "<polylist count='1'>" TEST_COLLADA_INPUT
+    "<vcount>4</vcount><p>0 1 2 3</p></polylist>") "<library_nodes><node id='k'><scale>1 1 "
+                                                   "-1</scale><!-- kept --><instance_geometry "
+                                                   "url='#g'/>"
+                                                   "</node></"
+                                                   "library_nodes><library_visual_scenes><visual_"
+                                                   "scene id='s'><node><instance_node "
+                                                   "url='#k'/></node><node><translate>5 0 "
+                                                   "0</translate><instance_node url='#k'/></node>"
+                                                   "</visual_scene></"
+                                                   "library_visual_scenes>" TEST_COLLADA_SCENE;
+
+static void mirrored_twice(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *old = NULL, *new = NULL;
+    ASSERT_OK(context, test_collada_scene(context, inside, &old));
+    assert_int_equal(old->triangle_count, 4);
+    float uvs[4][3][2];
+    for (int t = 0; t < 4; t++) { // by place, so that each corner of a square has its own
+        for (int k = 0; k < 3; k++) {
+            const float *p = old->positions[old->triangles[t][k]];
+            uvs[t][k][0] = p[0] / 8.0f;
+            uvs[t][k][1] = p[1] / 2.0f;
+        }
+    }
+    const uint8_t *const pngs[] = {(const uint8_t *)"x"};
+    const size_t sizes[] = {1};
+    const alpi_mesh_patch patch = {.page_count = 1,
+                                   .corner_uvs = (const float(*)[3][2])uvs,
+                                   .page_pngs = pngs,
+                                   .page_png_sizes = sizes};
+    const char *path = test_path(test_folder(), "out.dae");
+    ASSERT_OK(context, alpi_collada_write_patched(old, &patch, path, true));
+    ASSERT_OK(context, alp_scene_load(context, path, &new));
+    assert_int_equal(new->triangle_count, 4);
+    for (int t = 0; t < 4; t++) {
+        assert_true(new->surfaces[new->triangle_surface[t]].mirrored);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = new->triangles[t][k];
+            assert_memory_equal(new->positions[v], old->positions[old->triangles[t][k]], 12);
+            ASSERT_NEAR(new->uvs[0][v][0], uvs[t][k][0], 0.0); // eighths and halves are exact
+            ASSERT_NEAR(new->uvs[0][v][1], uvs[t][k][1], 0.0);
+        }
+    }
+    size_t size;
+    char *text = (char *)test_read_file(path, &size);
+    assert_non_null(strstr(text, "<node id=\"k\"><scale>1 1 -1</scale><!-- kept -->"));
+    assert_non_null(strstr(text, "<vcount>4</vcount>"));
+    free(text);
+    alp_scene_destroy(old);
+    alp_scene_destroy(new);
+    alp_context_destroy(context);
+}
+
+/// A .dae is written only of a scene that was read from one.
+static void other_scenes(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    const alpi_gltf_images images = {.occlusion = 1};
+    assert_int_equal(alpi_collada_check_outputs(scene, &images, "out.dae", false),
+                     ALP_ERROR_UNSUPPORTED);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(mirrored_twice),
+                                       cmocka_unit_test(other_scenes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
