@@ -47,16 +47,16 @@ enum {
     BACK_BYTES = 4,  // of two-sided scenes: a list, then blocks
     // Of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8.
     SIDE_BLOCK_BYTES = 64,
-    BLOCK_BYTES = 13,              // first texel 4, area 8, seen 1
+    BLOCK_BYTES = 13, // first texel 4, area 8, seen 1
     // Of those, what later rounds show again with better direct light: reflectances 12 and blocks
     // 4, which two-sided scenes have anyway; of each side of a block before 12 and skies 12.
     SHOWN_BYTES_PER_TEXEL = 12,
     SHOWN_BLOCK_BYTES_PER_TEXEL = 4,
     SHOWN_SIDE_BLOCK_BYTES = 24,
-    GATHER_BYTES = 26,             // values, states 1, marks 1
-    LEVEL_BYTES = 4,               // where those of occlusion may not be written over
-    SKY_BYTES = 12,                // a soft sky's part of the values, and of those of later rounds
-    ROUND_BYTES = 33,              // of later rounds: fresh 24, counts 4, list 4, between 1
+    GATHER_BYTES = 26, // values, states 1, marks 1
+    LEVEL_BYTES = 4,   // where those of occlusion may not be written over
+    SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds
+    ROUND_BYTES = 33,  // of later rounds: fresh 24, counts 4, list 4, between 1
     // Texels held out, with what they found in a round; and in all rounds.
     HELD_OUT_BYTES = sizeof(alpi_held_out) + ALPI_HELD_OUT * sizeof(alpi_reference_value),
     BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
@@ -147,11 +147,10 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
-    m.rounds =
-        larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
-                             HELD_OUT_BYTES +
-                             (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
-                                        : find_settled(atlas, options, sides)));
+    m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
+                                    HELD_OUT_BYTES +
+                                    (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
+                                               : find_settled(atlas, options, sides)));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts
         m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
     }
