@@ -41,7 +41,7 @@ static alp_result read_color(const alpi_collada_reader *reader, const xmlNode *e
 /// Half the diagonal of what the scene shows: the distance at which attenuation is matched.
 static double middle_distance(const alp_scene *scene)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
             const double value = (double)scene->positions[v][k];

@@ -66,7 +66,7 @@ static bool read_word(const char **at, double *value)
     static const struct {
         const char *word;
         double value;
-    } words[] = {{"INF", HUGE_VAL}, {"NaN", NAN}, {"Infinity", HUGE_VAL}};
+    } words[] = {{"INF", HUGE_VAL}, {"NaN", (double)NAN}, {"Infinity", HUGE_VAL}};
     const char *p = *at + (**at == '-' || **at == '+');
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         const size_t length = strlen(words[i].word);

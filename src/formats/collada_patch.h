@@ -14,8 +14,8 @@
 #include "formats/collada_write.h"
 #include "formats/gltf_splice.h"
 
-/// texcoord="" of textures that a bake made is ALPI_COLLADA_BAKED_UV.
-enum { ALPI_COLLADA_SHARED = UINT32_MAX };
+/// Marks what several share, in place of whose it is.
+#define ALPI_COLLADA_SHARED UINT32_MAX
 
 /// A material symbol of a geometry whose triangles lie on one page.
 typedef struct alpi_collada_symbol {

@@ -285,7 +285,7 @@ static alp_result replace_instance(alpi_collada_patcher *p, uint32_t placement)
     return result;
 }
 
-enum { MARK_EXPANDED = UINT32_MAX - 1 };
+#define MARK_EXPANDED (UINT32_MAX - 1)
 
 /// marks[instance]: 1 + its class (0: none) + 1, SHARED = several; marks[outer]: MARK_EXPANDED.
 static void mark_expansions(const alpi_collada_patcher *p, uint32_t *marks)

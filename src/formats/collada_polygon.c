@@ -165,7 +165,7 @@ static bool starts_inside(const cut *c, uint32_t at, const corner *p)
 static uint32_t edge_right_of(cut *c, uint32_t outer, const corner *m, double *x)
 {
     uint32_t best = NONE, i = outer;
-    *x = INFINITY;
+    *x = HUGE_VAL;
     do {
         const corner *a = &c->corners[i], *b = &c->corners[a->next];
         if (a->y <= m->y && b->y >= m->y && a->y != b->y) { // upwards: inside is on its left
@@ -204,7 +204,7 @@ static uint32_t visible_corner(cut *c, uint32_t outer, const corner *m)
         return found;
     }
     const bool above = p->y > m->y;
-    double best_slope = INFINITY;
+    double best_slope = HUGE_VAL;
     uint32_t i = outer;
     do { // what lies inside m, hit, p hides p: take the one nearest to the ray
         const corner *q = &c->corners[i];
@@ -276,8 +276,8 @@ static uint32_t cell_of(const cut *c, double value, int axis)
 
 static void measure_grid(cut *c, uint32_t reflex_count)
 {
-    double high[2] = {-INFINITY, -INFINITY};
-    c->low[0] = c->low[1] = INFINITY;
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
+    c->low[0] = c->low[1] = HUGE_VAL;
     for (uint32_t i = 0; i < c->count; i++) {
         const double at[2] = {c->corners[i].x, c->corners[i].y};
         for (int k = 0; k < 2; k++) {
@@ -430,7 +430,7 @@ static void clip(cut *c, uint32_t tip)
 static uint32_t choose_without_ear(cut *c, uint32_t from)
 {
     uint32_t i = from, best = from;
-    double best_turn = -INFINITY;
+    double best_turn = -HUGE_VAL;
     do {
         const corner *at = &c->corners[i];
         const double area = turn(&c->corners[at->previous], at, &c->corners[at->next]);

@@ -188,7 +188,7 @@ static void numbers(void **state)
                                         "16777217"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         const char *at = texts[i];
-        double value = NAN;
+        double value = (double)NAN;
         assert_true(alpi_text_number(&at, &value));
         assert_int_equal(*at, '\0');
         const double expected = strtod(texts[i], NULL);       // the tests run in the C locale
@@ -201,7 +201,7 @@ static void numbers(void **state)
         const double number = ldexp((double)(seed >> 11), (int)(seed % 120) - 110);
         snprintf(text, sizeof text, "%.*g", 1 + (int)(seed >> 60), number);
         const char *at = text;
-        double value = NAN;
+        double value = (double)NAN;
         assert_true(alpi_text_number(&at, &value));
         ASSERT_NEAR(value, strtod(text, NULL), 4e-16 * number);
     }
