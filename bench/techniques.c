@@ -121,13 +121,11 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
     job.options.light.lighting = *question->light;
     job.options.occlusion.seed = SEED;
     uint32_t *order = bench_allocate(receivers.count, sizeof *order);
-    alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
     alpi_light_task task = {.lighting = question->lighting,
                             .tracer = scene->tracer,
                             .receivers = &receivers,
                             .order = order,
-                            .lattice = &question->map->lattice,
-                            .values = all};
+                            .lattice = &question->map->lattice};
     const alpi_task_progress silent = {.stage = "light"};
     alpi_light_clock clock = alpi_light_clock_start(&job, &silent);
     task.progress = (alpi_task_progress){
@@ -142,10 +140,10 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
     }
     const bool good = bench_good(scene, alpi_bake_radiosity(&job, &task));
     for (uint32_t i = 0; i < question->count && good; i++) {
-        values[i] = all[question->list[i]];
+        values[i] = task.values[question->list[i]];
     }
     free(order);
-    free(all);
+    alpi_release(scene->context, task.values);
     return good;
 }
 
