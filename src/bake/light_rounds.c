@@ -386,7 +386,10 @@ static alp_result improve(rounds *r, bool *done)
 {
     const double aim = aim_of(r);
     *done = hypot(r->direct_error, r->bounced_error) <= aim;
-    const plan p = *done ? (plan){0} : cheapest(r, aim);
+    plan p = {0};
+    if (!*done) {
+        p = cheapest(r, aim);
+    }
     double direct = p.direct, rays = p.rays;
     if (direct <= 0.0 && rays <= 0.0) {
         *done = true;

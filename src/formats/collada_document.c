@@ -213,7 +213,8 @@ static alp_result match_elements(alpi_collada_document *d)
             (unsigned char)*local < 0x80) {
             break;
         }
-        node->_private = (void *)(uintptr_t)i; // an index, no address
+        // An index, no address. NOLINTNEXTLINE(performance-no-int-to-ptr)
+        node->_private = (void *)(uintptr_t)i;
         d->elements[i] = node;
     }
     return node == NULL && i == d->element_count

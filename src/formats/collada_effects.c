@@ -430,7 +430,7 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
     if (instance != NULL) {
         ALP_TRY(alpi_collada_resolve(document, instance, "url", "effect", &effect_element));
     }
-    if (effect_element == NULL) {
+    if (element == NULL || effect_element == NULL) {
         reader->without_material++;
         return ALP_OK;
     }

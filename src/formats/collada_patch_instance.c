@@ -304,7 +304,8 @@ static void mark_expansions(const alpi_collada_patcher *p, uint32_t *marks)
     }
 }
 
-static alp_result patch_placement(alpi_collada_patcher *p, uint32_t i, uint32_t *marks, bool *done)
+static alp_result patch_placement(alpi_collada_patcher *p, uint32_t i, const uint32_t *marks,
+                                  bool *done)
 {
     const alpi_collada_placement *placement = &p->origin->placements[i];
     const xmlNode *outer = placement->outer;

@@ -75,7 +75,8 @@ static uint32_t find_uv(uv_pool *pool, const float uv[2])
     hash ^= hash >> 32;
     size_t slot = (size_t)hash & (pool->size - 1);
     for (; pool->slots[slot] != ALPI_NONE; slot = (slot + 1) & (pool->size - 1)) {
-        if (memcmp(pool->uvs[pool->slots[slot]], uv, 2 * sizeof *uv) == 0) {
+        const float *other = pool->uvs[pool->slots[slot]];
+        if (other[0] == uv[0] && other[1] == uv[1]) {
             return pool->slots[slot];
         }
     }
@@ -258,7 +259,7 @@ static bool stays_whole(const work *w, const part *a, const alpi_collada_polygon
     bool whole = polygon->corner_count > 0;
     for (uint32_t t = triangle; whole && t < triangle + polygon->triangle_count; t++) {
         whole = w->patcher->pages[first + t] == page;
-        for (int k = 0; whole && k < 3 && a->corner_uvs != NULL; k++) {
+        for (int k = 0; whole && k < 3 && a->corner_uvs != NULL && a->uv_of_corner != NULL; k++) {
             whole = a->corner_uvs[t][k] == a->uv_of_corner[a->faces.triangles[t][k]];
         }
     }

@@ -235,11 +235,11 @@ static alp_result append_file(writing *w, const char *path, const void *bytes, s
 static alp_result append_files(writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
 {
     for (uint32_t i = 0; i < w->patch->page_count; i++) {
-        if (p->page_used[i] && i < w->occlusion.count) {
+        if (i < w->occlusion.count && p->page_used[i]) {
             ALP_TRY(append_file(w, w->occlusion.paths[i], w->patch->page_pngs[i],
                                 w->patch->page_png_sizes[i]));
         }
-        if (p->page_used[i] && i < w->light.count) {
+        if (i < w->light.count && p->page_used[i]) {
             ALP_TRY(append_file(w, w->light.paths[i], w->patch->light->pages[i],
                                 w->patch->light->page_sizes[i]));
         }

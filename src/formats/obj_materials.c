@@ -31,7 +31,7 @@ typedef struct reader {
 // --- paths ---------------------------------------------------------------------------------------
 
 /// Drops the last part of a path that ends in a slash; false where there is none.
-static bool climb(char *path, size_t *size)
+static bool climb(const char *path, size_t *size)
 {
     if (*size == 0) {
         return false;

@@ -133,7 +133,7 @@ static alp_result add_vertex(builder *b, const uint32_t corner[3], uint32_t *ver
 {
     const alpi_obj *o = b->obj;
     alp_scene *s = b->scene;
-    if (s->vertex_count == b->vertex_capacity) {
+    if (b->vertex_corners == NULL || s->vertex_count == b->vertex_capacity) {
         ALP_TRY(resize(b, b->vertex_capacity < 64 ? 64 : 2 * b->vertex_capacity));
     }
     const uint32_t v = *vertex = s->vertex_count++;

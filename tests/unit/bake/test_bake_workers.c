@@ -180,7 +180,7 @@ static void workers_change_no_vertex(void **state)
         const float *values = alp_lightmap_vertex_values(lightmap, 0, &count);
         assert_true(values != NULL && count > 0);
         if (first == NULL) {
-            first = malloc(count * sizeof *first);
+            first = malloc(((size_t)count + 1) * sizeof *first);
             assert_non_null(first);
             memcpy(first, values, count * sizeof *first);
         }

@@ -153,15 +153,15 @@ static void every_map_of_every_page_comes_back(void **state)
 {
     (void)state;
     static const struct {
-        alp_map map;
         const char *name;
+        alp_map map;
         bool is_signed;
-    } maps[] = {{ALP_MAP_AO, "ao", false},
-                {ALP_MAP_LIGHT, "irradiance", false},
-                {ALP_MAP_DIRECT, "irradiance.direct", false},
-                {ALP_MAP_BOUNCED, "irradiance.bounced", false},
-                {ALP_MAP_BENT, "bent", true},
-                {ALP_MAP_DIRECTION, "direction", true}};
+    } maps[] = {{"ao", ALP_MAP_AO, false},
+                {"irradiance", ALP_MAP_LIGHT, false},
+                {"irradiance.direct", ALP_MAP_DIRECT, false},
+                {"irradiance.bounced", ALP_MAP_BOUNCED, false},
+                {"bent", ALP_MAP_BENT, true},
+                {"direction", ALP_MAP_DIRECTION, true}};
     for (int format = 0; format < FORMATS; format++) {
         const char *folder = test_folder();
         const unsigned with_signs =
@@ -260,15 +260,15 @@ static void what_a_format_cannot_hold_is_refused(void **state)
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
     const char *folder = test_path(test_folder(), "none");
     const struct {
-        unsigned maps;
         const char *folder;
+        unsigned maps;
         int format;
-    } bad[] = {{ALP_MAP_AO | ALP_MAP_BENT, folder, ALP_MAPS_HDR},
-               {ALP_MAP_LIGHT | ALP_MAP_SH, folder, ALP_MAPS_HDR},
-               {ALP_MAP_LIGHT | ALP_MAP_DIRECTION, folder, ALP_MAPS_HDR},
-               {ALP_MAP_AO, NULL, ALP_MAPS_KTX2},
-               {ALP_MAP_AO, folder, FORMATS},
-               {ALP_MAP_AO, folder, -1}};
+    } bad[] = {{folder, ALP_MAP_AO | ALP_MAP_BENT, ALP_MAPS_HDR},
+               {folder, ALP_MAP_LIGHT | ALP_MAP_SH, ALP_MAPS_HDR},
+               {folder, ALP_MAP_LIGHT | ALP_MAP_DIRECTION, ALP_MAPS_HDR},
+               {NULL, ALP_MAP_AO, ALP_MAPS_KTX2},
+               {folder, ALP_MAP_AO, FORMATS},
+               {folder, ALP_MAP_AO, -1}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         const alp_bake_options o =
             options_of(bad[i].maps, bad[i].folder, (alp_maps_format)bad[i].format);

@@ -18,7 +18,8 @@ static void compare(const char *text)
     if (alpi_decimal_double(text, end, &d) != end || alpi_decimal_float(text, end, &f) != end) {
         fail_msg("\"%s\" is not read to its end", text);
     }
-    if (memcmp(&d, &wanted, sizeof d) != 0 || memcmp(&f, &wanted_float, sizeof f) != 0) {
+    if (d != wanted || signbit(d) != signbit(wanted) || f != wanted_float ||
+        signbit(f) != signbit(wanted_float)) {
         fail_msg("\"%s\": %.17g and %.9g, not %.17g and %.9g", text, d, (double)f, wanted,
                  (double)wanted_float);
     }

@@ -138,7 +138,7 @@ static void wave_vertex(wave *w, int sheet, int i, int j)
     double height = 0.125 * (1.0 - cos(12.0 * a) * cos(9.0 * b)) * 0.5;
     double slope_a = 0.0625 * 12.0 * sin(12.0 * a) * cos(9.0 * b);
     double slope_b = 0.0625 * 9.0 * cos(12.0 * a) * sin(9.0 * b);
-    double n[3] = {sheet ? 0.0 : -slope_a, sheet ? 0.0 : 1.0, sheet ? 1.0 : -slope_b};
+    const double n[3] = {sheet ? 0.0 : -slope_a, sheet ? 0.0 : 1.0, sheet ? 1.0 : -slope_b};
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     w->positions[v][0] = on_grid(a);
     w->positions[v][1] = on_grid(sheet ? b : height);

@@ -72,7 +72,9 @@ static bool same_triangle(const alp_scene *a, const alp_scene *b, uint32_t t)
     for (int turn = 0; turn < 3; turn++) {
         bool same = true;
         for (int k = 0; k < 3; k++) {
-            same &= memcmp(&one[k], &two[(k + turn) % 3], sizeof one[k]) == 0;
+            const vec3 a_corner = one[k], b_corner = two[(k + turn) % 3];
+            same = same && a_corner.x == b_corner.x && a_corner.y == b_corner.y &&
+                   a_corner.z == b_corner.z;
         }
         if (same) {
             return true;
