@@ -110,7 +110,9 @@ static void what_is_told_to_do_does(void **state)
         bake_within(&cases[i], 0.98 * need, &below);
         assert_true(told_need(&below) * 0x1p20 == need);
         free(free_one.page);
+        free(refused.page);
         free(least.page);
+        free(below.page);
     }
 }
 
