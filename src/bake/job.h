@@ -3,6 +3,7 @@
 #ifndef ALPI_BAKE_JOB_H
 #define ALPI_BAKE_JOB_H
 
+#include "base/file_set.h"
 #include "maps/light_layers.h"
 #include "maps/lightmap.h"
 #include "maps/validity.h"
@@ -151,7 +152,8 @@ uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_sce
 bool alpi_bake_is_viewer_file(const alp_bake_options *options);
 /// Its ending, and that all its files can be written.
 alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages);
-alp_result alpi_bake_write_viewer_file(const alpi_bake_job *job);
+/// It, and the pictures that it names.
+alp_result alpi_bake_add_viewer_file(const alpi_bake_job *job, alpi_file_set *files);
 /// ".png", ".ktx2" …
 const char *alpi_bake_light_ending(const alp_bake_options *options);
 /// "irradiance" …

@@ -40,13 +40,8 @@ alp_result alpi_bake_check_layer_files(const alpi_bake_job *job, uint32_t pages)
     return ALP_OK;
 }
 
-uint32_t alpi_bake_layer_file_count(const alpi_bake_job *job)
-{
-    return is_written(job) ? job->layers.light.count * job->lightmap->page_count : 0;
-}
-
-static alp_result append_page(const alpi_bake_job *job, uint32_t layer, uint32_t page,
-                              alpi_file_writer *writer)
+static alp_result add_page(const alpi_bake_job *job, uint32_t layer, uint32_t page,
+                           alpi_file_set *files)
 {
     const alp_lightmap *l = job->lightmap;
     const alp_image view = {.context = job->context,
@@ -59,21 +54,19 @@ static alp_result append_page(const alpi_bake_job *job, uint32_t layer, uint32_t
     }
     alp_result result = alpi_bake_encode_map(job, &view, job->layers.names[layer], page, &file);
     if (result == ALP_OK) {
-        result = alpi_file_open(job->context, path, job->options.overwrite, writer);
-    }
-    if (result == ALP_OK) {
-        result = alpi_file_append(writer, file.bytes, file.size);
+        result = alpi_file_set_add(files, path, file.bytes, file.size);
     }
     alpi_release(job->context, file.bytes);
     alpi_release(job->context, path);
     return result;
 }
 
-alp_result alpi_bake_append_layers(const alpi_bake_job *job, alpi_file_writer *writers)
+alp_result alpi_bake_add_layers(const alpi_bake_job *job, alpi_file_set *files)
 {
-    const uint32_t pages = job->lightmap->page_count, count = alpi_bake_layer_file_count(job);
+    const uint32_t pages = job->lightmap->page_count;
+    const uint32_t count = is_written(job) ? job->layers.light.count * pages : 0;
     for (uint32_t i = 0; i < count; i++) {
-        ALP_TRY(append_page(job, i / pages, i % pages, &writers[i]));
+        ALP_TRY(add_page(job, i / pages, i % pages, files));
     }
     return ALP_OK;
 }

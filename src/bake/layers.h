@@ -38,8 +38,7 @@ alp_result alpi_bake_store_layers(alpi_bake_job *job);
 
 /// Fails if a file of theirs could not be written.
 alp_result alpi_bake_check_layer_files(const alpi_bake_job *job, uint32_t pages);
-/// Files of theirs that go to the maps folder, and these, to their temporary places.
-uint32_t alpi_bake_layer_file_count(const alpi_bake_job *job);
-alp_result alpi_bake_append_layers(const alpi_bake_job *job, alpi_file_writer *writers);
+/// Their files of the maps folder.
+alp_result alpi_bake_add_layers(const alpi_bake_job *job, alpi_file_set *files);
 
 #endif

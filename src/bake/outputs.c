@@ -372,30 +372,25 @@ static alp_result encode_page(const alpi_bake_job *job, uint32_t page, encoded_p
     return ALP_OK;
 }
 
-static alp_result append_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
-                             const encoded_page *encoded, alpi_file_writer *writer)
+static alp_result add_map(const alpi_bake_job *job, uint32_t page, map_kind kind,
+                          const alpi_map_file *encoded, alpi_file_set *files)
 {
     char *path = map_path(job, page, kind);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alp_result result = alpi_file_open(job->context, path, job->options.overwrite, writer);
-    if (result == ALP_OK) {
-        result = alpi_file_append(writer, encoded->files[kind].bytes, encoded->files[kind].size);
-    }
+    alp_result result = alpi_file_set_add(files, path, encoded->bytes, encoded->size);
     alpi_release(job->context, path);
     return result;
 }
 
-/// Writes every map to its temporary file; the caller commits or abandons the writers.
-static alp_result append_maps(const alpi_bake_job *job, const encoded_page *pages,
-                              alpi_file_writer *writers)
+static alp_result add_maps(const alpi_bake_job *job, const encoded_page *pages,
+                           alpi_file_set *files)
 {
     for (uint32_t p = 0; p < job->lightmap->page_count; p++) {
         for (int kind = 0; kind < MAP_COUNT; kind++) {
             if (is_written(&job->options, kind)) {
-                ALP_TRY(append_map(job, p, (map_kind)kind, &pages[p],
-                                   &writers[MAP_COUNT * p + (uint32_t)kind]));
+                ALP_TRY(add_map(job, p, (map_kind)kind, &pages[p].files[kind], files));
             }
         }
     }
@@ -409,7 +404,8 @@ static alpi_light_form light_form(alp_lightmap_as as)
                                           : ALPI_LIGHT_FORM_EMISSIVE;
 }
 
-static alp_result write_asset(const alpi_bake_job *job, const encoded_page *pages)
+static alp_result add_asset(const alpi_bake_job *job, const encoded_page *pages,
+                            alpi_file_set *files)
 {
     uint32_t count = job->lightmap->page_count;
     const uint8_t **pngs = ALPI_NEW(job->context, const uint8_t *, count);
@@ -453,8 +449,7 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
             .occlusion_strength = 1.0f,
             .extras_json = extras,
         };
-        result = alpi_scene_write_patched(job->scene, &patch, job->options.output,
-                                          job->options.overwrite);
+        result = alpi_scene_add_patched(job->scene, &patch, job->options.output, files);
     }
     alpi_release(job->context, pngs);
     alpi_release(job->context, sizes);
@@ -463,34 +458,23 @@ static alp_result write_asset(const alpi_bake_job *job, const encoded_page *page
     return result;
 }
 
-/// All maps to temporary files, then the asset, then the maps to their places.
+static alp_result add_files(const alpi_bake_job *job, const encoded_page *pages,
+                            alpi_file_set *files)
+{
+    ALP_TRY(add_maps(job, pages, files));
+    ALP_TRY(alpi_bake_add_layers(job, files));
+    if (job->options.output == NULL) {
+        return ALP_OK;
+    }
+    return alpi_bake_is_viewer_file(&job->options) ? alpi_bake_add_viewer_file(job, files)
+                                                   : add_asset(job, pages, files);
+}
+
+/// All of them beside their places, then all to their places.
 static alp_result write_files(const alpi_bake_job *job, const encoded_page *pages)
 {
-    const uint32_t maps = job->options.maps_folder ? MAP_COUNT * job->lightmap->page_count : 0;
-    const uint32_t count = maps + alpi_bake_layer_file_count(job);
-    alpi_file_writer *writers = ALPI_NEW(job->context, alpi_file_writer, count);
-    if (writers == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        writers[i] = (alpi_file_writer){.context = job->context, .descriptor = -1};
-    }
-    alp_result result = maps > 0 ? append_maps(job, pages, writers) : ALP_OK;
-    if (result == ALP_OK) {
-        result = alpi_bake_append_layers(job, writers + maps);
-    }
-    if (result == ALP_OK && job->options.output != NULL) {
-        result = alpi_bake_is_viewer_file(&job->options) ? alpi_bake_write_viewer_file(job)
-                                                         : write_asset(job, pages);
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        if (result == ALP_OK && writers[i].path != NULL) { // one that was opened
-            result = alpi_file_commit(&writers[i]);
-        }
-        alpi_file_abandon(&writers[i]);
-    }
-    alpi_release(job->context, writers);
-    return result;
+    alpi_file_set files = alpi_file_set_create(job->context, job->options.overwrite);
+    return alpi_file_set_end(&files, add_files(job, pages, &files));
 }
 
 alp_result alpi_bake_write_outputs(alpi_bake_job *job)

@@ -275,7 +275,7 @@ static alp_result write_asset(const alpi_bake_job *job)
         .extras_json = extras,
     };
     alp_result result =
-        alpi_gltf_write_patched(job->scene, &patch, job->options.output, job->options.overwrite);
+        alpi_scene_write_patched(job->scene, &patch, job->options.output, job->options.overwrite);
     alpi_release(job->context, extras);
     return result;
 }

@@ -66,28 +66,20 @@ static alpi_light_pages light_pages(const alpi_bake_job *job)
                               .irradiance_per_unit = 1.0f};
 }
 
-/// To its temporary file.
-static alp_result append_file(const alpi_bake_job *job, const char *path, const uint8_t *bytes,
-                              size_t size, alpi_file_writer *writer)
-{
-    ALP_TRY(alpi_file_open(job->context, path, job->options.overwrite, writer));
-    return alpi_file_append(writer, bytes, size);
-}
-
-static alp_result append_page(const alpi_bake_job *job, const alpi_light_pages *light,
-                              uint32_t page, const char *path, alpi_file_writer *writer)
+static alp_result add_page(const alpi_bake_job *job, const alpi_light_pages *light, uint32_t page,
+                           const char *path, alpi_file_set *files)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
     ALP_TRY(alpi_babylon_encode_page(job->scene, light, page, &bytes, &size));
-    const alp_result result = append_file(job, path, bytes, size, writer);
+    const alp_result result = alpi_file_set_add(files, path, bytes, size);
     alpi_release(job->context, bytes);
     return result;
 }
 
-/// @param writers [pages + 1] out: of the pictures, and of the file that names them last
-static alp_result append_all(const alpi_bake_job *job, char **paths, const char **names,
-                             alpi_file_writer *writers)
+/// The pictures, and the file that names them last.
+static alp_result add_all(const alpi_bake_job *job, char **paths, const char **names,
+                          alpi_file_set *files)
 {
     const alp_bake_options *o = &job->options;
     const alpi_light_pages light = light_pages(job);
@@ -105,45 +97,23 @@ static alp_result append_all(const alpi_bake_job *job, char **paths, const char 
                 : alpi_babylon_encode(job->scene, &light, names, &bytes, &size));
     alp_result result = ALP_OK;
     for (uint32_t p = 0; p < beside_count(o, light.page_count) && result == ALP_OK; p++) {
-        result = append_page(job, &light, p, paths[p], &writers[p]);
+        result = add_page(job, &light, p, paths[p], files);
     }
     if (result == ALP_OK) {
-        result = append_file(job, o->output, bytes, size, &writers[light.page_count]);
+        result = alpi_file_set_add(files, o->output, bytes, size);
     }
     alpi_release(job->context, bytes);
     return result;
 }
 
-/// Nothing appears at its place before everything is encoded.
-static alp_result write_all(const alpi_bake_job *job, char **paths, const char **names)
-{
-    const uint32_t count = job->lightmap->page_count + 1;
-    alpi_file_writer *writers = ALPI_NEW(job->context, alpi_file_writer, count);
-    if (writers == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        writers[i] = (alpi_file_writer){.context = job->context, .descriptor = -1};
-    }
-    alp_result result = append_all(job, paths, names, writers);
-    for (uint32_t i = 0; i < count; i++) {
-        if (result == ALP_OK && writers[i].path != NULL) { // one that was opened
-            result = alpi_file_commit(&writers[i]);
-        }
-        alpi_file_abandon(&writers[i]);
-    }
-    alpi_release(job->context, writers);
-    return result;
-}
-
-alp_result alpi_bake_write_viewer_file(const alpi_bake_job *job)
+alp_result alpi_bake_add_viewer_file(const alpi_bake_job *job, alpi_file_set *files)
 {
     const uint32_t pages = job->lightmap->page_count;
     char **paths = ALPI_NEW(job->context, char *, pages);
     const char **names = ALPI_NEW(job->context, const char *, pages);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (paths != NULL && names != NULL) {
-        result = write_all(job, paths, names);
+        result = add_all(job, paths, names, files);
     }
     for (uint32_t p = 0; paths != NULL && p < pages; p++) {
         alpi_release(job->context, paths[p]);

@@ -14,7 +14,9 @@
 
 enum {
     NAME_LIMIT = 1000, // temporary names tried
-    PIECE = 1 << 22    // bytes written between two questions whether to go on
+    PIECE = 1 << 22,   // bytes written between two questions whether to go on
+    LINK_LIMIT = 40,   // links to links, as many as Linux follows
+    LINK_SIZE = 4096   // bytes of what a link names
 };
 
 static alp_result fail_io(alp_context *context, const char *verb, const char *path)
@@ -96,6 +98,57 @@ bool alpi_path_has_ending(const char *path, const char *ending)
     return length >= wanted && strcasecmp(path + length - wanted, ending) == 0;
 }
 
+/// What the link `path` names, from the working folder.
+static alp_result read_link(alp_context *context, const char *path, char **target)
+{
+    char text[LINK_SIZE];
+    const ssize_t length = readlink(path, text, sizeof text);
+    if (length < 0 || (size_t)length == sizeof text) {
+        errno = length < 0 ? errno : ENAMETOOLONG;
+        return fail_io(context, "follow the link", path);
+    }
+    char *folder = alpi_path_folder(context, path);
+    if (folder != NULL) {
+        *target = alpi_format(context, "%s%.*s", text[0] == '/' ? "" : folder, (int)length, text);
+    }
+    alpi_release(context, folder);
+    return folder == NULL || *target == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+alp_result alpi_path_follow(alp_context *context, const char *path, char **end)
+{
+    struct stat status;
+    *end = alpi_copy_string(context, path);
+    for (int links = 0; *end != NULL; links++) {
+        if (lstat(*end, &status) != 0 || !S_ISLNK(status.st_mode)) {
+            return ALP_OK;
+        }
+        char *next = NULL;
+        errno = ELOOP;
+        alp_result result = links < LINK_LIMIT ? read_link(context, *end, &next)
+                                               : fail_io(context, "follow the link", path);
+        alpi_release(context, *end);
+        *end = next;
+        ALP_TRY(result);
+    }
+    return ALP_ERROR_OUT_OF_MEMORY;
+}
+
+static alp_result check_folder(alp_context *context, const char *path)
+{
+    char *end = NULL;
+    ALP_TRY(alpi_path_follow(context, path, &end));
+    char *folder = alpi_path_folder(context, end);
+    alp_result result = folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+    if (folder != NULL && access(folder[0] ? folder : ".", W_OK | X_OK) != 0) {
+        result = alpi_fail(context, ALP_ERROR_IO, "%s: its folder cannot be written: %s", path,
+                           strerror(errno));
+    }
+    alpi_release(context, folder);
+    alpi_release(context, end);
+    return result;
+}
+
 alp_result alpi_file_check_writable(alp_context *context, const char *path, bool overwrite)
 {
     struct stat status;
@@ -116,17 +169,7 @@ alp_result alpi_file_check_writable(alp_context *context, const char *path, bool
                              path);
         }
     }
-    char *folder = alpi_path_folder(context, path);
-    if (folder == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    alp_result result = ALP_OK;
-    if (access(folder[0] ? folder : ".", W_OK | X_OK) != 0) {
-        result = alpi_fail(context, ALP_ERROR_IO, "%s: its folder cannot be written: %s", path,
-                           strerror(errno));
-    }
-    alpi_release(context, folder);
-    return result;
+    return check_folder(context, path);
 }
 
 /// Opens a temporary file beside the final place, under the first name that is free.
@@ -159,8 +202,10 @@ alp_result alpi_file_open(alp_context *context, const char *path, bool overwrite
 {
     *writer = (alpi_file_writer){.context = context, .descriptor = -1, .overwrite = overwrite};
     ALP_TRY(alpi_file_check_writable(context, path, overwrite));
-    writer->path = alpi_copy_string(context, path);
-    alp_result result = writer->path ? open_temporary(writer) : ALP_ERROR_OUT_OF_MEMORY;
+    alp_result result = alpi_path_follow(context, path, &writer->path);
+    if (result == ALP_OK) {
+        result = open_temporary(writer);
+    }
     if (result != ALP_OK) {
         alpi_file_abandon(writer);
     }
@@ -186,7 +231,7 @@ alp_result alpi_file_append(alpi_file_writer *writer, const void *bytes, size_t 
     return ALP_OK;
 }
 
-alp_result alpi_file_commit(alpi_file_writer *writer)
+alp_result alpi_file_finish(alpi_file_writer *writer)
 {
     alp_result result = ALP_OK;
     if (fsync(writer->descriptor) != 0 && errno != EINVAL) {
@@ -196,16 +241,28 @@ alp_result alpi_file_commit(alpi_file_writer *writer)
         result = fail_io(writer->context, "write", writer->path);
     }
     writer->descriptor = -1;
-    if (result == ALP_OK && !writer->overwrite && access(writer->path, F_OK) == 0) {
-        result = alpi_fail(writer->context, ALP_ERROR_IO,
-                           "%s: appeared while we worked and would be overwritten", writer->path);
+    return result;
+}
+
+alp_result alpi_file_place(alpi_file_writer *writer)
+{
+    if (!writer->overwrite && access(writer->path, F_OK) == 0) {
+        return alpi_fail(writer->context, ALP_ERROR_IO,
+                         "%s: appeared while we worked and would be overwritten", writer->path);
     }
-    if (result == ALP_OK && rename(writer->temporary, writer->path) != 0) {
-        result = fail_io(writer->context, "rename to", writer->path);
+    if (rename(writer->temporary, writer->path) != 0) {
+        return fail_io(writer->context, "rename to", writer->path);
     }
+    alpi_release(writer->context, writer->temporary);
+    writer->temporary = NULL;
+    return ALP_OK;
+}
+
+alp_result alpi_file_commit(alpi_file_writer *writer)
+{
+    alp_result result = alpi_file_finish(writer);
     if (result == ALP_OK) {
-        alpi_release(writer->context, writer->temporary);
-        writer->temporary = NULL;
+        result = alpi_file_place(writer);
     }
     alpi_file_abandon(writer);
     return result;

@@ -218,57 +218,34 @@ typedef struct writing {
     alp_context *context;
     const alpi_mesh_patch *patch;
     const char *path;
-    bool overwrite;
     image_files occlusion, light;
-    alpi_file_writer *writers;
-    uint32_t writer_count;
+    alpi_file_set *files;
 } writing;
 
-static alp_result append_file(writing *w, const char *path, const void *bytes, size_t size)
-{
-    alpi_file_writer *writer = &w->writers[w->writer_count];
-    ALP_TRY(alpi_file_open(w->context, path, w->overwrite, writer));
-    w->writer_count++;
-    return alpi_file_append(writer, bytes, size);
-}
-
-static alp_result append_files(writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
+static alp_result add_files(const writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
 {
     for (uint32_t i = 0; i < w->patch->page_count; i++) {
         if (i < w->occlusion.count && p->page_used[i]) {
-            ALP_TRY(append_file(w, w->occlusion.paths[i], w->patch->page_pngs[i],
-                                w->patch->page_png_sizes[i]));
+            ALP_TRY(alpi_file_set_add(w->files, w->occlusion.paths[i], w->patch->page_pngs[i],
+                                      w->patch->page_png_sizes[i]));
         }
         if (i < w->light.count && p->page_used[i]) {
-            ALP_TRY(append_file(w, w->light.paths[i], w->patch->light->pages[i],
-                                w->patch->light->page_sizes[i]));
+            ALP_TRY(alpi_file_set_add(w->files, w->light.paths[i], w->patch->light->pages[i],
+                                      w->patch->light->page_sizes[i]));
         }
     }
-    return append_file(w, w->path, text->bytes, text->size);
-}
-
-/// Nothing is renamed before the last byte of the last file is on its way to the disk.
-static alp_result write_files(writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
-{
-    const uint32_t most = 2 * w->patch->page_count + 1;
-    ALPI_TRY_NEW(w->context, w->writers, most);
-    alp_result result = append_files(w, p, text);
-    for (uint32_t i = 0; i < w->writer_count; i++) {
-        if (result == ALP_OK) {
-            result = alpi_file_commit(&w->writers[i]);
-        }
-        alpi_file_abandon(&w->writers[i]);
-    }
-    alpi_release(w->context, w->writers);
-    return result;
+    return alpi_file_set_add(w->files, w->path, text->bytes, text->size);
 }
 
 /// Images that the document names by relative paths stay where they are.
-static void tell_of_images(const alpi_collada_patcher *p, const char *path)
+static alp_result tell_of_images(const alpi_collada_patcher *p, const char *path)
 {
     const alpi_collada_document *d = p->document;
     char *folder = alpi_path_folder(p->context, path);
-    const bool moved = folder != NULL && strcmp(folder, d->folder) != 0;
+    if (folder == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const bool moved = strcmp(folder, d->folder) != 0;
     alpi_release(p->context, folder);
     const xmlNode *image = alpi_xml_child(alpi_xml_child(d->root, "library_images"), "image");
     if (image != NULL && (moved || d->archive != NULL)) {
@@ -276,6 +253,7 @@ static void tell_of_images(const alpi_collada_patcher *p, const char *path)
                   "names images %s, which are not copied: put them beside it",
                   d->archive != NULL ? "of the archive" : "of the folder that it was read from");
     }
+    return ALP_OK;
 }
 
 static alp_result patch_and_write(writing *w, const alp_scene *scene)
@@ -304,8 +282,10 @@ static alp_result patch_and_write(writing *w, const alp_scene *scene)
         result = print_document(&p, &text);
     }
     if (result == ALP_OK) {
-        tell_of_images(&p, w->path);
-        result = write_files(w, &p, &text);
+        result = tell_of_images(&p, w->path);
+    }
+    if (result == ALP_OK) {
+        result = add_files(w, &p, &text);
     }
     alpi_bytes_destroy(&text);
     patcher_destroy(&p);
@@ -350,8 +330,8 @@ alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_im
     return ALP_OK;
 }
 
-alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                      const char *path, bool overwrite)
+alp_result alpi_collada_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                    const char *path, alpi_file_set *files)
 {
     alp_context *context = scene->context;
     ALP_TRY(check_request(scene, path));
@@ -362,7 +342,7 @@ alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_pa
                          "write .glb",
                          path);
     }
-    writing w = {.context = context, .patch = patch, .path = path, .overwrite = overwrite};
+    writing w = {.context = context, .patch = patch, .path = path, .files = files};
     const uint32_t count = patch->page_count;
     alp_result result =
         name_files(context, path, "ao", patch->page_pngs != NULL ? count : 0, &w.occlusion);

@@ -511,9 +511,12 @@ static alp_result encode_source(const exr_source *source, uint8_t **bytes, size_
         if (stream.cancelled) {
             return ALP_ERROR_CANCELLED; // the message says so
         }
-        bool memory = code == EXR_ERR_OUT_OF_MEMORY || stream.out_of_memory;
-        return alpi_fail(context, memory ? ALP_ERROR_OUT_OF_MEMORY : ALP_ERROR_IO,
-                         "writing an EXR image: %s",
+        if (code == EXR_ERR_OUT_OF_MEMORY || stream.out_of_memory) {
+            return alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY,
+                             "out of memory: writing an EXR image of %u x %u pixels",
+                             source->image->info.width, source->image->info.height);
+        }
+        return alpi_fail(context, ALP_ERROR_IO, "writing an EXR image: %s",
                          stream.message[0] ? stream.message : exr_get_default_error_message(code));
     }
     *bytes = alpi_reallocate(context, stream.output, stream.size, 1); // held till all is written

@@ -3,6 +3,7 @@
 #ifndef ALPI_FORMATS_FORMATS_H
 #define ALPI_FORMATS_FORMATS_H
 
+#include "base/file_set.h"
 #include "base/image.h"
 #include "scene/mesh_patch.h"
 #include "scene/scene.h"
@@ -36,12 +37,11 @@ alp_result alpi_gltf_image_source(const alp_scene *scene, uint32_t image,
                                   alpi_image_source *source);
 
 /// Writes the scene's document with the patch to `path` (.glb or .gltf by its ending). A scene that
-/// came from no file is first exported to glTF. Nothing is overwritten unless asked; every file is
-/// written to a temporary one and renamed.
-alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                   const char *path, bool overwrite);
+/// came from no file is first exported to glTF. Its files are added to a set, the asset last.
+alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                 const char *path, alpi_file_set *files);
 
-/// Every file that alpi_gltf_write_patched would make for `path` is checked before the long work:
+/// Every file that alpi_gltf_add_patched would make for `path` is checked before the long work:
 /// writable, not there already unless overwrite.
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite);
@@ -58,8 +58,8 @@ alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_image
 /// Writes the COLLADA document that a scene was read from, with the patch, to `path` (.dae), and
 /// the maps beside it. @return also UNSUPPORTED (another scene, values at vertices, light that is
 /// not emissive)
-alp_result alpi_collada_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                      const char *path, bool overwrite);
+alp_result alpi_collada_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                    const char *path, alpi_file_set *files);
 /// Every file of it is checked before the long work.
 alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                       const char *path, bool overwrite);
@@ -68,15 +68,17 @@ alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_im
 /// triangles without area left out. Baked coordinates take the place of vt, and textures that need
 /// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd
 /// where that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed
-/// images are UNSUPPORTED). Nothing is overwritten unless asked; all files are put in place
-/// together.
-alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                  const char *path, bool overwrite);
+/// images are UNSUPPORTED).
+alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                const char *path, alpi_file_set *files);
 /// Every file that it would make is checked before the long work.
 alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
                                   const char *path, bool overwrite);
 
-/// The two for any ending that is written: .obj, .dae, else glTF.
+/// The same for any ending that is written: .obj, .dae, else glTF.
+alp_result alpi_scene_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                  const char *path, alpi_file_set *files);
+/// As a set of its own: all files are put in place together.
 alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                     const char *path, bool overwrite);
 alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,

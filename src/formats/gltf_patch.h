@@ -253,7 +253,7 @@ void alpi_gltf_split_destroy(alp_context *context, alpi_gltf_split *split);
 
 // --- containers ----------------------------------------------------------------------------------
 
-/// Files to be written, all or none.
+/// Files to be written.
 typedef struct alpi_gltf_file {
     char *path;
     const uint8_t *bytes;
@@ -269,8 +269,7 @@ typedef struct alpi_gltf_files {
 /// Takes over path and owned, also on failure.
 alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file);
 void alpi_gltf_files_destroy(alpi_gltf_files *files);
-/// Writes them: nothing is renamed before the last byte of the last file is on its way to the disk.
-alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite);
+alp_result alpi_gltf_files_add_to(const alpi_gltf_files *files, alpi_file_set *set);
 
 /// Names of the files beside a written .gltf, chosen so that none is one which the document uses.
 typedef struct alpi_gltf_names {

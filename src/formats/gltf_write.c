@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a patched document: collects the bytes of every file first, writes temporary files, and
-// renames them at the end, the asset itself last.
+// Writes a patched document: collects the bytes of every file first, then adds them to the files
+// that are put in their places together, the asset itself last.
 #include "formats/formats.h"
 
 #include "base/file.h"
@@ -40,34 +40,13 @@ void alpi_gltf_files_destroy(alpi_gltf_files *files)
     *files = (alpi_gltf_files){.context = files->context};
 }
 
-static alp_result open_files(const alpi_gltf_files *files, bool overwrite,
-                             alpi_file_writer *writers, size_t *opened)
+alp_result alpi_gltf_files_add_to(const alpi_gltf_files *files, alpi_file_set *set)
 {
     for (size_t i = 0; i < files->count; i++) {
         const alpi_gltf_file *file = &files->items[i];
-        ALP_TRY(alpi_file_open(files->context, file->path, overwrite, &writers[i]));
-        *opened = i + 1;
-        ALP_TRY(alpi_file_append(&writers[i], file->bytes, file->size));
+        ALP_TRY(alpi_file_set_add(set, file->path, file->bytes, file->size));
     }
     return ALP_OK;
-}
-
-alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite)
-{
-    alpi_file_writer *writers = ALPI_NEW(files->context, alpi_file_writer, files->count);
-    if (writers == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    size_t opened = 0, committed = 0;
-    alp_result result = open_files(files, overwrite, writers, &opened);
-    while (result == ALP_OK && committed < opened) {
-        result = alpi_file_commit(&writers[committed++]);
-    }
-    for (size_t i = committed; i < opened; i++) {
-        alpi_file_abandon(&writers[i]);
-    }
-    alpi_release(files->context, writers);
-    return result;
 }
 
 // --- files that the asset refers to --------------------------------------------------------------
@@ -80,16 +59,20 @@ static bool same_folder(const char *a, const char *b)
            first.st_ino == second.st_ino;
 }
 
-/// Whether a file holds exactly these bytes.
-static bool file_equals(alp_context *context, const char *path, const uint8_t *bytes, size_t size)
+/// Whether a file holds exactly these bytes; one that cannot be read does not.
+static alp_result compare_file(alp_context *context, const char *path, const uint8_t *bytes,
+                               size_t size, bool *same)
 {
     uint8_t *there = NULL;
     size_t there_size = 0;
-    bool same = access(path, F_OK) == 0 &&
-                alpi_file_read(context, path, size, &there, &there_size) == ALP_OK &&
-                there_size == size && memcmp(there, bytes, size) == 0;
+    *same = false;
+    if (access(path, F_OK) != 0) {
+        return ALP_OK;
+    }
+    const alp_result result = alpi_file_read(context, path, size, &there, &there_size);
+    *same = result == ALP_OK && there_size == size && memcmp(there, bytes, size) == 0;
     alpi_release(context, there);
-    return same;
+    return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
 }
 
 /// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
@@ -100,19 +83,21 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
     size_t size = 0;
     alp_result result = alpi_file_read(files->context, source, ALPI_GLTF_FILE_LIMIT, &bytes, &size);
     if (result != ALP_OK) {
-        alpi_note(files->context, "missing-file", source,
+        alpi_warn(files->context, "missing-file", source,
                   "the asset refers to it, but it cannot be read: the copy will miss it too");
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
     char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
-    bool repeated = path != NULL && file_equals(files->context, path, bytes, size);
-    for (size_t i = 0; path != NULL && i < files->count; i++) {
+    bool repeated = false;
+    result = path == NULL ? ALP_ERROR_OUT_OF_MEMORY
+                          : compare_file(files->context, path, bytes, size, &repeated);
+    for (size_t i = 0; result == ALP_OK && i < files->count; i++) {
         repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
     }
-    if (repeated) {
+    if (repeated || result != ALP_OK) {
         alpi_release(files->context, path);
         alpi_release(files->context, bytes);
-        return ALP_OK;
+        return result;
     }
     return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
 }
@@ -314,7 +299,7 @@ static alp_result make_folders(const alpi_gltf_files *files)
     return ALP_OK;
 }
 
-static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite)
+static alp_result run_writing(writing *w, const alp_scene *scene, alpi_file_set *set)
 {
     const alpi_gltf_images images = alpi_gltf_patch_images(w->patch, w->to_glb);
     if (!w->to_glb || images.light > 0) {
@@ -330,7 +315,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite
         result = make_folders(&w->files);
     }
     if (result == ALP_OK) {
-        result = alpi_gltf_files_write(&w->files, overwrite);
+        result = alpi_gltf_files_add_to(&w->files, set);
     }
     alpi_patcher_destroy(&w->patcher);
     return result;
@@ -346,7 +331,7 @@ static alp_result choose_container(alp_context *context, const char *path, bool 
 }
 
 static alp_result write_document(const alp_scene *scene, const alpi_gltf_document *document,
-                                 const alpi_mesh_patch *patch, const char *path, bool overwrite)
+                                 const alpi_mesh_patch *patch, const char *path, alpi_file_set *set)
 {
     alp_context *context = scene->context;
     writing w = {.document = document,
@@ -357,8 +342,8 @@ static alp_result write_document(const alp_scene *scene, const alpi_gltf_documen
                  .text = alpi_bytes_create(context),
                  .asset = alpi_bytes_create(context)};
     ALP_TRY(choose_container(context, path, &w.to_glb));
-    ALP_TRY(alpi_file_check_writable(context, path, overwrite));
-    alp_result result = run_writing(&w, scene, overwrite);
+    ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
+    alp_result result = run_writing(&w, scene, set);
     alpi_gltf_files_destroy(&w.files);
     alpi_gltf_names_destroy(context, &w.names);
     alpi_bytes_destroy(&w.bin);
@@ -367,19 +352,19 @@ static alp_result write_document(const alp_scene *scene, const alpi_gltf_documen
     return result;
 }
 
-alp_result alpi_gltf_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                   const char *path, bool overwrite)
+alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                 const char *path, alpi_file_set *files)
 {
     const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
     if (document != NULL) {
-        return write_document(scene, document, patch, path, overwrite);
+        return write_document(scene, document, patch, path, files);
     }
     uint8_t *bytes = NULL;
     size_t size = 0;
     alpi_gltf_document *exported = NULL;
     ALP_TRY(alpi_gltf_export_scene(scene, &bytes, &size));
     ALP_TRY(alpi_gltf_document_parse(scene->context, scene->name, bytes, size, &exported));
-    alp_result result = write_document(scene, exported, patch, path, overwrite);
+    alp_result result = write_document(scene, exported, patch, path, files);
     alpi_gltf_document_destroy(exported);
     return result;
 }

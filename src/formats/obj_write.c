@@ -330,7 +330,7 @@ static bool sets_are_equal(const alp_scene *scene, uint32_t set)
            memcmp(scene->uvs[0], scene->uvs[set], scene->vertex_count * sizeof *scene->uvs[0]) == 0;
 }
 
-static alp_result run(alpi_obj_writer *w, const char *path, bool overwrite, alpi_gltf_files *files)
+static alp_result run(alpi_obj_writer *w, const char *path, alpi_gltf_files *files)
 {
     const uint32_t pages = w->patch->page_count;
     w->stem = stem_of(w->context, path);
@@ -351,13 +351,12 @@ static alp_result run(alpi_obj_writer *w, const char *path, bool overwrite, alpi
     ALP_TRY(write_surfaces(w));
     ALP_TRY(alpi_obj_add_images(w, files));
     ALP_TRY(add_text(w, ".mtl", &w->mtl, files));
-    ALP_TRY(alpi_gltf_files_add(files, (alpi_gltf_file){alpi_copy_string(w->context, path),
-                                                        w->obj.bytes, w->obj.size, NULL}));
-    return alpi_gltf_files_write(files, overwrite);
+    return alpi_gltf_files_add(files, (alpi_gltf_file){alpi_copy_string(w->context, path),
+                                                       w->obj.bytes, w->obj.size, NULL});
 }
 
-alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
-                                  const char *path, bool overwrite)
+alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                const char *path, alpi_file_set *set)
 {
     alp_context *context = scene->context;
     alpi_obj_writer w = {.context = context,
@@ -369,8 +368,11 @@ alp_result alpi_obj_write_patched(const alp_scene *scene, const alpi_mesh_patch 
                          .names = alpi_obj_names_create(context)};
     alpi_gltf_files files = {.context = context};
     ALP_TRY(check_patch(scene, patch));
-    ALP_TRY(alpi_file_check_writable(context, path, overwrite));
-    alp_result result = run(&w, path, overwrite, &files);
+    ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
+    alp_result result = run(&w, path, &files);
+    if (result == ALP_OK) {
+        result = alpi_gltf_files_add_to(&files, set);
+    }
     alpi_gltf_files_destroy(&files);
     alpi_bytes_destroy(&w.obj);
     alpi_bytes_destroy(&w.mtl);

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Which writer the name of a baked scene asks for.
-#include "base/file.h"
 #include "formats/formats.h"
+
+alp_result alpi_scene_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
+                                  const char *path, alpi_file_set *files)
+{
+    return alpi_path_has_ending(path, ".obj") ? alpi_obj_add_patched(scene, patch, path, files)
+           : alpi_path_has_ending(path, ".dae")
+               ? alpi_collada_add_patched(scene, patch, path, files)
+               : alpi_gltf_add_patched(scene, patch, path, files);
+}
 
 alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                     const char *path, bool overwrite)
 {
-    return alpi_path_has_ending(path, ".obj")
-               ? alpi_obj_write_patched(scene, patch, path, overwrite)
-           : alpi_path_has_ending(path, ".dae")
-               ? alpi_collada_write_patched(scene, patch, path, overwrite)
-               : alpi_gltf_write_patched(scene, patch, path, overwrite);
+    alpi_file_set files = alpi_file_set_create(scene->context, overwrite);
+    return alpi_file_set_end(&files, alpi_scene_add_patched(scene, patch, path, &files));
 }
 
 alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,

@@ -96,7 +96,7 @@ static void write_back(alp_context *context, const alp_scene *scene)
                                    .page_png_sizes = sizes};
     const char *path = test_path(test_folder(), "out.dae");
     alp_scene *again = NULL;
-    ASSERT_OK(context, alpi_collada_write_patched(scene, &patch, path, true));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, path, true));
     ASSERT_OK(context, alp_scene_load(context, path, &again));
     assert_int_equal(again->triangle_count, scene->triangle_count);
     alp_scene_destroy(again);

@@ -263,7 +263,7 @@ alp_scene *pack_patch(alp_context *context, const char *path, const char *ending
                              .extras_json = "{\"version\":\"test\"}"};
     const char *out =
         test_path(quad_folder(), ending[1] == 'g' && ending[4] == 'f' ? "baked.gltf" : "baked.glb");
-    ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, true));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, out, true));
     quad_list(path, out);
     ASSERT_OK(context, alp_scene_load(context, out, &again));
     ASSERT_NEAR(wave_distance(scene, again), 0.0, distance);

@@ -243,7 +243,8 @@ void quad_write(quad_bake *bake, const char *ending)
     const char *old_ending = strrchr(before, '.');
     snprintf(bake->path, sizeof bake->path, "%.*s baked%s", (int)(old_ending - before), before,
              ending);
-    ASSERT_OK(bake->context, alpi_gltf_write_patched(bake->scene, &bake->patch, bake->path, false));
+    ASSERT_OK(bake->context,
+              alpi_scene_write_patched(bake->scene, &bake->patch, bake->path, false));
     quad_list(before, bake->path);
     ASSERT_OK(bake->context, alpi_gltf_read_scene(bake->context, bake->path, &bake->result));
     assert_int_equal(bake->result->triangle_count, bake->scene->triangle_count);

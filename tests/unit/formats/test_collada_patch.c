@@ -43,7 +43,7 @@ static void mirrored_twice(void **state)
                                    .page_pngs = pngs,
                                    .page_png_sizes = sizes};
     const char *path = test_path(test_folder(), "out.dae");
-    ASSERT_OK(context, alpi_collada_write_patched(old, &patch, path, true));
+    ASSERT_OK(context, alpi_scene_write_patched(old, &patch, path, true));
     ASSERT_OK(context, alp_scene_load(context, path, &new));
     assert_int_equal(new->triangle_count, 4);
     for (int t = 0; t < 4; t++) {

@@ -167,7 +167,7 @@ static void check_one(const char *file, const variant *v)
                                    .occlusion_strength = 1.0f,
                                    .extras_json = "{\"text\":\"<&>\"}"};
     const char *path = test_path(test_folder(), "out.dae");
-    ASSERT_OK(context, alpi_collada_write_patched(old, &patch, path, true));
+    ASSERT_OK(context, alpi_scene_write_patched(old, &patch, path, true));
     ASSERT_OK(context, alp_scene_load(context, path, &new));
     find_order(old, v->pages, pages, order);
     compare(old, new, order, (const float(*)[3][2])uvs);

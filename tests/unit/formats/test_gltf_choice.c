@@ -145,8 +145,8 @@ static void half_a_surface_cannot_be_left_out(void **state)
                            "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]," MESH(QUAD)),
             1);
         bake.pages[t] = ALPI_NONE;
-        assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch,
-                                                 test_path(test_folder(), "out.glb"), false),
+        assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch,
+                                                  test_path(test_folder(), "out.glb"), false),
                          ALP_ERROR_INVALID_ARGUMENT);
         quad_close(&bake);
     }

@@ -144,7 +144,7 @@ static void shared_maps_keep_them(void **state)
                              .page_png_sizes = sizes,
                              .occlusion_strength = 1.0f};
     const char *out = test_path(test_folder(), "shared.glb");
-    ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, true));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, out, true));
     ASSERT_OK(context, alp_scene_load(context, out, &again));
     assert_true(wave_distance(scene, again) == 0.0);
     assert_int_equal(again->surfaces[3].instance, 3);

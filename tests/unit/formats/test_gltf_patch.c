@@ -433,13 +433,13 @@ static void a_file_is_baked_over_itself(void **state)
     quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 1);
     const char *path = bake.path;
     assert_int_equal(alpi_gltf_check_output(bake.scene, 1, path, false), ALP_ERROR_IO);
-    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
+    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
     for (int round = 0; round < 3; round++) { // each adds a set, and none loses its file
         for (int i = 0; i < 6; i++) {
             bake.uvs[i / 3][i % 3][1] = 0.25f * (float)(round + 1);
         }
         ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, path, true));
-        ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, path, true));
+        ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, path, true));
         alp_scene_destroy(bake.scene);
         ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, path, &bake.scene));
         assert_int_equal(bake.scene->surfaces[0].uv_sets, round + 1);
@@ -460,21 +460,21 @@ static void references_follow_into_another_folder(void **state)
     const char *folder = test_folder();
     snprintf(bake.path, sizeof bake.path, "%s/out.gltf", folder);
     test_log_clear();
-    ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false));
+    ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false));
     assert_true(test_log_has("missing-file"));
     ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, bake.path, &bake.result));
     require_corners(&bake, 0);
     // The copied buffer is there already with the same bytes: that is no overwriting.
     snprintf(bake.path, sizeof bake.path, "%s/second.gltf", folder);
     ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, bake.path, false));
-    ASSERT_OK(bake.context, alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false));
+    ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false));
     // With other bytes it is.
     FILE *file = fopen(test_path(folder, "quad data.bin"), "wb");
     assert_non_null(file);
     fclose(file);
     snprintf(bake.path, sizeof bake.path, "%s/third.gltf", folder);
     assert_int_equal(alpi_gltf_check_output(bake.scene, 1, bake.path, false), ALP_ERROR_IO);
-    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, bake.path, false),
+    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false),
                      ALP_ERROR_IO);
     file = fopen(bake.path, "rb"); // all or nothing
     assert_null(file);
@@ -536,7 +536,7 @@ static void scenes_from_arrays_become_files(void **state)
     bake.patch.triangle_pages = NULL;
     const char *path = test_path(quad_folder(), "arrays.gltf");
     ASSERT_OK(context, alpi_gltf_check_output(scene, 1, path, false));
-    ASSERT_OK(context, alpi_gltf_write_patched(scene, &bake.patch, path, false));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &bake.patch, path, false));
     quad_list(bake.path, path); // the quad has no error, so this must have none
     ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
     assert_int_equal(again->triangle_count, 4);
@@ -605,7 +605,7 @@ static void every_allocation_may_fail(void **state)
         alp_result result = ALP_ERROR_OUT_OF_MEMORY;
         for (long i = 0; result != ALP_OK; i++) {
             allocator.left = i;
-            result = alpi_gltf_write_patched(scene, &bake.patch, path, false);
+            result = alpi_scene_write_patched(scene, &bake.patch, path, false);
             // cppcheck-suppress redundantAssignment ; the allocator reads it
             allocator.left = -1;
             if (result != ALP_OK) {
@@ -626,11 +626,11 @@ static void other_endings_are_refused(void **state)
 {
     (void)state;
     quad_bake bake = quad_open(quad_write_glb(ASSET, plain), 1);
-    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, "x.obj", false),
+    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, "x.stl", false),
                      ALP_ERROR_INVALID_ARGUMENT);
     assert_int_equal(alpi_gltf_check_output(bake.scene, 1, "x", false), ALP_ERROR_INVALID_ARGUMENT);
     bake.pages[0] = 1;
-    assert_int_equal(alpi_gltf_write_patched(bake.scene, &bake.patch, "x.glb", false),
+    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, "x.glb", false),
                      ALP_ERROR_INVALID_ARGUMENT);
     quad_close(&bake);
 }

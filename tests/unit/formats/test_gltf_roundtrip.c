@@ -241,7 +241,7 @@ static void run_variant(size_t index, size_t which, const variant *v)
                              .extras_json = "{\"version\":\"test\"}"};
     char *out = output_path(index, which, is_glb != v->to_other);
     ASSERT_OK(context, alpi_gltf_check_output(scene, v->pages, out, false));
-    ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, false));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, out, false));
     list_pair(path, out);
     ASSERT_OK(context, alpi_gltf_read_scene(context, out, &again));
     require_same_scene(scene, again, uvs, pages, v->pages);

@@ -304,13 +304,13 @@ static void light(void **state)
         alpi_light_patch other = patch;
         other.form = forms[i];
         b.patch.light = &other;
-        assert_int_equal(alpi_obj_write_patched(b.scene, &b.patch, out_path(&b), true),
+        assert_int_equal(alpi_scene_write_patched(b.scene, &b.patch, out_path(&b), true),
                          ALP_ERROR_UNSUPPORTED);
     }
     const float values[CORNERS] = {0};
     b.patch.light = NULL;
     b.patch.vertex_values = values;
-    assert_int_equal(alpi_obj_write_patched(b.scene, &b.patch, out_path(&b), true),
+    assert_int_equal(alpi_scene_write_patched(b.scene, &b.patch, out_path(&b), true),
                      ALP_ERROR_UNSUPPORTED);
     finish(&b);
 }

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Each allocation of a small bake fails once, for each kind of file: the bake says so, gives all
+// memory back, and leaves the files that were there as they were.
+#include "test_small_bake.h"
+
+#include <unistd.h>
+
+/// Between two allocations that fail, where the whole would take long: a prime, so that the
+/// rounds of a loop do not repeat it.
+enum { SOME = 23 };
+
+static long count_allocations(const test_small_bake *bake, uint32_t workers)
+{
+    test_memory memory = {.failing = -1};
+    alp_context *context = test_memory_context(&memory, workers);
+    ASSERT_OK(context, test_small_bake_run(bake, context));
+    alp_context_destroy(context);
+    assert_int_equal(atomic_load(&memory.live), 0);
+    test_small_bake_reset(bake);
+    return atomic_load(&memory.count);
+}
+
+/// Whether the bake succeeded without that allocation.
+static bool fail_one(const test_small_bake *bake, long failing, uint32_t workers)
+{
+    test_memory memory = {.failing = failing};
+    alp_context *context = test_memory_context(&memory, workers);
+    const alp_result result = test_small_bake_run(bake, context);
+    const test_small_bake_state state = test_small_bake_look(bake);
+    if (result == ALP_OK) { // as if nothing had been
+        assert_int_equal(state.new, bake->file_count);
+        test_small_bake_reset(bake);
+    } else {
+        assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(state.old, bake->file_count);
+        assert_int_equal(state.others, 0);
+        assert_non_null(strstr(alp_context_message(context), "memory"));
+    }
+    alp_context_destroy(context);
+    assert_int_equal(atomic_load(&memory.live), 0);
+    return result == ALP_OK;
+}
+
+static void fail_each(int kind, uint32_t workers, long step)
+{
+    test_small_bake bake = test_small_bake_open(kind);
+    const long total = count_allocations(&bake, workers);
+    long tried = 0, harmless = 0;
+    for (long i = 0; i < total; i += step) {
+        harmless += fail_one(&bake, i, workers);
+        tried++;
+    }
+    print_message("%s, %u workers: %ld of %ld allocations failed in turn, %ld of them harmless\n",
+                  bake.kind, workers, tried, total, harmless);
+    assert_in_range(total, 300, 5000);
+    // Threads that cannot be made leave the work to the one that asked for them.
+    assert_in_range(harmless, 0, workers == 1 ? 0 : 2);
+    test_small_bake_close(&bake);
+}
+
+static void gltf(void **state)
+{
+    (void)state;
+    fail_each(0, 1, 1);
+}
+
+static void collada(void **state)
+{
+    (void)state;
+    fail_each(1, 1, 1);
+}
+
+static void obj(void **state)
+{
+    (void)state;
+    fail_each(2, 1, 1);
+}
+
+/// Other ways to write; what comes before is the same.
+static void other_outputs(void **state)
+{
+    (void)state;
+    for (int kind = 3; kind < TEST_SMALL_BAKE_KINDS; kind++) {
+        fail_each(kind, 1, SOME);
+    }
+}
+
+static void two_workers(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        fail_each(kind, 2, SOME);
+    }
+}
+
+/// The page of a report, after a bake that went well.
+static void report(void **state)
+{
+    (void)state;
+    const char *path = test_path(test_folder(), "page.html");
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    long failing = 0;
+    for (; result != ALP_OK; failing++) {
+        test_memory memory = {.failing = -1};
+        alp_context *context = test_memory_context(&memory, 1);
+        alp_bake_options options = alp_bake_options_default();
+        options.atlas.size = 16;
+        options.occlusion.samples = 4;
+        alp_scene *scene = NULL;
+        alp_lightmap *lightmap = NULL;
+        alp_bake_report made;
+        ASSERT_OK(context, alp_scene_load(context, "builtin:sphere-plane", &scene));
+        ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &made));
+        memory.failing = atomic_load(&memory.count) + failing;
+        result = alp_bake_write_report(scene, lightmap, &made, NULL, path);
+        assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(result == ALP_OK, access(path, F_OK) == 0);
+        alp_lightmap_destroy(lightmap);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+        assert_int_equal(atomic_load(&memory.live), 0);
+    }
+    print_message("report: %ld allocations failed in turn\n", failing - 1);
+    assert_in_range(failing, 10, 1000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gltf),          cmocka_unit_test(collada),     cmocka_unit_test(obj),
+        cmocka_unit_test(other_outputs), cmocka_unit_test(two_workers), cmocka_unit_test(report),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
