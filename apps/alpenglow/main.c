@@ -4,8 +4,11 @@
 
 #include <alpenglow/alpenglow.h>
 
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static bool is_help(const char *word)
 {
@@ -114,8 +117,21 @@ static int dispatch(int count, char **words)
     return dispatch_option(count, words);
 }
 
+/// What is closed from the start would be given to the first file that is opened, and messages
+/// written into it. In its place stands what cannot be used: that is told as any other fault.
+static void reserve_streams(void)
+{
+    for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++) {
+        if (fcntl(i, F_GETFD) < 0) {
+            (void)!open("/dev/null", i == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
 int main(int count, char **words)
 {
+    reserve_streams();
+    signal(SIGXFSZ, SIG_IGN); // a file that gets too large is a failed write, not the end
     int code = dispatch(count > 0 ? count - 1 : 0, words + 1);
     // A full disk or a closed pipe shows only now.
     if (fflush(stdout) != 0 || ferror(stdout)) {

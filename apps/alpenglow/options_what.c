@@ -106,6 +106,13 @@ static const option rows[] = {
      .value = "N|NAME",
      .help = "Which scene of a .gltf or .glb that holds several: its number from 0, or its name. "
              "Without it the one that viewers show first."},
+    {.id = OPTION_ALLOW_OUTSIDE,
+     .commands = SCENE_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_FLAG,
+     .name = "--allow-outside",
+     .help = "SCENE may name buffers, pictures and materials anywhere: by \"..\", absolute paths "
+             "and file: addresses. Without it only what lies below its own folder is read."},
     {.id = OPTION_SCALE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,

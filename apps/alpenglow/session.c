@@ -22,6 +22,7 @@ int session_open(session *s, const command_line *a)
     if (values[OPTION_THREADS].choice < 0) {
         options.worker_count = (uint32_t)values[OPTION_THREADS].whole;
     }
+    options.read_outside = values[OPTION_ALLOW_OUTSIDE].given;
     options.log = messages_log;
     options.log_user = &s->messages;
     alp_result result = alp_context_create(&options, &s->context);

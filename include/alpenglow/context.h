@@ -70,6 +70,11 @@ typedef struct alp_context_options {
     alp_log_fn *log; ///< NULL (default) = silent
     void *log_user;
 
+    /// Assets may name files anywhere: by "..", absolute paths and file: addresses. Default false:
+    /// they may name what lies below their own folder, for a file from elsewhere could have any
+    /// picture of this machine read. Links in that folder are followed either way.
+    bool read_outside;
+
     /// Highest instruction set the ray tracer may use: "sse2", "sse4.2", "avx", "avx2", or NULL
     /// (default) for the best of this machine. Same bits are promised on one level only.
     const char *max_isa;

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada_ids.h"
+#include "formats/outside.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -232,21 +233,21 @@ static bool decode_path(char *text)
     return true;
 }
 
-/// A relative path that never climbs and names no drive or scheme.
-static bool path_stays_below(const char *path)
+/// Names of drives and schemes stay out; inside an archive there is nothing outside.
+static alp_result find_file(const alpi_collada_document *d, const char *name, char **path)
 {
-    const size_t scheme = strcspn(path, ":/");
-    if (path[0] == '\0' || path[0] == '/' || path[scheme] == ':') {
-        return false;
-    }
-    for (const char *part = path; part != NULL;) {
-        const size_t length = strcspn(part, "/");
-        if (length == 2 && part[0] == '.' && part[1] == '.') {
-            return false;
+    const size_t scheme = strcspn(name, ":/");
+    *path = NULL;
+    if (d->archive != NULL) {
+        if (alpi_path_stays_below(name) && name[scheme] != ':') {
+            *path = alpi_format(d->context, "%s%s", d->archive_folder, name);
+            return *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
         }
-        part = part[length] == '\0' ? NULL : part + length + 1;
+        return ALP_OK;
     }
-    return true;
+    return name[scheme] != ':' || alpi_outside_takes(d->context, name)
+               ? alpi_outside_path(d->context, d->folder, name, path)
+               : ALP_OK;
 }
 
 alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *uri, uint8_t **bytes,
@@ -257,18 +258,16 @@ alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *ur
     if (name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    if (!decode_path(name) || !path_stays_below(name)) {
-        alpi_release(d->context, name);
+    char *path = NULL;
+    alp_result result = decode_path(name) ? find_file(d, name, &path) : ALP_OK;
+    alpi_release(d->context, name);
+    if (result == ALP_OK && path == NULL) {
         return alpi_fail(d->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: \"%.200s\" lies outside the document's folder; only files below it "
-                         "are read: put it there and name it so",
+                         "%s: \"%.200s\" lies outside the document's folder; " ALPI_OUTSIDE_HINT
+                         ": put it there and name it so",
                          d->path, uri);
     }
-    char *path =
-        alpi_format(d->context, "%s%s", d->archive != NULL ? d->archive_folder : d->folder, name);
-    alpi_release(d->context, name);
-    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (path != NULL) {
+    if (result == ALP_OK) {
         result = d->archive != NULL
                      ? alpi_archive_read(d->archive, path, bytes, size)
                      : alpi_file_read(d->context, path, ALPI_COLLADA_TEXT_LIMIT, bytes, size);

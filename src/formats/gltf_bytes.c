@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/gltf_tree.h"
+#include "formats/outside.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -104,22 +105,6 @@ static bool percent_decode(char *text)
     return true;
 }
 
-/// A relative path that never climbs: no empty name, no "/…", no ".." part (either slash).
-static bool path_stays_below(const char *path)
-{
-    if (path[0] == '\0' || path[0] == '/' || path[0] == '\\') {
-        return false;
-    }
-    for (const char *part = path; part != NULL;) {
-        size_t length = strcspn(part, "/\\");
-        if (length == 2 && part[0] == '.' && part[1] == '.') {
-            return false;
-        }
-        part = part[length] == '\0' ? NULL : part + length + 1;
-    }
-    return true;
-}
-
 /// "http:", "file:", "C:" … : letters before the first colon and before any slash.
 static bool has_scheme(const char *uri)
 {
@@ -134,10 +119,10 @@ alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *ur
     if (strncasecmp(uri, "data:", 5) == 0) {
         return ALP_OK;
     }
-    if (has_scheme(uri)) {
+    if (has_scheme(uri) && !alpi_outside_takes(document->context, uri)) {
         return alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
                          "%s: %s: its uri \"%.200s\" has a scheme; only data: and files beside the "
-                         "asset are read",
+                         "asset are read, with --allow-outside file: too",
                          document->path, owner, uri);
     }
     char *name = alpi_copy_string(document->context, uri);
@@ -145,14 +130,13 @@ alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *ur
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
-    if (!percent_decode(name) || !path_stays_below(name)) {
-        result = alpi_gltf_fail(document, owner,
-                                "its uri \"%.200s\" leaves the asset's folder; only files below it "
-                                "are read",
-                                uri);
-    } else {
-        *path = alpi_format(document->context, "%s%s", document->folder, name);
-        result = *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+    if (percent_decode(name)) {
+        result = alpi_outside_path(document->context, document->folder, name, path);
+    }
+    if (result == ALP_OK && *path == NULL) {
+        result =
+            alpi_gltf_fail(document, owner,
+                           "its uri \"%.200s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT, uri);
     }
     alpi_release(document->context, name);
     return result;

@@ -264,6 +264,7 @@ typedef struct alpi_gltf_files {
     alp_context *context;
     alpi_gltf_file *items;
     size_t count, capacity;
+    bool silent; // what is odd is told when they are written, not when places are checked
 } alpi_gltf_files;
 
 /// Takes over path and owned, also on failure.

@@ -8,6 +8,7 @@
 #include "formats/gltf_bytes.h"
 #include "formats/gltf_patch.h"
 #include "formats/gltf_tree.h"
+#include "formats/outside.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -75,6 +76,24 @@ static alp_result compare_file(alp_context *context, const char *path, const uin
     return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
 }
 
+/// Whether a file lies outside of the asset's folder: a copy would lie outside of the new one.
+static bool is_outside(const alpi_gltf_files *files, const alpi_gltf_document *document,
+                       const char *source, const char *uri)
+{
+    const size_t length = strlen(document->folder);
+    const bool from_folder = strncmp(source, document->folder, length) == 0;
+    if (from_folder && alpi_path_stays_below(source + length)) {
+        return false;
+    }
+    if (!files->silent && from_folder && source[length] != '/') { // absolute ones stay right
+        alpi_warn(files->context, "outside-file", source,
+                  "the asset refers to it as \"%.200s\", outside of its folder: it is not copied, "
+                  "and the new asset finds it only where that leads there too",
+                  uri);
+    }
+    return true;
+}
+
 /// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
 static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *document,
                            const char *source, const char *folder)
@@ -83,8 +102,10 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
     size_t size = 0;
     alp_result result = alpi_file_read(files->context, source, ALPI_GLTF_FILE_LIMIT, &bytes, &size);
     if (result != ALP_OK) {
-        alpi_warn(files->context, "missing-file", source,
-                  "the asset refers to it, but it cannot be read: the copy will miss it too");
+        if (!files->silent) {
+            alpi_warn(files->context, "missing-file", source,
+                      "the asset refers to it, but it cannot be read: the copy will miss it too");
+        }
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
     char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
@@ -116,7 +137,7 @@ static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *d
             continue;
         }
         alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
-        if (result == ALP_OK && source != NULL) {
+        if (result == ALP_OK && source != NULL && !is_outside(files, document, source, uri)) {
             result = add_copy(files, document, source, folder);
         } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
             result = ALP_OK; // data: inside the text, or an address elsewhere that stays right
@@ -375,7 +396,7 @@ alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *
 static alp_result check_references(const alpi_gltf_document *document, const char *path,
                                    bool merged, bool overwrite)
 {
-    alpi_gltf_files files = {.context = document->context};
+    alpi_gltf_files files = {.context = document->context, .silent = true};
     alp_result result = ALP_OK;
     if (!merged) { // merging embeds all
         result = add_references(&files, document, path, merged, NULL);

@@ -72,9 +72,11 @@ alp_result alpi_obj_read_materials(alpi_obj *obj, alp_scene *scene, alpi_obj_nam
 
 /// Path within the asset's folder of a file that a library in `folder` (within it) names, with
 /// slashes and without "." and ".."; NULL in *path where it leaves the folder, released by the
-/// caller.
+/// caller. Where assets may name files outside it may begin with "../" or "/".
 alp_result alpi_obj_resolve(alp_context *context, const char *folder, alpi_obj_word name,
                             char **path);
+/// From the working folder; released by the caller.
+char *alpi_obj_path(const alpi_obj *obj, const char *inner);
 
 /// Decodes the pictures that materials of surfaces use.
 alp_result alpi_obj_read_images(const alpi_obj *obj, const alpi_obj_names *images,

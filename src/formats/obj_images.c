@@ -34,7 +34,7 @@ static alp_result read_image(const alpi_obj *obj, const char *name, alp_image **
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
-    char *path = alpi_format(obj->context, "%s%s", obj->folder, name);
+    char *path = alpi_obj_path(obj, name);
     if (path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }

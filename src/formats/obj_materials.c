@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "formats/outside.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,11 +31,18 @@ typedef struct reader {
 
 // --- paths ---------------------------------------------------------------------------------------
 
-/// Drops the last part of a path that ends in a slash; false where there is none.
-static bool climb(const char *path, size_t *size)
+/// Drops the last part of a path that ends in a slash. Where there is none it climbs out, or, where
+/// that is not allowed, false.
+static bool climb(char *path, size_t *size, bool outside)
 {
-    if (*size == 0) {
-        return false;
+    if (*size == 1 && path[0] == '/') {
+        return outside; // nothing is above the root
+    }
+    const bool climbed = *size >= 3 && memcmp(path + *size - 3, "../", 3) == 0;
+    if (*size == 0 || climbed) {
+        memcpy(path + *size, "../", 3);
+        *size += 3;
+        return outside;
     }
     do {
         --*size;
@@ -42,13 +50,18 @@ static bool climb(const char *path, size_t *size)
     return true;
 }
 
-/// Appends the parts of a name to a path of *size bytes; false where it leaves the folder.
-static bool walk(char *path, size_t *size, alpi_obj_word name)
+/// Appends the parts of a name to a path of *size bytes; false where it leaves the folder and may
+/// not (`outside`).
+static bool walk(char *path, size_t *size, alpi_obj_word name, bool outside)
 {
     size_t at = 0;
-    if (name.size == 0 || name.text[0] == '/' || name.text[0] == '\\' ||
+    if (name.size == 0 || (name.text[0] == '/' && !outside) || name.text[0] == '\\' ||
         (name.size > 1 && name.text[1] == ':') || memchr(name.text, '\0', name.size) != NULL) {
         return false;
+    }
+    if (name.text[0] == '/') {
+        path[0] = '/';
+        *size = 1;
     }
     while (at < name.size) {
         size_t length = 0;
@@ -60,7 +73,7 @@ static bool walk(char *path, size_t *size, alpi_obj_word name)
         bool last = at + length >= name.size;
         at += length + 1;
         if (length == 2 && part[0] == '.' && part[1] == '.') {
-            if (!climb(path, size)) {
+            if (!climb(path, size, outside)) {
                 return false;
             }
         } else if (length > 0 && !(length == 1 && part[0] == '.')) {
@@ -78,16 +91,21 @@ alp_result alpi_obj_resolve(alp_context *context, const char *folder, alpi_obj_w
                             char **path)
 {
     size_t size = strlen(folder);
-    *path = ALPI_NEW(context, char, size + name.size + 2);
+    *path = ALPI_NEW(context, char, size + name.size + 4); // a slash that ".." lacks, and 0
     if (*path == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     memcpy(*path, folder, size);
-    if (!walk(*path, &size, name)) {
+    if (!walk(*path, &size, name, alpi_context_options(context)->read_outside)) {
         alpi_release(context, *path);
         *path = NULL;
     }
     return ALP_OK;
+}
+
+char *alpi_obj_path(const alpi_obj *obj, const char *inner)
+{
+    return alpi_format(obj->context, "%s%s", inner[0] == '/' ? "" : obj->folder, inner);
 }
 
 /// A copy of a word for messages, without control characters.
@@ -179,7 +197,7 @@ static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, al
     if (path == NULL) {
         show(name, shown);
         alpi_warn(r->obj->context, "image", r->scene->materials[r->scene->material_count - 1].name,
-                  "%s: line %llu: \"%s\" leaves the asset's folder; only files below it are read: "
+                  "%s: line %llu: \"%s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT ": "
                   "the colour of %s is used alone",
                   t->path, (unsigned long long)t->line, shown, what + 4);
         return ALP_OK;
@@ -363,7 +381,7 @@ static alp_result try_library(reader *r, alpi_obj_word name, bool only_try, bool
     show(name, shown);
     ALP_TRY(alpi_obj_resolve(context, "", name, &inner));
     if (inner != NULL) {
-        path = alpi_format(context, "%s%s", r->obj->folder, inner);
+        path = alpi_obj_path(r->obj, inner);
         if (path == NULL) {
             alpi_release(context, inner);
             return ALP_ERROR_OUT_OF_MEMORY;
@@ -380,8 +398,8 @@ static alp_result try_library(reader *r, alpi_obj_word name, bool only_try, bool
         result = ALP_OK;
     } else if (result == ALP_OK && !*found && !only_try) {
         alpi_warn(context, "mtllib", shown,
-                  path == NULL ? "leaves the asset's folder; only files below it are read: its "
-                                 "materials are missing"
+                  path == NULL ? "leaves the asset's folder; " ALPI_OUTSIDE_HINT
+                                 ": its materials are missing"
                                : "is not there: its materials are missing");
     }
     alpi_release(context, inner);

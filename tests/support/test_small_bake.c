@@ -150,11 +150,11 @@ static void write_picture(const char *path)
 alp_result test_small_bake_run(const test_small_bake *bake, alp_context *context)
 {
     alp_bake_options options = alp_bake_options_default();
-    options.atlas.size = 16;
+    options.atlas.size = 8;
     options.atlas.padding = 1;
     options.maps = ALP_MAP_AO | ALP_MAP_LIGHT;
     options.occlusion.samples = 4;
-    options.light.samples = 4;
+    options.light.samples = 2;
     options.light.bounces = 1;
     options.lightmap_as = bake->as;
     options.maps_format = bake->format;

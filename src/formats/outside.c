@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Where a file lies that an asset names.
+#include "formats/outside.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+#include <strings.h>
+
+bool alpi_path_stays_below(const char *path)
+{
+    if (path[0] == '\0' || path[0] == '/' || path[0] == '\\') {
+        return false;
+    }
+    for (const char *part = path; part != NULL;) {
+        const size_t length = strcspn(part, "/\\");
+        if (length == 2 && part[0] == '.' && part[1] == '.') {
+            return false;
+        }
+        part = part[length] == '\0' ? NULL : part + length + 1;
+    }
+    return true;
+}
+
+bool alpi_outside_takes(const alp_context *context, const char *uri)
+{
+    return alpi_context_options(context)->read_outside && strncasecmp(uri, "file:/", 6) == 0;
+}
+
+/// The absolute path of "file:/…", "file:///…" and "file://localhost/…" (RFC 8089); NULL of
+/// another machine's.
+static const char *file_uri_path(const char *uri)
+{
+    static const char host[] = "localhost";
+    const char *path = uri + strlen("file:");
+    if (strncmp(path, "//", 2) != 0) {
+        return path;
+    }
+    path += 2;
+    path += strncasecmp(path, host, sizeof host - 1) == 0 ? sizeof host - 1 : 0;
+    return path[0] == '/' ? path : NULL;
+}
+
+alp_result alpi_outside_path(alp_context *context, const char *folder, const char *name,
+                             char **path)
+{
+    *path = NULL;
+    if (alpi_outside_takes(context, name)) {
+        name = file_uri_path(name);
+        folder = "";
+    } else if (alpi_context_options(context)->read_outside && name[0] == '/') {
+        folder = "";
+    } else if (!alpi_context_options(context)->read_outside && !alpi_path_stays_below(name)) {
+        name = NULL;
+    }
+    if (name == NULL || name[0] == '\0') {
+        return ALP_OK;
+    }
+    *path = alpi_format(context, "%s%s", folder, name);
+    return *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}

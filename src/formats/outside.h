@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Where a file lies that an asset names: below the asset's folder, unless the context lets assets
+// name any. Links are followed: who made the folder put them there, the asset's text did not.
+#ifndef ALPI_FORMATS_OUTSIDE_H
+#define ALPI_FORMATS_OUTSIDE_H
+
+#include "base/context.h"
+
+/// Ends messages about a file that lies outside.
+#define ALPI_OUTSIDE_HINT "only files below it are read, unless --allow-outside"
+
+/// Whether a relative path never climbs: no empty name, no "/…", no ".." part (either slash).
+bool alpi_path_stays_below(const char *path);
+
+/// Whether the address is "file:…" and the context allows those.
+bool alpi_outside_takes(const alp_context *context, const char *uri);
+
+/// Path of the file that an asset in `folder` (with its slash, or "") names, released by the
+/// caller; NULL in *path where it lies outside and may not, or names none.
+/// @param name with escapes resolved; "file://…" where outside is allowed
+alp_result alpi_outside_path(alp_context *context, const char *folder, const char *name,
+                             char **path);
+
+#endif

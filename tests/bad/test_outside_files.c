@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Files that an asset names outside of its folder: not read unless the context allows it, and never
+// written. Links are read either way: the folder's owner made them.
+#include "test_small_bake.h"
+
+#include "base/image.h"
+#include "scene/scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/// The scene's folder, "…/3", from "…/3/scene.dae".
+static void folder_of(const test_small_bake *bake, char folder[512])
+{
+    snprintf(folder, 512, "%s", bake->scene);
+    *strrchr(folder, '/') = '\0';
+}
+
+/// Has the asset name this in the place of its picture "wood.png".
+static void name_picture(const test_small_bake *bake, const char *name)
+{
+    char folder[512];
+    folder_of(bake, folder);
+    const bool is_obj = strstr(bake->scene, ".obj") != NULL;
+    const char *path = is_obj ? test_path(folder, "scene.mtl") : bake->scene;
+    size_t size;
+    char *text = (char *)test_read_file(path, &size);
+    char *place = strstr(text, "wood.png");
+    assert_non_null(place);
+    const size_t room = size + strlen(name) + 1;
+    char *changed = malloc(room);
+    assert_non_null(changed);
+    snprintf(changed, room, "%.*s%s%s", (int)(place - text), text, name,
+             place + strlen("wood.png"));
+    write_text(path, changed);
+    free(changed);
+    free(text);
+}
+
+static char last_log[1 << 14];
+
+static void keep_log(void *user, const alp_log_message *message)
+{
+    (void)user;
+    const size_t used = strlen(last_log);
+    snprintf(last_log + used, sizeof last_log - used, "%s: %s\n", message->code, message->text);
+}
+
+static alp_context *make_context(bool outside)
+{
+    alp_context_options options = alp_context_options_default();
+    options.worker_count = 1;
+    options.read_outside = outside;
+    options.log = keep_log;
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    last_log[0] = '\0';
+    return context;
+}
+
+/// Whether the picture is read, from an asset that names it so. What is refused says how to allow
+/// it.
+static bool is_read(int kind, const char *name, bool outside, const char *hint)
+{
+    test_small_bake bake = test_small_bake_open(kind);
+    name_picture(&bake, name);
+    alp_context *context = make_context(outside);
+    alp_scene *scene = NULL;
+    const alp_result result = alp_scene_load(context, bake.scene, &scene);
+    bool has_picture = false;
+    for (uint32_t i = 0; result == ALP_OK && i < scene->image_count; i++) {
+        has_picture |= scene->images[i] != NULL;
+    }
+    if (!has_picture && hint != NULL) {
+        const char *text = result == ALP_OK ? last_log : alp_context_message(context);
+        if (strstr(text, hint) == NULL) {
+            fail_msg("%s: %s: \"%s\" was told", bake.kind, name, text);
+        }
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    test_small_bake_close(&bake);
+    return has_picture;
+}
+
+/// A folder that is no asset's, with the picture in it; its name begins behind the last slash.
+static const char *make_elsewhere(void)
+{
+    test_small_bake bake = test_small_bake_open(2);
+    char folder[512], command[2048];
+    static char elsewhere[512];
+    folder_of(&bake, folder);
+    snprintf(elsewhere, sizeof elsewhere, "%s", test_folder());
+    snprintf(command, sizeof command, "cp '%s/wood.png' '%s/wood.png'", folder, elsewhere);
+    assert_int_equal(system(command), 0);
+    test_small_bake_close(&bake);
+    return elsewhere;
+}
+
+static void names_outside(void **state)
+{
+    (void)state;
+    const char *elsewhere = make_elsewhere(), *name = strrchr(elsewhere, '/') + 1;
+    char text[8][1024];
+    snprintf(text[0], 1024, "../%s/wood.png", name);
+    snprintf(text[1], 1024, "none/../../%s/wood.png", name);
+    snprintf(text[2], 1024, "%s/wood.png", elsewhere);
+    snprintf(text[3], 1024, "file://%s/wood.png", elsewhere);
+    snprintf(text[4], 1024, "..%%2f%s%%2Fwood.png", name);
+    snprintf(text[5], 1024, "%%2e./%s/wood.png", name);
+    snprintf(text[6], 1024, "..\\%s\\wood.png", name);
+    snprintf(text[7], 1024, "https://localhost/wood.png");
+    // Each format has its own addresses: an OBJ knows no escapes and no schemes, glTF no backslash
+    // as a slash, and a folder that is not there cannot be left where the system walks the path.
+    static const bool allowed[3][8] = {{true, false, true, true, true, true, false, false},
+                                       {true, false, true, true, true, true, true, false},
+                                       {true, true, true, false, false, false, true, false}};
+    for (int kind = 0; kind < 3; kind++) {
+        for (int i = 0; i < 8; i++) {
+            const bool is_path = i != 7 && (kind != 2 || allowed[kind][i]);
+            if (kind == 0 && i == 6) { // in JSON a backslash is escaped
+                snprintf(text[6], 1024, "..\\\\%s\\\\wood.png", name);
+            } else if (i == 6) {
+                snprintf(text[6], 1024, "..\\%s\\wood.png", name);
+            }
+            assert_false(is_read(kind, text[i], false, is_path ? "--allow-outside" : NULL));
+            if (is_read(kind, text[i], true, NULL) != allowed[kind][i]) {
+                fail_msg("kind %d, %s: allowed, but %d", kind, text[i], !allowed[kind][i]);
+            }
+        }
+    }
+}
+
+/// A link in the folder is the work of who made the folder.
+static void links_are_followed(void **state)
+{
+    (void)state;
+    const char *elsewhere = make_elsewhere();
+    for (int kind = 0; kind < 3; kind++) {
+        test_small_bake bake = test_small_bake_open(kind);
+        char folder[512], link[600], target[600];
+        folder_of(&bake, folder);
+        snprintf(link, sizeof link, "%s/wood.png", folder);
+        snprintf(target, sizeof target, "%s/wood.png", elsewhere);
+        for (int loops = 0; loops < 2; loops++) {
+            assert_int_equal(unlink(link), 0);
+            assert_int_equal(symlink(loops ? "wood.png" : target, link), 0);
+            alp_context *context = make_context(false);
+            alp_scene *scene = NULL;
+            const alp_result result = alp_scene_load(context, bake.scene, &scene);
+            const bool has_picture = result == ALP_OK && scene->images[0] != NULL;
+            assert_int_equal(has_picture, !loops);
+            const char *text = result == ALP_OK ? last_log : alp_context_message(context);
+            assert_true(!loops || strstr(text, "Too many levels of symbolic links") != NULL);
+            alp_scene_destroy(scene);
+            alp_context_destroy(context);
+        }
+        test_small_bake_close(&bake);
+    }
+}
+
+/// A .gltf that names its picture by ".." is baked into another folder: the picture is not copied
+/// to where that leads from there, and the user is told once.
+static void nothing_is_written_outside(void **state)
+{
+    (void)state;
+    const char *elsewhere = make_elsewhere();
+    char name[1024], beside[2048];
+    test_small_bake bake = test_small_bake_open(0);
+    snprintf(name, sizeof name, "../%s/wood.png", strrchr(elsewhere, '/') + 1);
+    name_picture(&bake, name);
+    alp_context *context = make_context(true);
+    ASSERT_OK(context, test_small_bake_run(&bake, context));
+    const char *told = strstr(last_log, "outside-file: ");
+    assert_non_null(told);
+    assert_null(strstr(told + 1, "outside-file: "));
+    snprintf(beside, sizeof beside, "%s/%s", bake.folder, name);
+    assert_int_not_equal(access(beside, F_OK), 0);
+    alp_context_destroy(context);
+    test_small_bake_close(&bake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_outside),
+        cmocka_unit_test(links_are_followed),
+        cmocka_unit_test(nothing_is_written_outside),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
