@@ -15,6 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { LINK_LIMIT = 40, LINK_SIZE = 4096 };
+
 static int fail_path(const char *path, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -44,6 +46,59 @@ static char *folder_of(const char *path)
     return folder;
 }
 
+/// What the link `path` names, malloc'ed; NULL with errno.
+static char *read_link(const char *path)
+{
+    char text[LINK_SIZE];
+    const ssize_t length = readlink(path, text, sizeof text - 1);
+    if (length < 0) {
+        return NULL;
+    }
+    text[length] = '\0';
+    if (text[0] == '/' || strchr(path, '/') == NULL) {
+        return strdup(text);
+    }
+    char *folder = folder_of(path);
+    const size_t size = strlen(folder) + (size_t)length + 2;
+    char *target = allocate_or_exit(NULL, size);
+    snprintf(target, size, "%s/%s", folder, text);
+    free(folder);
+    return target;
+}
+
+/// Follows links from `path` to what is none, there or not; malloc'ed. NULL with errno.
+static char *follow_links(const char *path)
+{
+    struct stat about;
+    char *end = strdup(path);
+    for (int links = 0; end != NULL && lstat(end, &about) == 0 && S_ISLNK(about.st_mode); links++) {
+        char *next = links < LINK_LIMIT ? read_link(end) : NULL;
+        free(end);
+        end = next;
+        errno = links < LINK_LIMIT ? errno : ELOOP;
+    }
+    return end;
+}
+
+static int check_folder(const char *path)
+{
+    struct stat about;
+    char *end = follow_links(path);
+    if (end == NULL) {
+        return fail_path(path, "cannot follow the link: %s", strerror(errno));
+    }
+    char *folder = folder_of(end);
+    int code = EXIT_DONE;
+    bool there = stat(folder, &about) == 0;
+    if (!there || !S_ISDIR(about.st_mode) || access(folder, W_OK | X_OK) != 0) {
+        int fault = there && !S_ISDIR(about.st_mode) ? ENOTDIR : errno;
+        code = fail_path(path, "its folder cannot be written: %s", strerror(fault));
+    }
+    free(folder);
+    free(end);
+    return code;
+}
+
 int output_check(const char *path, bool overwrite)
 {
     struct stat about;
@@ -58,16 +113,10 @@ int output_check(const char *path, bool overwrite)
         if (!S_ISREG(about.st_mode)) { // a rename would put a file in the place of a device
             return fail_path(path, "is not an ordinary file");
         }
+    } else if (errno == ENAMETOOLONG) {
+        return fail_path(path, "cannot be written: %s", strerror(errno));
     }
-    char *folder = folder_of(path);
-    int code = EXIT_DONE;
-    bool there = stat(folder, &about) == 0;
-    if (!there || !S_ISDIR(about.st_mode) || access(folder, W_OK | X_OK) != 0) {
-        int fault = there && !S_ISDIR(about.st_mode) ? ENOTDIR : errno;
-        code = fail_path(path, "its folder cannot be written: %s", strerror(fault));
-    }
-    free(folder);
-    return code;
+    return check_folder(path);
 }
 
 bool output_is_stdout(const char *path)
@@ -114,7 +163,8 @@ static bool write_all(FILE *file, const char *text)
     return fclose(file) == 0 && good;
 }
 
-static int write_and_rename(const char *text, const char *path, const char *temporary)
+/// @param path as it was given; `end` is where that leads
+static int write_beside(const char *text, const char *path, const char *end, const char *temporary)
 {
     int descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
@@ -126,7 +176,7 @@ static int write_and_rename(const char *text, const char *path, const char *temp
         }
         return code;
     }
-    if (!write_all(file, text) || rename(temporary, path) != 0) {
+    if (!write_all(file, text) || rename(temporary, end) != 0) {
         int code = fail_path(path, "cannot be written: %s", strerror(errno));
         unlink(temporary);
         return code;
@@ -134,6 +184,23 @@ static int write_and_rename(const char *text, const char *path, const char *temp
     return EXIT_DONE;
 }
 
+/// A link stays: the file that it names is written.
+static int write_and_rename(const char *text, const char *path)
+{
+    char *end = follow_links(path);
+    if (end == NULL) {
+        return fail_path(path, "cannot follow the link: %s", strerror(errno));
+    }
+    char *folder = folder_of(end);
+    const size_t size = strlen(folder) + 64;
+    char *temporary = allocate_or_exit(NULL, size);
+    snprintf(temporary, size, "%s/alpenglow.%ld.tmp", folder, (long)getpid());
+    free(folder);
+    const int code = write_beside(text, path, end, temporary);
+    free(temporary);
+    free(end);
+    return code;
+}
 int output_write_json(const json_t *document, const char *path, bool overwrite)
 {
     int code = output_check_json(path, overwrite); // again: the work may have taken hours
@@ -147,11 +214,7 @@ int output_write_json(const json_t *document, const char *path, bool overwrite)
     if (output_is_stdout(path)) { // whether it got there is seen when the command ends
         puts(text);
     } else {
-        size_t size = strlen(path) + 32;
-        char *temporary = allocate_or_exit(NULL, size);
-        snprintf(temporary, size, "%s.%ld.tmp", path, (long)getpid());
-        code = write_and_rename(text, path, temporary);
-        free(temporary);
+        code = write_and_rename(text, path);
     }
     free(text);
     return code;

@@ -14,6 +14,7 @@
 
 enum {
     NAME_LIMIT = 1000, // temporary names tried
+    STEM_LIMIT = 200,  // bytes of a name that they begin with
     PIECE = 1 << 22,   // bytes written between two questions whether to go on
     LINK_LIMIT = 40,   // links to links, as many as Linux follows
     LINK_SIZE = 4096   // bytes of what a link names
@@ -168,16 +169,32 @@ alp_result alpi_file_check_writable(alp_context *context, const char *path, bool
                              "another file",
                              path);
         }
+    } else if (errno == ENAMETOOLONG) {
+        return fail_io(context, "write", path);
     }
     return check_folder(context, path);
+}
+
+/// Bytes of the path that begin a temporary name: what is added must have room in a name too.
+static size_t stem_length(const char *path)
+{
+    const char *name = alpi_path_name(path);
+    size_t length = strlen(name);
+    if (length > STEM_LIMIT) {
+        for (length = STEM_LIMIT; length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80;) {
+            length--; // whole characters of UTF-8
+        }
+    }
+    return (size_t)(name - path) + length;
 }
 
 /// Opens a temporary file beside the final place, under the first name that is free.
 static alp_result open_temporary(alpi_file_writer *writer)
 {
+    const int stem = (int)stem_length(writer->path);
     for (unsigned number = 0; number < NAME_LIMIT; number++) {
-        writer->temporary =
-            alpi_format(writer->context, "%s.part-%ld-%u", writer->path, (long)getpid(), number);
+        writer->temporary = alpi_format(writer->context, "%.*s.part-%ld-%u", stem, writer->path,
+                                        (long)getpid(), number);
         if (writer->temporary == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
         }

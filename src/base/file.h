@@ -13,7 +13,8 @@
 alp_result alpi_file_read(alp_context *context, const char *path, uint64_t limit, uint8_t **bytes,
                           size_t *size);
 
-/// A file being written. Bytes go to "PATH.part-PID-N" in the same folder. Where PATH is a link,
+/// A file being written. Bytes go to "PATH.part-PID-N" in the same folder (of a long name its
+/// beginning). Where PATH is a link,
 /// PATH is what it names in the end, which need not be there: the link stays.
 typedef struct alpi_file_writer {
     alp_context *context;
