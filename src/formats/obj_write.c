@@ -302,6 +302,22 @@ static char *stem_of(alp_context *context, const char *path)
     return alpi_format(context, "%.*s", (int)(strlen(path) - strlen(".obj")), path);
 }
 
+/// The library and the pictures are named after the .obj, and there is no way to write some names.
+static alp_result check_name(alp_context *context, const char *path)
+{
+    const char *name = alpi_path_name(path);
+    bool odd = name[0] == ' ';
+    for (const char *c = name; *c != '\0'; c++) {
+        odd |= (unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\';
+    }
+    return odd ? alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                           "%s: an .obj cannot name files whose names begin with a blank or have "
+                           "line breaks or backslashes, as those beside this one would; give "
+                           "another",
+                           path)
+               : ALP_OK;
+}
+
 static alp_result check_patch(const alp_scene *scene, const alpi_mesh_patch *patch)
 {
     if (patch->vertex_values != NULL || patch->packed_count > 0 ||
@@ -368,6 +384,7 @@ alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *p
                          .names = alpi_obj_names_create(context)};
     alpi_gltf_files files = {.context = context};
     ALP_TRY(check_patch(scene, patch));
+    ALP_TRY(check_name(context, path));
     ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
     alp_result result = run(&w, path, &files);
     if (result == ALP_OK) {
@@ -423,6 +440,7 @@ alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images
                                   const char *path, bool overwrite)
 {
     alp_context *context = scene->context;
+    ALP_TRY(check_name(context, path));
     ALP_TRY(alpi_file_check_writable(context, path, overwrite));
     char *stem = stem_of(context, path);
     alp_result result =

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef enum fault_kind { FAULTS_WRITING, FAULTS_READING, FAULT_KINDS } fault_kind;
+typedef enum fault_kind { FAULTS_WRITING, FAULTS_READING, FAULTS_SHRINKING } fault_kind;
 
 static struct {
     fault_kind kind; // of calls that are counted
@@ -61,6 +61,9 @@ int __wrap_open(const char *path, int flags, ...)
 
 ssize_t __wrap_read(int descriptor, void *bytes, size_t size)
 {
+    if (fails(FAULTS_SHRINKING, "read", 0)) {
+        return 0; // the end, before where it was said to be
+    }
     return fails(FAULTS_READING, "read", EIO) ? -1 : __real_read(descriptor, bytes, size);
 }
 
@@ -225,6 +228,51 @@ static void failing_reads(void **unused)
     }
 }
 
+/// A file that is cut off between the question how long it is and the reading.
+static void shrinking_files(void **unused)
+{
+    (void)unused;
+    for (int kind = 0; kind < 3; kind++) {
+        test_small_bake bake = test_small_bake_open(kind);
+        for (long i = 0; i < 3; i++) { // the scene first
+            test_log_clear();
+            alp_context *context = test_context(1);
+            alp_scene *scene = NULL;
+            arm(FAULTS_SHRINKING, i);
+            const alp_result result = alp_scene_load(context, bake.scene, &scene);
+            const char *text = result == ALP_OK ? test_log_text() : alp_context_message(context);
+            assert_true(faults.failed == NULL || strstr(text, "became shorter") != NULL);
+            assert_true(i > 0 || result == ALP_ERROR_IO);
+            assert_int_equal(result == ALP_OK, scene != NULL);
+            arm(FAULTS_WRITING, -1);
+            alp_scene_destroy(scene);
+            alp_context_destroy(context);
+        }
+        test_small_bake_close(&bake);
+    }
+}
+
+/// A folder where nothing may be made is told before the work. Root may make files anywhere.
+static void unwritable_folder(void **unused)
+{
+    (void)unused;
+    if (geteuid() == 0) {
+        print_message("permissions do not bind root: skipped\n");
+        skip();
+    }
+    test_small_bake bake = test_small_bake_open(0);
+    arm(FAULTS_WRITING, -1);
+    alp_context *context = test_context(1);
+    assert_int_equal(chmod(bake.maps, 0555), 0);
+    assert_int_equal(test_small_bake_run(&bake, context), ALP_ERROR_IO);
+    assert_non_null(strstr(alp_context_message(context), "its folder cannot be written"));
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(test_small_bake_look(&bake).old, bake.file_count);
+    assert_int_equal(chmod(bake.maps, 0755), 0);
+    alp_context_destroy(context);
+    test_small_bake_close(&bake);
+}
+
 /// One picture, and the page of a report: alone, so a former file is simply replaced or not.
 static void single_files(void **unused)
 {
@@ -280,8 +328,8 @@ static void single_files(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(failing_writes),
-        cmocka_unit_test(failing_reads),
+        cmocka_unit_test(failing_writes),  cmocka_unit_test(failing_reads),
+        cmocka_unit_test(shrinking_files), cmocka_unit_test(unwritable_folder),
         cmocka_unit_test(single_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -29,4 +29,9 @@ alpenglow bake room.gltf --ao-samples 1048576 --progress off -q -o x.glb --json 
 alpenglow bake room.gltf $quick -o "a folder/50% größer #1.gltf"; echo $?
 grep -o '"uri":"[^d][^"]*"' "a folder/50% größer #1.gltf"
 alpenglow info -q "a folder/50% größer #1.gltf" | head -n 1
+# an .obj has no escapes: names that it cannot hold are refused
+for name in "a b #1" ä "two
+lines" "back\\slash" " blank"; do
+    alpenglow bake room.gltf $quick -o "$name.obj" && alpenglow info -q "$name.obj" | sed -n '1p;/materials/p'
+done
 ls . "a folder" ./-maps
