@@ -345,7 +345,8 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 typedef struct alp_lightmap alp_lightmap;
 
 /// Bakes the maps of a scene that the options ask for and writes them. Every output is written
-/// beside its place and renamed, after everything has succeeded.
+/// beside its place and renamed, after everything has succeeded: all of them appear, or none. An
+/// output that is a link is written where the link leads.
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0 (the caller loaded)
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
