@@ -156,6 +156,7 @@ alp_result test_small_bake_run(const test_small_bake *bake, alp_context *context
     options.occlusion.samples = 4;
     options.light.samples = 2;
     options.light.bounces = 1;
+    options.light.layers = bake->as == ALP_LIGHTMAP_AS_EMISSIVE && bake->format == ALP_MAPS_EXR;
     options.lightmap_as = bake->as;
     options.maps_format = bake->format;
     options.output = bake->output;
