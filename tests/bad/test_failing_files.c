@@ -30,6 +30,7 @@ static bool fails(fault_kind kind, const char *call, int error)
     return true;
 }
 
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c): the linker has these names
 int __real_open(const char *path, int flags, ...);
 ssize_t __real_read(int descriptor, void *bytes, size_t size);
 ssize_t __real_write(int descriptor, const void *bytes, size_t size);
@@ -105,6 +106,8 @@ int __wrap_fstat(int descriptor, struct stat *status)
 {
     return fails(FAULTS_READING, "fstat", EOVERFLOW) ? -1 : __real_fstat(descriptor, status);
 }
+
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c)
 
 // --- the tests -----------------------------------------------------------------------------------
 
