@@ -185,6 +185,9 @@ static alp_result add_series(work *w, face_kind kind, uint32_t first, uint32_t c
 {
     uint32_t(*triangles)[3] = NULL;
     const uint32_t made = kind == TRIANGLES ? count / 3 : count - 2;
+    if (made == 0) {
+        return ALP_OK;
+    }
     ALP_TRY(add_triangles(w, made, &triangles));
     for (uint32_t t = 0; t < made; t++) {
         const uint32_t at = first + (kind == TRIANGLES ? 3 * t : t);

@@ -40,8 +40,8 @@ uint8_t *fuzz_copy(const uint8_t *data, size_t size);
 ///        of whole files puts there
 uint8_t *fuzz_owned(const fuzz_run *run, const uint8_t *data, size_t size, size_t zeros);
 
-/// Adds to what counts as decoded: input, texts and streams that were inflated, images that were
-/// decoded or that a header promised, arrays of the scene.
+/// Adds to what counts as decoded: the input, text and streams that were inflated, images that were
+/// decoded or that a header promised and the file is long enough for, arrays of the scene.
 void fuzz_decoded(fuzz_run *run, uint64_t bytes);
 
 /// Checks what a reader gave; prints it where $FUZZ_TELL is set.

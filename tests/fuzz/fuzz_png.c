@@ -30,6 +30,19 @@ static void mend_checksums(uint8_t *bytes, size_t size)
     }
 }
 
+/// Bytes of the pixels that the header promises, where the file could be long enough for them.
+static uint64_t promised(const uint8_t *bytes, size_t size)
+{
+    static const uint8_t channels[] = {1, 0, 3, 1, 2, 0, 4};
+    if (size < 33 || bytes[25] >= sizeof channels) {
+        return 0;
+    }
+    const uint64_t pixels = (uint64_t)read_u32(bytes + 16) * read_u32(bytes + 20);
+    const uint64_t bits = (uint64_t)bytes[24] * channels[bytes[25]];
+    const bool possible = pixels <= ALPI_IMAGE_PIXEL_LIMIT && pixels * bits / 8 / 1032 <= size;
+    return possible ? 4 * pixels : 0;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_run run = fuzz_begin(size);
@@ -37,6 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size % 8 != 0) {
         mend_checksums(bytes, size);
     }
+    fuzz_decoded(&run, promised(bytes, size));
     alp_image *image = NULL;
     alp_result result = alpi_png_decode(run.context, "fuzz.png", bytes, size, &image);
     fuzz_image(&run, result, image);
