@@ -11,7 +11,7 @@
 #
 # Targets: those of tests/fuzz/CMakeLists.txt; default: all.
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 2
 
 seconds=600 runs="" seed=1 targets=()
 while [ $# -gt 0 ]; do
@@ -19,7 +19,7 @@ while [ $# -gt 0 ]; do
     --seconds) seconds=$2 && shift 2 ;;
     --runs) runs=$2 && shift 2 ;;
     --seed) seed=$2 && shift 2 ;;
-    -*) sed -n '3,14s/^# \{0,1\}//p' "$0" && exit 2 ;;
+    -*) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 2 ;;
     *) targets+=("$1") && shift ;;
     esac
 done
@@ -31,9 +31,13 @@ if ! command -v clang >/dev/null; then
     echo "fuzz: clang and its libFuzzer are needed (Debian: apt-get install clang)" >&2
     exit 2
 fi
-{ cmake --preset fuzz --log-level=WARNING && cmake --build --preset fuzz; } >&2 || exit 2
-
 out=build/fuzz
+mkdir -p "$out"
+if ! { cmake --preset fuzz --log-level=WARNING && cmake --build --preset fuzz; } \
+    >"$out/build.log" 2>&1; then
+    tail -40 "$out/build.log" >&2
+    exit 2
+fi
 findings=$out/findings
 scratch=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")/fuzz-XXXXXX")
 trap 'rm -rf "$scratch"' EXIT

@@ -177,7 +177,7 @@ static long run_folder(const char *path, long mutations)
 
 int main(int count, char **arguments)
 {
-    long mutations = 300, runs = 0;
+    long mutations = 500, runs = 0;
     static const char option[] = "-mutations=";
     for (int i = 1; i < count; i++) {
         if (strncmp(arguments[i], option, sizeof option - 1) == 0) {

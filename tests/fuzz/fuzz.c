@@ -2,6 +2,7 @@
 // What must hold of every input, whatever it is.
 #include "fuzz.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "formats/formats.h"
 
@@ -327,7 +328,9 @@ void fuzz_write_back(fuzz_run *run, const alp_scene *scene, const char *name)
         if (result != ALP_OK) {
             fuzz_abort("what was written cannot be read: %s", alp_context_message(context));
         }
-        if (again->triangle_count != scene->triangle_count) {
+        const bool may_lose = alpi_path_has_ending(name, ".obj"); // triangles without area
+        if (may_lose ? again->triangle_count > scene->triangle_count
+                     : again->triangle_count != scene->triangle_count) {
             fuzz_abort("%u triangles were written, %u read", scene->triangle_count,
                        again->triangle_count);
         }

@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_peak(&run);
     }
     if (scene != NULL) {
-        fuzz_write_back(&run, scene, "out.dae");
+        fuzz_write_back(&run, scene, size % 4 == 0 ? "out.glb" : "out.dae");
     }
     alp_scene_destroy(scene);
     fuzz_end(&run);

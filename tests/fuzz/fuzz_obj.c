@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target: OBJ, and behind a zero byte the text of the material library a.mtl.
+// What can be read is written as glTF or OBJ and read again.
 #include "fuzz.h"
 
 #include "formats/obj.h"
@@ -42,6 +43,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     alp_scene *scene = NULL;
     alp_result result = alpi_obj_scene_from_bytes(run.context, path, bytes, length, &scene);
     fuzz_scene(&run, result, scene);
+    fuzz_peak(&run);
+    if (scene != NULL && scene->usable_count > 0) {
+        fuzz_write_back(&run, scene, size % 2 == 0 ? "out.glb" : "out.obj");
+    }
     alp_scene_destroy(scene);
     free(bytes);
     fuzz_end(&run);
