@@ -76,7 +76,8 @@ static alp_result read_list(work *w, const xmlNode *list, uint32_t *count)
     w->faces->dropped += whole * w->inputs->stride < w->index_count - before;
     w->index_count = before + whole * w->inputs->stride;
     if (w->index_count / w->inputs->stride > ALPI_NONE / 2) {
-        return alpi_fail(w->reader->context, ALP_ERROR_LIMIT, "%s: more than %u corners in one mesh; split it",
+        return alpi_fail(w->reader->context, ALP_ERROR_LIMIT,
+                         "%s: more than %u corners in one mesh; split it",
                          w->reader->document->path, ALPI_NONE / 2);
     }
     *count = (uint32_t)whole;

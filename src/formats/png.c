@@ -98,8 +98,8 @@ static void check_size(png_job *job)
         snprintf(fault, sizeof fault, "has %u x %u pixels, more than 2^28", width, height);
         png_error(job->png, fault);
     }
-    const unsigned bits = png_get_bit_depth(job->png, job->info) *
-                          (unsigned)png_get_channels(job->png, job->info);
+    const unsigned bits =
+        png_get_bit_depth(job->png, job->info) * (unsigned)png_get_channels(job->png, job->info);
     if (pixels * bits / 8 / DEFLATE_MOST > job->size) { // a short file cannot ask for gigabytes
         snprintf(fault, sizeof fault, "%zu bytes cannot hold %u x %u pixels: it was cut off",
                  job->size, width, height);

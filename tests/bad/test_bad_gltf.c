@@ -287,11 +287,10 @@ static void other_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crafted_files),         cmocka_unit_test(third_party_files),
-        cmocka_unit_test(hostile_structures),    cmocka_unit_test(deep_nodes),
-        cmocka_unit_test(values_are_counted),
-        cmocka_unit_test(index_without_normals), cmocka_unit_test(expansion_is_limited),
-        cmocka_unit_test(other_kinds),
+        cmocka_unit_test(crafted_files),        cmocka_unit_test(third_party_files),
+        cmocka_unit_test(hostile_structures),   cmocka_unit_test(deep_nodes),
+        cmocka_unit_test(values_are_counted),   cmocka_unit_test(index_without_normals),
+        cmocka_unit_test(expansion_is_limited), cmocka_unit_test(other_kinds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

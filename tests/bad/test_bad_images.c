@@ -91,17 +91,17 @@ static void sizes_that_no_file_holds(void **state)
     end_png(&f, 100);
     check_refused(&f, ALP_ERROR_LIMIT, "has 65536 x 4097 pixels, more than 2^28");
     // A frame header of 16000 × 16000 pixels, grey, with a table and a scan of nothing.
-    static const uint8_t jpeg[] = {
-        0xff, 0xd8, 0xff, 0xc0, 0, 11,   8,    0x3e, 0x80, 0x3e, 0x80, 1, 1, 0x11, 0, 0xff, 0xda, 0,
-        8,    1,    1,    0,    0, 0x3f, 0x00, 0xff, 0xd9};
+    static const uint8_t jpeg[] = {0xff, 0xd8, 0xff, 0xc0, 0,    11,   8,    0x3e, 0x80,
+                                   0x3e, 0x80, 1,    1,    0x11, 0,    0xff, 0xda, 0,
+                                   8,    1,    1,    0,    0,    0x3f, 0x00, 0xff, 0xd9};
     f.size = 0;
     put(&f, jpeg, sizeof jpeg);
     check_refused(&f, ALP_ERROR_INVALID_DATA, "27 bytes cannot hold 16000 x 16000 pixels");
     // An extended header of 2^20 × 16 pixels, as damage makes it; the format's own limit is 2^14.
-    static const uint8_t webp[] = {'R', 'I', 'F', 'F', 40,  0,   0,   0,    'W', 'E', 'B', 'P', 'V',
-                                   'P', '8', 'X', 10,  0,   0,   0,   0,    0,   0,   0,   255, 255,
-                                   15,  15,  0,   0,   'V', 'P', '8', 'L', 10,  0,   0,   0,   0x2f,
-                                   0,   0,   0,   0,   0,   0,   0,   0,    0};
+    static const uint8_t webp[] = {'R', 'I', 'F',  'F', 40, 0, 0,   0,   'W', 'E', 'B', 'P',
+                                   'V', 'P', '8',  'X', 10, 0, 0,   0,   0,   0,   0,   0,
+                                   255, 255, 15,   15,  0,  0, 'V', 'P', '8', 'L', 10,  0,
+                                   0,   0,   0x2f, 0,   0,  0, 0,   0,   0,   0,   0,   0};
     f.size = 0;
     put(&f, webp, sizeof webp);
     alp_context *context = test_context(1);

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { FILE_LIMIT = 1 << 20, MOST_FILES = 512 };
+enum { FILE_LIMIT = 1 << 22, MOST_FILES = 512 };
 
 typedef struct piece {
     uint8_t *bytes;
@@ -43,9 +43,20 @@ static void replace(piece *p, size_t at, size_t length, const void *bytes, size_
 /// A number of the text becomes one of those that break readers.
 static void change_number(piece *p, size_t at)
 {
-    static const char *const numbers[] = {"-1",         "0",          "1",    "65536",  "1e39",
-                                          "2147483648", "4294967295", "1.5",  "-1e308", "255",
-                                          "99999999999999999999",     "1e-9", "3",      "nan"};
+    static const char *const numbers[] = {"-1",
+                                          "0",
+                                          "1",
+                                          "65536",
+                                          "1e39",
+                                          "2147483648",
+                                          "4294967295",
+                                          "1.5",
+                                          "-1e308",
+                                          "255",
+                                          "99999999999999999999",
+                                          "1e-9",
+                                          "3",
+                                          "nan"};
     const uint64_t pick = (uint64_t)p->bytes[at] + at + p->size;
     const char *number = numbers[pick % (sizeof numbers / sizeof *numbers)];
     size_t end = at;
@@ -190,8 +201,7 @@ int main(int count, char **arguments)
             continue;
         }
         const bool is_folder = stat(arguments[i], &status) == 0 && S_ISDIR(status.st_mode);
-        runs +=
-            is_folder ? run_folder(arguments[i], mutations) : run_file(arguments[i], mutations);
+        runs += is_folder ? run_folder(arguments[i], mutations) : run_file(arguments[i], mutations);
     }
     printf("%ld inputs\n", runs);
     return runs > 0 ? 0 : 2;

@@ -257,8 +257,8 @@ void fuzz_scene(fuzz_run *run, alp_result result, const alp_scene *scene)
     for (int set = 0; set < ALPI_UV_SET_LIMIT; set++) {
         vertex += scene->uvs[set] != NULL ? sizeof *scene->uvs[set] : 0;
     }
-    const uint64_t triangle = sizeof *scene->triangles + sizeof *scene->triangle_surface +
-                              sizeof *scene->triangle_usable;
+    const uint64_t triangle =
+        sizeof *scene->triangles + sizeof *scene->triangle_surface + sizeof *scene->triangle_usable;
     fuzz_decoded(run, vertex * scene->vertex_count + triangle * scene->triangle_count);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         fuzz_decoded(run, image_size(scene->images[i]));

@@ -51,8 +51,8 @@ void fuzz_scene(fuzz_run *run, alp_result result, const alp_scene *scene);
 /// The same of an image, which is destroyed.
 void fuzz_image(fuzz_run *run, alp_result result, alp_image *image);
 
-/// Writes the scene with made-up coordinates on two pages as `name` (.glb, .gltf, .dae, .obj), reads
-/// that again and compares.
+/// Writes the scene with made-up coordinates on two pages as `name` (.glb, .gltf, .dae, .obj),
+/// reads that again and compares.
 void fuzz_write_back(fuzz_run *run, const alp_scene *scene, const char *name);
 
 /// A folder of this process below $TMPDIR, removed at its end.

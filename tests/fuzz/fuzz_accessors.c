@@ -76,9 +76,12 @@ static void add_accessor(text *t, const input_accessor *a, bool comma)
 
 static void add_primitive(text *t, const input_head *head)
 {
-    static const char *const attributes[] = {
-        ",\"NORMAL\":1", ",\"TEXCOORD_0\":2", ",\"COLOR_0\":3", "", "",
-        ",\"JOINTS_0\":6,\"WEIGHTS_0\":7"};
+    static const char *const attributes[] = {",\"NORMAL\":1",
+                                             ",\"TEXCOORD_0\":2",
+                                             ",\"COLOR_0\":3",
+                                             "",
+                                             "",
+                                             ",\"JOINTS_0\":6,\"WEIGHTS_0\":7"};
     add(t, "{\"mode\":%u,\"material\":0,\"attributes\":{\"POSITION\":0", head->mode);
     for (unsigned i = 0; i < sizeof attributes / sizeof *attributes; i++) {
         add(t, "%s", (head->parts >> i & 1) != 0 ? attributes[i] : "");

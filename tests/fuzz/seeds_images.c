@@ -89,8 +89,8 @@ static void put_png(const char *name, int depth, int type)
     out.size = 0;
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < 8 * WIDTH; x++) {
-            pixels[y][x] = type == PNG_COLOR_TYPE_PALETTE ? (uint8_t)(x % 4 * 64 + y % 4)
-                                                          : value_at(x, y, 0);
+            pixels[y][x] =
+                type == PNG_COLOR_TYPE_PALETTE ? (uint8_t)(x % 4 * 64 + y % 4) : value_at(x, y, 0);
         }
         rows[y] = pixels[y];
     }
@@ -147,8 +147,8 @@ static void put_jpeg(const jpeg_kind *kind)
     while (encoder.next_scanline < HEIGHT) {
         uint8_t row[4 * WIDTH];
         for (int i = 0; i < WIDTH * kind->components; i++) {
-            row[i] = value_at(i / kind->components, (int)encoder.next_scanline,
-                              i % kind->components);
+            row[i] =
+                value_at(i / kind->components, (int)encoder.next_scanline, i % kind->components);
         }
         JSAMPROW rows[1] = {row};
         jpeg_write_scanlines(&encoder, rows, 1);
@@ -167,9 +167,8 @@ static void put_webp(const char *name, bool lossless, bool with_alpha)
     for (int i = 0; i < HEIGHT * WIDTH * 4; i++) {
         pixels[i] = i % 4 == 3 && !with_alpha ? 255 : value_at(i / 4 % WIDTH, i / 4 / WIDTH, i % 4);
     }
-    const size_t size = lossless
-                            ? WebPEncodeLosslessRGBA(pixels, WIDTH, HEIGHT, WIDTH * 4, &bytes)
-                            : WebPEncodeRGBA(pixels, WIDTH, HEIGHT, WIDTH * 4, 40.0f, &bytes);
+    const size_t size = lossless ? WebPEncodeLosslessRGBA(pixels, WIDTH, HEIGHT, WIDTH * 4, &bytes)
+                                 : WebPEncodeRGBA(pixels, WIDTH, HEIGHT, WIDTH * 4, 40.0f, &bytes);
     if (size == 0) {
         seed_fail(name);
     }
@@ -238,8 +237,7 @@ static void put_exr(const char *name, exr_compression_t compression, exr_pixel_t
     out.size = 0;
     int part = 0;
     try_exr(exr_start_write(&exr, "seed.exr", EXR_WRITE_FILE_DIRECTLY, &options));
-    try_exr(
-        exr_add_part(exr, NULL, tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part));
+    try_exr(exr_add_part(exr, NULL, tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part));
     try_exr(exr_initialize_required_attr_simple(exr, part, WIDTH, HEIGHT, compression));
     if (tiled) {
         try_exr(exr_set_tile_descriptor(exr, part, TILE, TILE, EXR_TILE_ONE_LEVEL,

@@ -166,8 +166,7 @@ static void pack(seed *s, uint8_t view, uint8_t packing, size_t count, uint8_t s
 static void put_meshopt(void)
 {
     uint8_t packed[4096];
-    size_t size =
-        meshopt_encodeVertexBuffer(packed, sizeof packed, grid.positions, VERTICES, 12);
+    size_t size = meshopt_encodeVertexBuffer(packed, sizeof packed, grid.positions, VERTICES, 12);
     seed s = start(INPUT_NORMALS | INPUT_INDICES);
     set(&s, 0, FLOAT, VEC3, add_view(&s, 0, packed, size, 0), VERTICES);
     pack(&s, 0, 1, VERTICES, 12);
