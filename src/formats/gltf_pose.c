@@ -57,13 +57,13 @@ static alp_result read_weights(alpi_gltf_reader *reader, json_t *node, const cha
     return ALP_OK;
 }
 
-/// The node of joint `i`; false when the scene does not place it.
-static bool find_joint(const alpi_gltf_reader *reader, json_t *joints, size_t i, uint32_t *node)
+/// The node of joint `i`, ALPI_NONE when it is none: what is written has more nodes, and must not
+/// give one to a number that had none.
+static uint32_t find_joint(const alpi_gltf_reader *reader, json_t *joints, size_t i)
 {
     json_t *value = json_array_get(joints, i);
     double number = json_is_number(value) ? json_number_value(value) : -1.0;
-    *node = number >= 0.0 && number < (double)reader->node_count ? (uint32_t)number : 0;
-    return number >= 0.0 && number < (double)reader->node_count && reader->placed[*node];
+    return number >= 0.0 && number < (double)reader->node_count ? (uint32_t)number : ALPI_NONE;
 }
 
 static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char *owner, bool tell,
@@ -74,17 +74,25 @@ static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char
     ALP_TRY(alpi_gltf_index(reader->document, skin, "inverseBindMatrices", "accessors", owner,
                             &inverse));
     ALP_TRY(count_steps(reader, owner, (uint64_t)STEPS_PER_JOINT * count));
-    for (size_t i = 0; i <= count; i++) {
-        uint32_t node;
-        if (i == count ? count == 0 : !find_joint(reader, joints, i, &node)) {
-            if (tell) {
-                alpi_warn(reader->context, "skin", owner,
-                          "joint %zu is no node of the scene: what the skin moves is taken without "
-                          "it",
-                          i);
-            }
-            return ALP_OK;
+    bool placed = count > 0;
+    size_t missing = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t node = find_joint(reader, joints, i);
+        if (node == ALPI_NONE) {
+            return alpi_gltf_fail(reader->document, owner,
+                                  "joint %zu is no index of a node, of which there are %u", i,
+                                  reader->node_count);
         }
+        missing = placed ? i : missing;
+        placed = placed && reader->placed[node];
+    }
+    if (!placed) {
+        if (tell) {
+            alpi_warn(reader->context, "skin", owner,
+                      "joint %zu is no node of the scene: what the skin moves is taken without it",
+                      missing);
+        }
+        return ALP_OK;
     }
     ALPI_TRY_NEW(reader->context, pose->joints, count);
     pose->joint_count = (uint32_t)count;
@@ -96,8 +104,7 @@ static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char
                                             &pose->joints->m));
     }
     for (size_t i = 0; i < count; i++) {
-        uint32_t node;
-        find_joint(reader, joints, i, &node);
+        const uint32_t node = find_joint(reader, joints, i);
         pose->joints[i] = mat4_multiply(&reader->world[node], &pose->joints[i]);
     }
     return ALP_OK;

@@ -161,7 +161,7 @@ static int by_name(const void *a, const void *b)
 
 static long run_folder(const char *path, long mutations)
 {
-    char *names[MOST_FILES], full[1024];
+    char *names[MOST_FILES] = {NULL}, full[1024];
     size_t count = 0;
     long runs = 0;
     DIR *folder = opendir(path);

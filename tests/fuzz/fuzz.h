@@ -14,6 +14,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 /// Every target's entry; libFuzzer or driver.c calls it.
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -59,6 +60,7 @@ void fuzz_write_back(fuzz_run *run, const alp_scene *scene, const char *name);
 const char *fuzz_folder(void);
 
 /// Prints and aborts.
-_Noreturn void fuzz_abort(const char *format, ...) ALP_PRINTF(1, 2);
+#define fuzz_abort(...) (fuzz_print(__VA_ARGS__), abort())
+void fuzz_print(const char *format, ...) ALP_PRINTF(1, 2);
 
 #endif

@@ -21,6 +21,7 @@ static void add(text *t, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
+    // Just started. NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized)
     const int length = vsnprintf(t->bytes + t->size, sizeof t->bytes - t->size, format, arguments);
     va_end(arguments);
     if (length < 0 || (size_t)length >= sizeof t->bytes - t->size) {

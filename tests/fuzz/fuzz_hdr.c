@@ -4,7 +4,6 @@
 
 #include "formats/formats.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,8 +23,11 @@ static uint64_t promised(const uint8_t *bytes, size_t size)
         memcpy(text, bytes + begin, count);
         break;
     }
-    const int read = sscanf(text, "%*[+- \tXY]%llu%*[+- \tXY]%llu", &lines, &length);
-    const bool possible = read == 2 && lines < size && length <= ALPI_IMAGE_SIDE_LIMIT;
+    char *end = text + strspn(text, "+-XY \t");
+    lines = strtoull(end, &end, 10);
+    end += strspn(end, "+-XY \t");
+    length = strtoull(end, &end, 10);
+    const bool possible = lines < size && length <= ALPI_IMAGE_SIDE_LIMIT;
     return possible ? 3 * sizeof(float) * lines * length : 0;
 }
 
