@@ -35,6 +35,13 @@ static unsigned long long large(uint16_t value)
     return value < INPUT_LARGE ? value : ((unsigned long long)1 << (value - INPUT_LARGE)) * 256 - 1;
 }
 
+/// Numbers of elements: a few, so that an input takes no long time, or past every limit.
+static unsigned long long elements(uint16_t value)
+{
+    enum { FEW = 512 };
+    return value < INPUT_LARGE ? value % FEW : large(value);
+}
+
 static void add_view(text *t, const input_view *view, bool comma)
 {
     static const char *const modes[] = {"", "ATTRIBUTES", "TRIANGLES", "INDICES"};
@@ -59,7 +66,7 @@ static void add_accessor(text *t, const input_accessor *a, bool comma)
 {
     static const char *const types[] = {"MAT2", "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"};
     add(t, "%s{\"componentType\":%u,\"type\":\"%s\",\"count\":%llu", comma ? "," : "",
-        5120u + a->component_type, types[a->type % 6], large(a->count));
+        5120u + a->component_type, types[a->type % 6], elements(a->count));
     if (a->view != 255) {
         add(t, ",\"bufferView\":%u,\"byteOffset\":%llu", a->view, large(a->offset));
     }
