@@ -177,7 +177,7 @@ static alp_result read_size(hdr_reader *r)
     if (counts[0] > ALPI_IMAGE_SIDE_LIMIT || counts[1] > ALPI_IMAGE_SIDE_LIMIT ||
         counts[0] * counts[1] > ALPI_IMAGE_PIXEL_LIMIT) {
         return alpi_fail(r->context, ALP_ERROR_LIMIT,
-                         "%s: %s pixels, more than 2^28, or than %d in a row", r->name, text,
+                         "%s: %s pixels; the limits are 2^28, and %d in a row", r->name, text,
                          ALPI_IMAGE_SIDE_LIMIT);
     }
     r->x_major = axes[0] == 'X';

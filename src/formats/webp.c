@@ -29,7 +29,7 @@ static alp_result check(alp_context *context, const char *name,
     if (pixels > ALPI_IMAGE_PIXEL_LIMIT || features->width > ALPI_IMAGE_SIDE_LIMIT ||
         features->height > ALPI_IMAGE_SIDE_LIMIT) {
         return alpi_fail(context, ALP_ERROR_LIMIT,
-                         "%s: WebP: has %d x %d pixels, more than 2^28, or than %d in a row", name,
+                         "%s: WebP: has %d x %d pixels; the limits are 2^28, and %d in a row", name,
                          features->width, features->height, ALPI_IMAGE_SIDE_LIMIT);
     }
     return ALP_OK;
