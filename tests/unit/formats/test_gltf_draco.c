@@ -252,6 +252,28 @@ static void streams_that_lie(void **state)
     alp_context_destroy(context);
 }
 
+/// Asset and stream agree on 100 million triangles, for which the decoder would ask for gigabytes.
+static void a_short_stream_that_agrees(void **state)
+{
+    (void)state;
+    static const unsigned char stream[40] = {'D',  'R',  'A',  'C',  'O',  2,    2,
+                                             1,    1,    0,    0,    0,    0x80, 0xc2,
+                                             0xd7, 0x2f, 0x80, 0xc2, 0xd7, 0x2f};
+    static const char json[] =
+        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':40}],'bufferViews':[{'buffer':0,"
+        "'byteLength':40}],'accessors':[{'componentType':5126,'count':100000000,'type':'VEC3'},"
+        "{'componentType':5125,'count':300000000,'type':'SCALAR'}],'meshes':[{'primitives':[{"
+        "'attributes':{'POSITION':0},'indices':1,'extensions':{" DRACO
+        ":{'bufferView':0,'attributes':{'POSITION':0}}}}]}]}";
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    assert_int_equal(test_gltf_scene(context, json, stream, sizeof stream, &scene),
+                     ALP_ERROR_INVALID_DATA);
+    test_message_has(context, "they are too few for so many triangles (100000000 vertices and "
+                              "100000000 triangles are stated)");
+    alp_context_destroy(context);
+}
+
 static void damaged_streams(void **state)
 {
     (void)state;
@@ -333,9 +355,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refused_by_name),
 #ifdef HAS_DRACO_ENCODER
-        cmocka_unit_test(sequential_is_exact),       cmocka_unit_test(edgebreaker),
-        cmocka_unit_test(strips_come_as_triangles),  cmocka_unit_test(patched_is_plain),
-        cmocka_unit_test(streams_that_lie),          cmocka_unit_test(damaged_streams),
+        cmocka_unit_test(sequential_is_exact),
+        cmocka_unit_test(edgebreaker),
+        cmocka_unit_test(strips_come_as_triangles),
+        cmocka_unit_test(patched_is_plain),
+        cmocka_unit_test(streams_that_lie),
+        cmocka_unit_test(damaged_streams),
+        cmocka_unit_test(a_short_stream_that_agrees),
         cmocka_unit_test(accessors_that_do_not_fit),
 #endif
     };
