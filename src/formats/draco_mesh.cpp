@@ -156,7 +156,8 @@ bool alpi_draco_attribute(const alpi_draco_mesh *mesh, uint32_t id, uint32_t com
 {
     const draco::PointAttribute *attribute = mesh->mesh->GetAttributeByUniqueId(id);
     const uint32_t count = mesh->mesh->num_points();
-    if (attribute == nullptr || static_cast<uint32_t>(attribute->num_components()) != components) {
+    if (attribute == nullptr || static_cast<uint32_t>(attribute->num_components()) != components ||
+        attribute->data_type() == draco::DT_BOOL) { // glTF has none, and any byte would be read so
         return false;
     }
     switch (component_type) {
