@@ -61,8 +61,7 @@ static void clip(const alpi_polygon *p, vec3 origin, double3 normal, upper_part 
         }
         if ((ha > 0.0) != (hb > 0.0)) {
             const double t = ha / (ha - hb);
-            out->corner[out->count++] =
-                double3_add(double3_scale(a, 1.0 - t), double3_scale(b, t));
+            out->corner[out->count++] = double3_add(double3_scale(a, 1.0 - t), double3_scale(b, t));
         }
     }
     out->area = 0.0;

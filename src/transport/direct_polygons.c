@@ -429,8 +429,8 @@ static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receive
     return ALP_OK;
 }
 
-/// Which receivers see something of a polygon, but had no ray that went there: of a polygon that the
-/// horizon cuts, a few points of its whole area may all lie below. @return whether any did
+/// Which receivers see something of a polygon, but had no ray that went there: of a polygon that
+/// the horizon cuts, a few points of its whole area may all lie below. @return whether any did
 static bool find_missed(alpi_polygon_gather *g, uint32_t count)
 {
     bool any = false;
