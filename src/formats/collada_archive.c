@@ -39,7 +39,7 @@ struct alpi_archive {
     size_t size;
     entry *entries;
     uint32_t entry_count;
-    named *names; // [entry_count] sorted: a document may ask for very many
+    named *names;      // [entry_count] sorted: a document may ask for very many
     uint64_t inflated; // so far, of ALPI_ARCHIVE_LIMIT
 };
 
