@@ -186,7 +186,7 @@ static void check_instances_that_are_nowhere(alp_context *context)
                                    .page_png_sizes = sizes,
                                    .occlusion_strength = 1.0f};
     const char *out = test_path(test_folder(), "out.glb");
-    ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, true));
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, out, true));
     ASSERT_OK(context, alp_scene_load(context, out, &again));
     assert_int_equal(again->triangle_count, 3);
     assert_int_equal(again->usable_count, 1);
