@@ -20,7 +20,7 @@ alp_result alpi_collada_reader_create(alpi_collada_document *document, alpi_coll
 {
     *reader = (alpi_collada_reader){.context = document->context,
                                     .document = document,
-                                    .cutter = {.context = document->context}};
+                                    .polygons = {.context = document->context}};
     ALPI_TRY_NEW(reader->context, reader->slots, document->element_count);
     return ALP_OK;
 }
@@ -42,7 +42,7 @@ void alpi_collada_reader_destroy(alpi_collada_reader *r)
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(r->context, owned[i]);
     }
-    alpi_ear_cutter_destroy(&r->cutter);
+    alpi_polygon_scratch_destroy(&r->polygons);
 }
 
 static void destroy_origin(alp_context *context, void *data)

@@ -13,7 +13,7 @@
 
 #include "base/vec.h"
 #include "formats/collada_document.h"
-#include "formats/collada_polygon.h"
+#include "formats/polygon.h"
 #include "scene/scene.h"
 
 // --- geometry ------------------------------------------------------------------------------------
@@ -141,7 +141,7 @@ typedef struct alpi_collada_reader {
     alpi_collada_document *document;
     alp_scene *scene; // being filled
     uint32_t *slots;  // [elements] 1 + the index of what was made of an element, 0 = nothing yet
-    alpi_ear_cutter cutter;
+    alpi_polygon_scratch polygons;
 
     alpi_collada_source *sources;
     alpi_collada_mesh *meshes;
