@@ -57,6 +57,11 @@ static uint32_t later_of(const clipper *c)
     return 2 * c->count + 2;
 }
 
+static uint32_t spikes_of(const clipper *c)
+{
+    return 2 * c->count + 3;
+}
+
 // --- the plane -----------------------------------------------------------------------------------
 
 static double finite_or_0(float value)
@@ -284,6 +289,14 @@ static double turn_at(const clipper *c, uint32_t corner)
                            c->ring.points[c->ring.behind[corner]]);
 }
 
+/// Whether a corner on one line with those beside it lies between them.
+static bool goes_on(const clipper *c, uint32_t corner)
+{
+    const point a = c->ring.points[c->ring.before[corner]], b = c->ring.points[corner];
+    const point d = c->ring.points[c->ring.behind[corner]];
+    return (b.x - a.x) * (d.x - b.x) + (b.y - a.y) * (d.y - b.y) > 0.0;
+}
+
 /// Into the list where it belongs by the angle it has now.
 static void sort_in(clipper *c, uint32_t corner)
 {
@@ -292,7 +305,7 @@ static void sort_in(clipper *c, uint32_t corner)
     if (turned > 0.0) {
         move(c, corner, queue_of(c));
     } else if (turned == 0.0) {
-        move(c, corner, straight_of(c));
+        move(c, corner, goes_on(c, corner) ? straight_of(c) : spikes_of(c));
     } else {
         take_out(c, corner);
     }
@@ -376,7 +389,9 @@ static bool cut_ears(clipper *c)
     while (c->left > 3 && c->steps < c->limit) {
         uint32_t corner = next_corner(c), blocker = c->count;
         c->steps++;
-        if (corner == queue_of(c)) {
+        if (c->link_behind[spikes_of(c)] != spikes_of(c)) { // goes away before it can be in a way
+            corner = c->link_behind[spikes_of(c)];
+        } else if (corner == queue_of(c)) {
             corner = choose_without_ear(c, last, &clean);
         } else {
             const uint32_t triangle[3] = {c->ring.before[corner], corner, c->ring.behind[corner]};
@@ -398,7 +413,7 @@ static bool cut_ears(clipper *c)
 
 static void start(clipper *c)
 {
-    for (uint32_t i = 0; i <= later_of(c); i++) {
+    for (uint32_t i = 0; i <= spikes_of(c); i++) {
         c->link_before[i] = c->link_behind[i] = i;
     }
     for (uint32_t i = 0; i < c->count; i++) {
@@ -426,8 +441,8 @@ static size_t lay_out(clipper *c, uint8_t *base)
     ring->origins = take(base, &used, n, sizeof *ring->origins);
     ring->before = take(base, &used, n, sizeof *ring->before);
     ring->behind = take(base, &used, n, sizeof *ring->behind);
-    c->link_before = take(base, &used, 2 * n + 3, sizeof *c->link_before);
-    c->link_behind = take(base, &used, 2 * n + 3, sizeof *c->link_behind);
+    c->link_before = take(base, &used, 2 * n + 4, sizeof *c->link_before);
+    c->link_behind = take(base, &used, 2 * n + 4, sizeof *c->link_behind);
     c->cell_first = take(base, &used, side * side, sizeof *c->cell_first);
     c->cell_next = take(base, &used, n, sizeof *c->cell_next);
     c->convex = take(base, &used, n, sizeof *c->convex);
