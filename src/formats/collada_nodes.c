@@ -200,6 +200,23 @@ static uint64_t weight_of(const alpi_collada_document *document, const xmlNode *
     return 1 + (span->end - span->begin) / 1024;
 }
 
+/// Elements inside an element, among which one is looked for.
+static uint64_t elements_in(const alpi_collada_document *document, const xmlNode *element)
+{
+    const uint32_t index = alpi_xml_index(element);
+    const size_t end = document->spans[index].end;
+    uint32_t low = index + 1, high = document->element_count;
+    while (low < high) { // the first that begins behind it
+        const uint32_t middle = low + (high - low) / 2;
+        if (document->spans[middle].begin < end) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low - index;
+}
+
 /// What one child that is no node adds; controllers are looked into each time.
 static void add_leaf(survey *s, const xmlNode *child, extent *sum)
 {
@@ -207,11 +224,13 @@ static void add_leaf(survey *s, const xmlNode *child, extent *sum)
     if (alpi_xml_is(child, "instance_controller")) {
         const xmlNode *controller = target_of(s->document, child, "url");
         for (int i = 0; alpi_xml_is(controller, "controller") && i < CHAIN_LIMIT; i++) {
-            visits += weight_of(s->document, controller);
+            visits += elements_in(s->document, controller);
             if (s->looked + visits > VISIT_LIMIT) {
                 break;
             }
             const xmlNode *skin = alpi_xml_child(controller, "skin");
+            const xmlNode *bind = alpi_xml_child(skin, "bind_shape_matrix");
+            visits += bind != NULL ? weight_of(s->document, bind) : 0;
             controller = target_of(
                 s->document, skin != NULL ? skin : alpi_xml_child(controller, "morph"), "source");
         }
