@@ -70,6 +70,11 @@ void alpi_collada_document_destroy(alpi_collada_document *document); // NULL doe
 alp_result alpi_collada_file_read(const alpi_collada_document *document, const char *uri,
                                   uint8_t **bytes, size_t *size);
 
+/// The path below the document's folder of a file that it names, without escapes; NULL in *name
+/// where it lies elsewhere. Released by the caller.
+alp_result alpi_collada_file_name(const alpi_collada_document *document, const char *uri,
+                                  char **name);
+
 // --- collada_scan.c ------------------------------------------------------------------------------
 
 /// Finds the spans of all elements, before the parser sees the text: depth and count are limited, a

@@ -253,6 +253,19 @@ static bool path_stays_below(const char *path)
     return true;
 }
 
+alp_result alpi_collada_file_name(const alpi_collada_document *d, const char *uri, char **name)
+{
+    *name = alpi_copy_string(d->context, uri);
+    if (*name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    if (!decode_path(*name) || !path_stays_below(*name)) {
+        alpi_release(d->context, *name);
+        *name = NULL;
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *uri, uint8_t **bytes,
                                   size_t *size)
 {

@@ -72,7 +72,7 @@ alp_result alpi_gltf_files_write(const alpi_gltf_files *files, bool overwrite)
 
 // --- files that the asset refers to --------------------------------------------------------------
 
-static bool same_folder(const char *a, const char *b)
+bool alpi_gltf_same_folder(const char *a, const char *b)
 {
     struct stat first, second;
     return stat(a[0] != '\0' ? a : ".", &first) == 0 &&
@@ -92,6 +92,20 @@ static bool file_equals(alp_context *context, const char *path, const uint8_t *b
     return same;
 }
 
+alp_result alpi_gltf_files_add_copy(alpi_gltf_files *files, char *path, uint8_t *bytes, size_t size)
+{
+    bool repeated = path != NULL && file_equals(files->context, path, bytes, size);
+    for (size_t i = 0; path != NULL && i < files->count; i++) {
+        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
+    }
+    if (repeated) {
+        alpi_release(files->context, path);
+        alpi_release(files->context, bytes);
+        return ALP_OK;
+    }
+    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
+}
+
 /// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
 static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *document,
                            const char *source, const char *folder)
@@ -105,16 +119,7 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
     char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
-    bool repeated = path != NULL && file_equals(files->context, path, bytes, size);
-    for (size_t i = 0; path != NULL && i < files->count; i++) {
-        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
-    }
-    if (repeated) {
-        alpi_release(files->context, path);
-        alpi_release(files->context, bytes);
-        return ALP_OK;
-    }
-    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
+    return alpi_gltf_files_add_copy(files, path, bytes, size);
 }
 
 /// @param fallbacks copy buffers only that are fallbacks: the others went into the asset
@@ -151,7 +156,7 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
-    if (!same_folder(folder, document->folder)) {
+    if (!alpi_gltf_same_folder(folder, document->folder)) {
         result = add_copies(files, document, "buffers", NULL, merged, folder);
         if (result == ALP_OK) {
             result = add_copies(files, document, "images", image_embedded, false, folder);
@@ -300,7 +305,7 @@ static alp_result collect_files(writing *w, alpi_gltf_home home)
     return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
 }
 
-static alp_result make_folders(const alpi_gltf_files *files)
+alp_result alpi_gltf_files_make_folders(const alpi_gltf_files *files)
 {
     for (size_t i = 0; i < files->count; i++) {
         char *folder = alpi_path_folder(files->context, files->items[i].path);
@@ -327,7 +332,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, bool overwrite
         result = collect_files(w, home);
     }
     if (result == ALP_OK) {
-        result = make_folders(&w->files);
+        result = alpi_gltf_files_make_folders(&w->files);
     }
     if (result == ALP_OK) {
         result = alpi_gltf_files_write(&w->files, overwrite);

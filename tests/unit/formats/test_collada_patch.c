@@ -3,10 +3,15 @@
 // coordinates at the right corners, and what the bake does not touch stays as it was.
 #include "test_collada.h"
 
+#include "base/file.h"
+#include "base/memory.h"
 #include "formats/collada_read.h"
 #include "formats/formats.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 static const char inside[] = TEST_COLLADA_SQUARE(
     "<polylist count='1'>" TEST_COLLADA_INPUT
@@ -65,6 +70,53 @@ static void mirrored_twice(void **state)
     alp_context_destroy(context);
 }
 
+/// Images that the document names below its folder go with it to another one; those that are there
+/// already are kept, and what cannot be copied stays a reference.
+static void images_go_along(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "<COLLADA version=\"1.4.1\"><library_images><image id=\"a\"><init_from>tex/two%20words.png"
+        "</init_from></image><image id=\"b\"><init_from>./tex/two%20words.png</init_from></image>"
+        "<image id=\"c\"><init_from>none.png</init_from></image><image id=\"d\"><init_from>../d.png"
+        "</init_from></image><image id=\"e\"><init_from>file:///e.png</init_from></image>"
+        "</library_images></COLLADA>";
+    static const char picture[] = "bytes of a picture";
+    alp_context *context = test_context(1);
+    char *from = alpi_format(context, "%s/from/tex", test_folder());
+    char *to = alpi_format(context, "%s/to", test_folder());
+    ASSERT_OK(context, alpi_folder_create(context, from));
+    ASSERT_OK(context, alpi_folder_create(context, to));
+    char *input = alpi_format(context, "%s/../in.dae", from);
+    char *image = alpi_format(context, "%s/two words.png", from);
+    char *output = alpi_format(context, "%s/out.dae", to);
+    char *copy = alpi_format(context, "%s/tex/two words.png", to);
+    ASSERT_OK(context, alpi_file_write(context, input, true, text, strlen(text)));
+    ASSERT_OK(context, alpi_file_write(context, image, true, picture, sizeof picture));
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, input, &scene));
+    const alpi_mesh_patch patch = {0};
+    for (int round = 0; round < 2; round++) { // what is there already with the same bytes is fine
+        ASSERT_OK(context, alpi_collada_write_patched(scene, &patch, output, round == 1));
+        size_t size = 0;
+        assert_true(test_log_has("images") > 0 && test_log_has("missing-file") > 0);
+        char *copied = (char *)test_read_file(copy, &size);
+        assert_int_equal(size, sizeof picture);
+        assert_memory_equal(copied, picture, size);
+        free(copied);
+    }
+    ASSERT_OK(context, alpi_file_write(context, copy, true, "other", 5));
+    (void)remove(output);
+    assert_int_equal(alpi_collada_write_patched(scene, &patch, output, false), ALP_ERROR_IO);
+    assert_int_equal(access(output, F_OK), -1); // all files or none
+    alp_scene_destroy(scene);
+    char *const names[] = {from, to, input, image, output, copy};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        alpi_release(context, names[i]);
+    }
+    alp_context_destroy(context);
+}
+
 /// A .dae is written only of a scene that was read from one.
 static void other_scenes(void **state)
 {
@@ -82,6 +134,7 @@ static void other_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(mirrored_twice),
+                                       cmocka_unit_test(images_go_along),
                                        cmocka_unit_test(other_scenes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
