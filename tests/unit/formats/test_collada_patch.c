@@ -70,6 +70,90 @@ static void mirrored_twice(void **state)
     alp_context_destroy(context);
 }
 
+/// Bakes coordinates by place times `scale` into the scene at `from`, or all triangles but the last
+/// on page 0 and that on page 1; the scene that was written.
+static alp_scene *bake_again(alp_context *context, const char *from, const char *to, float scale,
+                             bool two_pages)
+{
+    static float uvs[8][3][2];
+    static uint32_t pages[8];
+    const uint8_t *const pngs[] = {(const uint8_t *)"x", (const uint8_t *)"y"};
+    const size_t sizes[] = {1, 1};
+    alp_scene *old = NULL, *new = NULL;
+    ASSERT_OK(context, alp_scene_load(context, from, &old));
+    assert_int_equal(old->triangle_count, 4);
+    for (uint32_t t = 0; t < 4; t++) {
+        pages[t] = two_pages && t % 2 == 1;
+        for (int k = 0; k < 3; k++) {
+            const float *p = old->positions[old->triangles[t][k]];
+            uvs[t][k][0] = scale * p[0];
+            uvs[t][k][1] = scale * p[1];
+        }
+    }
+    const alpi_mesh_patch patch = {.page_count = two_pages ? 2 : 1,
+                                   .triangle_pages = two_pages ? pages : NULL,
+                                   .corner_uvs = (const float(*)[3][2])uvs,
+                                   .page_pngs = pngs,
+                                   .page_png_sizes = sizes,
+                                   .extras_json = "{}"};
+    ASSERT_OK(context, alpi_collada_write_patched(old, &patch, to, true));
+    ASSERT_OK(context, alp_scene_load(context, to, &new));
+    assert_int_equal(new->triangle_count, 4);
+    alp_scene_destroy(old);
+    return new;
+}
+
+/// The last set has the coordinates that bake_again gave.
+static void assert_coordinates(const alp_scene *scene, uint32_t sets, float scale)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        assert_int_equal(scene->surfaces[scene->triangle_surface[t]].uv_sets, sets);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = scene->triangles[t][k];
+            ASSERT_NEAR(scene->uvs[sets - 1][v][0], scale * scene->positions[v][0], 0.0);
+            ASSERT_NEAR(scene->uvs[sets - 1][v][1], scale * scene->positions[v][1], 0.0);
+        }
+    }
+}
+
+/// Baked once more, whether its triangles lie on one page or two, it still has one set and one
+/// source for each geometry; where another texture reads our set, it gets a second one.
+static void baked_again(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    size_t size;
+    char *text = test_collada_text(inside, &size);
+    char *path = alpi_format(context, "%s/again.dae", test_folder());
+    ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
+    free(text);
+    for (int round = 0; round < 5; round++) { // powers of two are exact
+        const float scale = 0.125f / (float)(1 << round);
+        alp_scene *scene = bake_again(context, path, path, scale, round == 2);
+        assert_coordinates(scene, 1, scale);
+        alp_scene_destroy(scene);
+        text = (char *)test_read_file(path, &size);
+        int sources = 0;
+        for (const char *at = text; (at = strstr(at, "<source id=\"alpenglow")) != NULL; at++) {
+            sources++;
+        }
+        assert_int_equal(sources, 2); // two places with coordinates of their own
+        free(text);
+    }
+    static const char ours[] = "<bind_vertex_input semantic=\"ALPENGLOW\"";
+    text = (char *)test_read_file(path, &size);
+    char *place = strstr(text, ours);
+    assert_non_null(place);
+    memcpy(place, "<bind_vertex_input semantic=\"ANOTHER!!\"", sizeof ours - 1);
+    ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
+    free(text);
+    alp_scene *scene = bake_again(context, path, path, 0.5f, false);
+    assert_coordinates(scene, 2, 0.5f);
+    alp_scene_destroy(scene);
+    alpi_release(context, path);
+    alp_context_destroy(context);
+}
+
 /// Images that the document names below its folder go with it to another one; those that are there
 /// already are kept, and what cannot be copied stays a reference.
 static void images_go_along(void **state)
@@ -133,8 +217,8 @@ static void other_scenes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(mirrored_twice),
-                                       cmocka_unit_test(images_go_along),
-                                       cmocka_unit_test(other_scenes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mirrored_twice), cmocka_unit_test(images_go_along),
+        cmocka_unit_test(baked_again), cmocka_unit_test(other_scenes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
