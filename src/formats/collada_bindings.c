@@ -23,8 +23,8 @@ static const xmlNode *owner_of(const xmlNode *element, const char **name)
         *name = alpi_xml_attribute(element, "semantic");
         return parent;
     }
-    if (!alpi_xml_is(element, "instance_material") || !alpi_xml_is(parent, "technique_common") ||
-        !alpi_xml_is(parent->parent, "bind_material")) {
+    if (parent == NULL || !alpi_xml_is(element, "instance_material") ||
+        !alpi_xml_is(parent, "technique_common") || !alpi_xml_is(parent->parent, "bind_material")) {
         return NULL;
     }
     *name = alpi_xml_attribute(element, "symbol");
