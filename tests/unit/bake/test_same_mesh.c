@@ -114,8 +114,7 @@ static alp_scene *through_gltf(alp_context *context, const alp_scene *s)
            "'buffers':[{'byteLength':%zu}]}",
            vectors, vectors, vectors, 2 * vectors, indices, 2 * vectors + indices);
     alp_scene *scene = NULL;
-    ASSERT_OK(context,
-              test_gltf_scene(context, t.characters, bin, 2 * vectors + indices, &scene));
+    ASSERT_OK(context, test_gltf_scene(context, t.characters, bin, 2 * vectors + indices, &scene));
     free(t.characters);
     free(bin);
     return scene;
