@@ -12,7 +12,11 @@ configure = cmake --preset $(1) -DALP_WARNINGS_AS_ERRORS=$(WERROR) --log-level=W
 build = $(call configure,$(1)) && cmake --build build/$(1)
 setup = $(if $(filter no,$(SETUP)),@:,@scripts/setup.sh $(1))
 
-.PHONY: all demo test format lint install clean help
+# How long each reader is fed, and which (all, unless named: "gltf obj").
+FUZZ_SECONDS ?= 600
+FUZZ_TARGETS ?=
+
+.PHONY: all demo test fuzz format lint install clean help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
@@ -28,6 +32,10 @@ test: ## Set up, build and run every test; ends in a line that counts them
 	$(call setup,check)
 	@$(call build,dev)
 	@scripts/test.py dev
+
+fuzz: ## Feed every reader made-up input under sanitizers, FUZZ_SECONDS (600) each of FUZZ_TARGETS
+	$(call setup,check)
+	@scripts/fuzz.sh --seconds $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
 format: ## Format the sources
 	@scripts/lint.sh format

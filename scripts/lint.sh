@@ -31,8 +31,11 @@ check_cppcheck() {
 }
 
 check_clang_tidy() {
-    local log=build/dev/clang-tidy.log
-    run-clang-tidy -quiet -j "$jobs" -p build/dev "^$PWD/(src|apps|tests)/" >"$log" 2>&1 && return
+    # Nearly all of the time is the analyser's, which follows the paths of a function as far as so
+    # many nodes: a third of its default takes a third of the time.
+    local log=build/dev/clang-tidy.log analyser=-extra-arg=-Xclang
+    run-clang-tidy -quiet -j "$jobs" -p build/dev $analyser -extra-arg=-analyzer-config \
+        $analyser -extra-arg=max-nodes=75000 "^$PWD/(src|apps|tests)/" >"$log" 2>&1 && return
     # One finding in a header is told for every file that includes it: each is shown once.
     sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -E ': (error|warning): ' | sort -u
     echo "what led to each: $log"

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
@@ -25,6 +26,12 @@ typedef struct entry {
     size_t local; // of its local header
 } entry;
 
+/// An entry by its name.
+typedef struct named {
+    const char *name;
+    uint32_t entry;
+} named;
+
 struct alpi_archive {
     alp_context *context;
     char *path;
@@ -32,6 +39,7 @@ struct alpi_archive {
     size_t size;
     entry *entries;
     uint32_t entry_count;
+    named *names;      // [entry_count] sorted: a document may ask for very many
     uint64_t inflated; // so far, of ALPI_ARCHIVE_LIMIT
 };
 
@@ -93,6 +101,41 @@ static alp_result read_entry(alpi_archive *archive, size_t *at, size_t end)
     return e->name == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
+/// Of entries with one name the first comes first.
+static int compare_names(const void *a, const void *b)
+{
+    const named *one = a, *two = b;
+    const int order = strcmp(one->name, two->name);
+    return order != 0 ? order : one->entry < two->entry ? -1 : one->entry > two->entry;
+}
+
+static alp_result sort_names(alpi_archive *archive)
+{
+    ALPI_TRY_NEW(archive->context, archive->names, archive->entry_count);
+    for (uint32_t i = 0; i < archive->entry_count; i++) {
+        archive->names[i] = (named){archive->entries[i].name, i};
+    }
+    qsort(archive->names, archive->entry_count, sizeof *archive->names, compare_names);
+    return ALP_OK;
+}
+
+/// NULL when there is none.
+static const entry *find_entry(const alpi_archive *archive, const char *name)
+{
+    uint32_t low = 0, high = archive->entry_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (strcmp(archive->names[middle].name, name) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < archive->entry_count && strcmp(archive->names[low].name, name) == 0
+               ? &archive->entries[archive->names[low].entry]
+               : NULL;
+}
+
 static alp_result read_directory(alpi_archive *archive)
 {
     const uint8_t *end = NULL;
@@ -112,7 +155,7 @@ static alp_result read_directory(alpi_archive *archive)
     for (uint32_t i = 0; i < count; i++) {
         ALP_TRY(read_entry(archive, &at, limit));
     }
-    return ALP_OK;
+    return sort_names(archive);
 }
 
 alp_result alpi_archive_open(alp_context *context, const char *path, const uint8_t *bytes,
@@ -142,6 +185,7 @@ void alpi_archive_destroy(alpi_archive *archive)
     for (uint32_t i = 0; i < archive->entry_count; i++) {
         alpi_release(archive->context, archive->entries[i].name);
     }
+    alpi_release(archive->context, archive->names);
     alpi_release(archive->context, archive->entries);
     alpi_release(archive->context, archive->path);
     alpi_release(archive->context, archive);
@@ -208,10 +252,7 @@ static bool size_is_possible(const entry *e)
 alp_result alpi_archive_read(alpi_archive *archive, const char *name, uint8_t **bytes, size_t *size)
 {
     *bytes = NULL;
-    const entry *e = NULL;
-    for (uint32_t i = 0; i < archive->entry_count && e == NULL; i++) {
-        e = strcmp(archive->entries[i].name, name) == 0 ? &archive->entries[i] : NULL;
-    }
+    const entry *e = find_entry(archive, name);
     if (e == NULL) {
         return alpi_fail(archive->context, ALP_ERROR_IO, "%s: the archive holds no \"%.200s\"",
                          archive->path, name);

@@ -142,6 +142,15 @@ static void refuse_entity(void *parser, const xmlChar *name, int type, const xml
     xmlStopParser(parser);
 }
 
+/// The first fault is the one to tell of. What follows it would be told of too, one by one, and an
+/// unclosed comment of a megabyte has a fault in every "--" that takes as long as all before it.
+static void stop_at_fault(void *parser, xmlError *error)
+{
+    if (error->level == XML_ERR_FATAL) {
+        xmlStopParser(parser);
+    }
+}
+
 static alp_result fail_parse(const alpi_collada_document *d, xmlParserCtxt *parser)
 {
     const xmlError *error = xmlCtxtGetLastError(parser);
@@ -168,6 +177,7 @@ static alp_result parse_text(alpi_collada_document *d)
                          d->path);
     }
     parser->sax->entityDecl = refuse_entity;
+    parser->sax->serror = stop_at_fault;
     // Not XML_PARSE_NOENT, DTDLOAD or XINCLUDE: nothing is expanded, nothing else is opened. HUGE
     // lifts limits that real arrays pass; the scan has set ours.
     const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |

@@ -76,8 +76,9 @@ static alp_result read_list(work *w, const xmlNode *list, uint32_t *count)
     w->faces->dropped += whole * w->inputs->stride < w->index_count - before;
     w->index_count = before + whole * w->inputs->stride;
     if (w->index_count / w->inputs->stride > ALPI_NONE / 2) {
-        return alpi_fail(w->reader->context, ALP_ERROR_LIMIT, "%s: too many indices; split it",
-                         w->reader->document->path);
+        return alpi_fail(w->reader->context, ALP_ERROR_LIMIT,
+                         "%s: more than %u corners in one mesh; split it",
+                         w->reader->document->path, ALPI_NONE / 2);
     }
     *count = (uint32_t)whole;
     return ALP_OK;
@@ -185,6 +186,9 @@ static alp_result add_series(work *w, face_kind kind, uint32_t first, uint32_t c
 {
     uint32_t(*triangles)[3] = NULL;
     const uint32_t made = kind == TRIANGLES ? count / 3 : count - 2;
+    if (made == 0) {
+        return ALP_OK;
+    }
     ALP_TRY(add_triangles(w, made, &triangles));
     for (uint32_t t = 0; t < made; t++) {
         const uint32_t at = first + (kind == TRIANGLES ? 3 * t : t);

@@ -23,6 +23,9 @@ namespace {
 
 enum { MESH = 1, SEQUENTIAL = 0, EDGEBREAKER = 1, HAS_METADATA = 0x8000 };
 
+/// Where all symbols are alike its entropy coder takes -log2(4095/4096) = 1/2840 bit for each.
+enum { MOST_PER_BYTE = 8 * 4096 };
+
 /// Why a stream is refused, NULL = it is not. Bitstream 2.2, which is glTF's: "DRACO", version,
 /// kind, method, flags; metadata; counts.
 const char *fault_of_head(const alpi_draco_source &source)
@@ -60,7 +63,9 @@ const char *fault_of_head(const alpi_draco_source &source)
     bool fits = source.face_count != 0 ? faces == source.face_count : faces <= source.face_limit;
     return !fits                            ? "they hold another number of triangles"
            : vertices > source.vertex_count ? "they hold more vertices"
-                                            : nullptr;
+           : faces / MOST_PER_BYTE > source.size || vertices / MOST_PER_BYTE > source.size
+               ? "they are too few for so many triangles"
+               : nullptr;
 }
 
 alpi_draco_result refuse(const char *reason, char *fault, size_t fault_size)
@@ -151,7 +156,8 @@ bool alpi_draco_attribute(const alpi_draco_mesh *mesh, uint32_t id, uint32_t com
 {
     const draco::PointAttribute *attribute = mesh->mesh->GetAttributeByUniqueId(id);
     const uint32_t count = mesh->mesh->num_points();
-    if (attribute == nullptr || static_cast<uint32_t>(attribute->num_components()) != components) {
+    if (attribute == nullptr || static_cast<uint32_t>(attribute->num_components()) != components ||
+        attribute->data_type() == draco::DT_BOOL) { // glTF has none, and any byte would be read so
         return false;
     }
     switch (component_type) {

@@ -218,8 +218,9 @@ static alp_result create_image(exr_reader *reader, uint32_t channels)
     }
     if (width > ALPI_IMAGE_SIDE_LIMIT || height > ALPI_IMAGE_SIDE_LIMIT ||
         (uint64_t)(width * height) > ALPI_IMAGE_PIXEL_LIMIT) {
-        return alpi_fail(context, ALP_ERROR_LIMIT, "%s: %lld x %lld pixels, more than the limit",
-                         reader->name, (long long)width, (long long)height);
+        return alpi_fail(context, ALP_ERROR_LIMIT,
+                         "%s: %lld x %lld pixels; the limits are 2^28, and %d in a row",
+                         reader->name, (long long)width, (long long)height, ALPI_IMAGE_SIDE_LIMIT);
     }
     const exr_attr_chlist_t *list = NULL;
     TRY_EXR(reader, exr_get_channels(reader->exr, 0, &list));

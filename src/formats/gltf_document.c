@@ -7,6 +7,7 @@
 #include "formats/gltf_bytes.h"
 #include "formats/gltf_compression.h"
 #include "formats/gltf_tree.h"
+#include "formats/json_spans.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -15,6 +16,9 @@
 
 /// Buffers of one asset together; a tiny asset could name one large file a thousand times.
 #define BUFFERS_LIMIT ((uint64_t)16 << 30)
+
+/// Of one JSON text.
+enum { JSON_DEPTH_LIMIT = 1000, JSON_CONTAINER_LIMIT = 1 << 24, JSON_VALUE_LIMIT = 1 << 26 };
 
 enum {
     GLB_HEADER_SIZE = 12,
@@ -136,8 +140,28 @@ static alp_result read_container(alpi_gltf_document *document)
 
 // --- JSON ---------------------------------------------------------------------------------------
 
+/// The tree takes up to a hundred times the bytes of the text, and its parser calls itself.
+static alp_result check_json_size(const alpi_gltf_document *document)
+{
+    const alpi_json_size found = alpi_json_measure(document->text, document->text_size);
+    if (found.depth > JSON_DEPTH_LIMIT) {
+        return alpi_fail(document->context, ALP_ERROR_LIMIT,
+                         "%s: JSON: %zu levels deep, the limit is %d", document->path, found.depth,
+                         JSON_DEPTH_LIMIT);
+    }
+    if (found.containers > JSON_CONTAINER_LIMIT || found.values > JSON_VALUE_LIMIT) {
+        return alpi_fail(document->context, ALP_ERROR_LIMIT,
+                         "%s: JSON: %zu objects and arrays, %zu values; the limits are %d and %d: "
+                         "split the asset",
+                         document->path, found.containers, found.values, JSON_CONTAINER_LIMIT,
+                         JSON_VALUE_LIMIT);
+    }
+    return ALP_OK;
+}
+
 static alp_result parse_json(alpi_gltf_document *document)
 {
+    ALP_TRY(check_json_size(document));
     json_error_t error;
     size_t flags = JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL;
     document->root = json_loadb(document->text, document->text_size, flags, &error);

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 json_t *alpi_gltf_instancing(json_t *node)
 {
@@ -101,6 +102,24 @@ static uint32_t normalize(alpi_gltf_instance *instances, uint32_t count)
     return bad;
 }
 
+/// One that is nowhere, or as large as nothing, is shown as a point: its triangles have no area.
+static uint32_t shrink_unplaced(alpi_gltf_instance *instances, uint32_t count)
+{
+    uint32_t bad = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double *t = instances[i].translation, *s = instances[i].scale, sum = 0.0;
+        for (int k = 0; k < 3; k++) {
+            sum += fabs(t[k]) + fabs(s[k]); // of floats: finite if they are
+        }
+        if (!isfinite(sum)) {
+            memset(t, 0, 3 * sizeof *t);
+            memset(s, 0, 3 * sizeof *s);
+            bad++;
+        }
+    }
+    return bad;
+}
+
 alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t node,
                                     alpi_gltf_instance **instances, uint32_t *count)
 {
@@ -132,6 +151,12 @@ alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t n
     if (bad > 0) {
         alpi_warn(document->context, "rotation", owner,
                   "%u of its instances have a rotation that is no quaternion: they are not turned",
+                  bad);
+    }
+    bad = shrink_unplaced(list, *count);
+    if (bad > 0) {
+        alpi_warn(document->context, "bad-coordinates", owner,
+                  "%u of its instances left out: a number of their place or scale is not finite",
                   bad);
     }
     *instances = list;

@@ -12,10 +12,26 @@
 
 enum { INFLUENCE_SET_LIMIT = 4, TARGET_LIMIT = 1 << 16 };
 
+/// A short file may name one skin or one target for very many primitives, and each is posed anew. A
+/// step is a vertex moved by a target, or a weight; a joint takes as long as sixteen.
+enum { STEP_LIMIT = 1 << 28, STEPS_PER_JOINT = 16 };
+
+static alp_result count_steps(alpi_gltf_reader *reader, const char *owner, uint64_t steps)
+{
+    reader->posing += steps;
+    return reader->posing <= STEP_LIMIT
+               ? ALP_OK
+               : alpi_fail(reader->context, ALP_ERROR_LIMIT,
+                           "%s: %s: skins and morph targets take more than %d steps (vertices × "
+                           "targets, 16 × joints); split the scene, or apply them",
+                           reader->document->path, owner, STEP_LIMIT);
+}
+
 // --- the pose of a node --------------------------------------------------------------------------
 
 /// Default weights of the node, else of its mesh.
-static alp_result read_weights(const alpi_gltf_reader *reader, json_t *node, alpi_gltf_pose *pose)
+static alp_result read_weights(alpi_gltf_reader *reader, json_t *node, const char *owner,
+                               alpi_gltf_pose *pose)
 {
     json_t *mesh = json_object_get(node, "mesh");
     json_t *weights = json_object_get(node, "weights");
@@ -26,6 +42,7 @@ static alp_result read_weights(const alpi_gltf_reader *reader, json_t *node, alp
     }
     size_t count = json_array_size(weights);
     bool any = false;
+    ALP_TRY(count_steps(reader, owner, count));
     for (size_t i = 0; i < count; i++) {
         any |= json_number_value(json_array_get(weights, i)) != 0.0;
     }
@@ -40,33 +57,42 @@ static alp_result read_weights(const alpi_gltf_reader *reader, json_t *node, alp
     return ALP_OK;
 }
 
-/// The node of joint `i`; false when the scene does not place it.
-static bool find_joint(const alpi_gltf_reader *reader, json_t *joints, size_t i, uint32_t *node)
+/// The node of joint `i`, ALPI_NONE when it is none: what is written has more nodes, and must not
+/// give one to a number that had none.
+static uint32_t find_joint(const alpi_gltf_reader *reader, json_t *joints, size_t i)
 {
     json_t *value = json_array_get(joints, i);
     double number = json_is_number(value) ? json_number_value(value) : -1.0;
-    *node = number >= 0.0 && number < (double)reader->node_count ? (uint32_t)number : 0;
-    return number >= 0.0 && number < (double)reader->node_count && reader->placed[*node];
+    return number >= 0.0 && number < (double)reader->node_count ? (uint32_t)number : ALPI_NONE;
 }
 
-static alp_result read_joints(const alpi_gltf_reader *reader, json_t *skin, const char *owner,
-                              bool tell, alpi_gltf_pose *pose)
+static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char *owner, bool tell,
+                              alpi_gltf_pose *pose)
 {
     json_t *joints = json_object_get(skin, "joints");
     size_t count = json_array_size(joints), inverse;
     ALP_TRY(alpi_gltf_index(reader->document, skin, "inverseBindMatrices", "accessors", owner,
                             &inverse));
-    for (size_t i = 0; i <= count; i++) {
-        uint32_t node;
-        if (i == count ? count == 0 : !find_joint(reader, joints, i, &node)) {
-            if (tell) {
-                alpi_warn(reader->context, "skin", owner,
-                          "joint %zu is no node of the scene: what the skin moves is taken without "
-                          "it",
-                          i);
-            }
-            return ALP_OK;
+    ALP_TRY(count_steps(reader, owner, (uint64_t)STEPS_PER_JOINT * count));
+    bool placed = count > 0;
+    size_t missing = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t node = find_joint(reader, joints, i);
+        if (node == ALPI_NONE) {
+            return alpi_gltf_fail(reader->document, owner,
+                                  "joint %zu is no index of a node, of which there are %u", i,
+                                  reader->node_count);
         }
+        missing = placed ? i : missing;
+        placed = placed && reader->placed[node];
+    }
+    if (!placed) {
+        if (tell) {
+            alpi_warn(reader->context, "skin", owner,
+                      "joint %zu is no node of the scene: what the skin moves is taken without it",
+                      missing);
+        }
+        return ALP_OK;
     }
     ALPI_TRY_NEW(reader->context, pose->joints, count);
     pose->joint_count = (uint32_t)count;
@@ -78,14 +104,13 @@ static alp_result read_joints(const alpi_gltf_reader *reader, json_t *skin, cons
                                             &pose->joints->m));
     }
     for (size_t i = 0; i < count; i++) {
-        uint32_t node;
-        find_joint(reader, joints, i, &node);
+        const uint32_t node = find_joint(reader, joints, i);
         pose->joints[i] = mat4_multiply(&reader->world[node], &pose->joints[i]);
     }
     return ALP_OK;
 }
 
-alp_result alpi_gltf_pose_create(const alpi_gltf_reader *reader, uint32_t node, bool tell,
+alp_result alpi_gltf_pose_create(alpi_gltf_reader *reader, uint32_t node, bool tell,
                                  alpi_gltf_pose *pose)
 {
     json_t *object = alpi_gltf_item(reader->document, "nodes", node);
@@ -94,7 +119,7 @@ alp_result alpi_gltf_pose_create(const alpi_gltf_reader *reader, uint32_t node, 
     *pose = (alpi_gltf_pose){0};
     snprintf(owner, sizeof owner, "node %u", node);
     ALP_TRY(alpi_gltf_index(reader->document, object, "skin", "skins", owner, &skin));
-    alp_result result = read_weights(reader, object, pose);
+    alp_result result = read_weights(reader, object, owner, pose);
     if (result == ALP_OK && skin != ALPI_GLTF_NONE) {
         snprintf(owner, sizeof owner, "skin %zu", skin);
         result =
@@ -106,7 +131,7 @@ alp_result alpi_gltf_pose_create(const alpi_gltf_reader *reader, uint32_t node, 
     return result;
 }
 
-void alpi_gltf_pose_destroy(const alpi_gltf_reader *reader, alpi_gltf_pose *pose)
+void alpi_gltf_pose_destroy(alpi_gltf_reader *reader, alpi_gltf_pose *pose)
 {
     alpi_release(reader->context, pose->joints);
     alpi_release(reader->context, pose->weights);
@@ -116,7 +141,7 @@ void alpi_gltf_pose_destroy(const alpi_gltf_reader *reader, alpi_gltf_pose *pose
 // --- vertices ------------------------------------------------------------------------------------
 
 /// Adds weight × the accessor's vectors.
-static alp_result add_vectors(const alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
+static alp_result add_vectors(alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
                               size_t accessor, float weight, float (*vertices)[3])
 {
     alpi_gltf_values values;
@@ -136,7 +161,7 @@ static alp_result add_vectors(const alpi_gltf_reader *reader, const alpi_gltf_po
     return result;
 }
 
-static alp_result morph(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+static alp_result morph(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                         const alpi_gltf_posed *posed, float (*vertices)[3])
 {
     json_t *targets = json_object_get(posed->primitive, "targets");
@@ -146,6 +171,7 @@ static alp_result morph(const alpi_gltf_reader *reader, const alpi_gltf_pose *po
                                 posed->normals ? "NORMAL" : "POSITION", "accessors", posed->owner,
                                 &accessor));
         if (accessor != ALPI_GLTF_NONE && pose->weights[i] != 0.0) {
+            ALP_TRY(count_steps(reader, posed->owner, posed->vertex_count));
             ALP_TRY(
                 add_vectors(reader, posed, accessor, alpi_gltf_float(pose->weights[i]), vertices));
         }
@@ -159,7 +185,7 @@ typedef struct influences {
     uint32_t set_count;
 } influences;
 
-static alp_result read_influence(const alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
+static alp_result read_influence(alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
                                  const char *name, uint32_t set, alpi_gltf_values *values)
 {
     char member[32];
@@ -180,7 +206,7 @@ static alp_result read_influence(const alpi_gltf_reader *reader, const alpi_gltf
     return ALP_OK;
 }
 
-static alp_result read_influences(const alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
+static alp_result read_influences(alpi_gltf_reader *reader, const alpi_gltf_posed *posed,
                                   influences *all)
 {
     for (uint32_t set = 0; set < INFLUENCE_SET_LIMIT; set++) {
@@ -201,7 +227,7 @@ static uint32_t joint_of(const alpi_gltf_values *joints, uint32_t vertex, uint32
 }
 
 /// The blended matrix of a vertex; the node's where nothing moves it.
-static alp_result blend(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+static alp_result blend(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                         const alpi_gltf_posed *posed, const influences *all, uint32_t vertex,
                         mat4 *matrix)
 {
@@ -230,7 +256,7 @@ static alp_result blend(const alpi_gltf_reader *reader, const alpi_gltf_pose *po
     return ALP_OK;
 }
 
-static alp_result place(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+static alp_result place(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                         const alpi_gltf_posed *posed, const influences *all, float (*vertices)[3])
 {
     for (uint32_t i = 0; i < posed->vertex_count; i++) {
@@ -245,7 +271,7 @@ static alp_result place(const alpi_gltf_reader *reader, const alpi_gltf_pose *po
     return ALP_OK;
 }
 
-static alp_result pose_vertices(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+static alp_result pose_vertices(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                                 const alpi_gltf_posed *posed, influences *all, float (*vertices)[3])
 {
     ALP_TRY(add_vectors(reader, posed, posed->accessor, 1.0f, vertices));
@@ -256,7 +282,7 @@ static alp_result pose_vertices(const alpi_gltf_reader *reader, const alpi_gltf_
     return place(reader, pose, posed, all, vertices);
 }
 
-alp_result alpi_gltf_pose_vertices(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+alp_result alpi_gltf_pose_vertices(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                                    const alpi_gltf_posed *posed, float (**vertices)[3])
 {
     influences all = {0};

@@ -15,9 +15,9 @@ typedef struct alpi_gltf_pose {
 
 /// The pose of a node's mesh. A skin whose joints are not all in the scene is left out, with a
 /// warning if `tell`.
-alp_result alpi_gltf_pose_create(const alpi_gltf_reader *reader, uint32_t node, bool tell,
+alp_result alpi_gltf_pose_create(alpi_gltf_reader *reader, uint32_t node, bool tell,
                                  alpi_gltf_pose *pose);
-void alpi_gltf_pose_destroy(const alpi_gltf_reader *reader, alpi_gltf_pose *pose);
+void alpi_gltf_pose_destroy(alpi_gltf_reader *reader, alpi_gltf_pose *pose);
 
 /// A primitive whose vertices are to be posed.
 typedef struct alpi_gltf_posed {
@@ -29,7 +29,7 @@ typedef struct alpi_gltf_posed {
     size_t accessor;   // of it
 } alpi_gltf_posed;
 /// Its positions or unit normals in the world; released by the caller.
-alp_result alpi_gltf_pose_vertices(const alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
+alp_result alpi_gltf_pose_vertices(alpi_gltf_reader *reader, const alpi_gltf_pose *pose,
                                    const alpi_gltf_posed *posed, float (**vertices)[3]);
 
 #endif

@@ -18,6 +18,7 @@ typedef struct alpi_gltf_reader {
     uint32_t order_count;
     bool *placed;        // [node_count] whether a node is in `order`
     bool *material_used; // [scene.material_count]
+    uint64_t posing;     // work of skins and morph targets so far
 } alpi_gltf_reader;
 
 /// gltf_nodes.c: checks that the nodes are trees and fills world and order.

@@ -176,8 +176,9 @@ static alp_result read_size(hdr_reader *r)
     }
     if (counts[0] > ALPI_IMAGE_SIDE_LIMIT || counts[1] > ALPI_IMAGE_SIDE_LIMIT ||
         counts[0] * counts[1] > ALPI_IMAGE_PIXEL_LIMIT) {
-        return alpi_fail(r->context, ALP_ERROR_LIMIT, "%s: %s pixels, more than the limit", r->name,
-                         text);
+        return alpi_fail(r->context, ALP_ERROR_LIMIT,
+                         "%s: %s pixels; the limits are 2^28, and %d in a row", r->name, text,
+                         ALPI_IMAGE_SIDE_LIMIT);
     }
     r->x_major = axes[0] == 'X';
     r->flip_x = negative[r->x_major ? 0 : 1];

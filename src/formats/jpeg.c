@@ -23,6 +23,7 @@ typedef struct jpeg_job {
     jmp_buf jump;
     char fault[JMSG_LENGTH_MAX];
     alp_context *context;
+    size_t size; // of the file
     alp_result code;
     alp_image *image;
     uint8_t *cmyk_row; // NULL unless the file is CMYK
@@ -68,12 +69,30 @@ static void on_progress(j_common_ptr common)
     }
 }
 
+/// Huffman's code has a bit or more for each block of 8 × 8 samples, and at the oddest sampling
+/// that the format allows (4 × 1 and 1 × 4) a block stands for 128 pixels. Arithmetic coding has no
+/// such bound.
+enum { MOST_PIXELS_PER_BYTE = 8 * 128 };
+
+static void check_size(jpeg_job *job)
+{
+    const unsigned width = job->decoder.image_width, height = job->decoder.image_height;
+    const uint64_t pixels = (uint64_t)width * height;
+    char fault[JMSG_LENGTH_MAX];
+    if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
+        snprintf(fault, sizeof fault, "has %u x %u pixels, more than 2^28", width, height);
+        give_up(job, ALP_ERROR_LIMIT, fault);
+    }
+    if (!job->decoder.arith_code && pixels / MOST_PIXELS_PER_BYTE > job->size) {
+        snprintf(fault, sizeof fault, "%zu bytes cannot hold %u x %u pixels: it was cut off",
+                 job->size, width, height);
+        give_up(job, ALP_ERROR_INVALID_DATA, fault);
+    }
+}
+
 static void start_decoder(jpeg_job *job)
 {
-    uint64_t pixels = (uint64_t)job->decoder.image_width * job->decoder.image_height;
-    if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
-        give_up(job, ALP_ERROR_LIMIT, "has more than 2^28 pixels");
-    }
+    check_size(job);
     J_COLOR_SPACE space = job->decoder.jpeg_color_space;
     bool grey = space == JCS_GRAYSCALE;
     bool cmyk = space == JCS_CMYK || space == JCS_YCCK;
@@ -131,7 +150,7 @@ alp_result alpi_jpeg_decode(alp_context *context, const char *name, const uint8_
                             size_t size, alp_image **image)
 {
     *image = NULL;
-    jpeg_job job = {.context = context};
+    jpeg_job job = {.context = context, .size = size};
     job.decoder.err = jpeg_std_error(&job.errors);
     job.decoder.client_data = &job;
     job.errors.error_exit = on_error;

@@ -48,6 +48,30 @@ static size_t skip_container(const char *text, size_t at, size_t end)
     return at;
 }
 
+alpi_json_size alpi_json_measure(const char *text, size_t size)
+{
+    alpi_json_size found = {.values = 1};
+    size_t depth = 0;
+    for (size_t at = 0; at < size;) {
+        const char c = text[at];
+        if (c == '"') {
+            at = skip_string(text, at, size);
+            continue;
+        }
+        at++;
+        found.values += c == ','; // one before each, one in each container, and the whole
+        if (c == '{' || c == '[') {
+            found.containers++;
+            found.values++;
+            depth++;
+            found.depth = depth > found.depth ? depth : found.depth;
+        } else if (c == '}' || c == ']') {
+            depth -= depth > 0;
+        }
+    }
+    return found;
+}
+
 bool alpi_json_value(const char *text, size_t begin, size_t end, alpi_json_span *value)
 {
     size_t at = skip_space(text, begin, end);

@@ -24,6 +24,13 @@ typedef struct alpi_json_cursor {
     bool is_object, started;
 } alpi_json_cursor;
 
+/// What a parser would have to keep of a text, well-formed or not: at most so many objects and
+/// arrays, values with them, and levels.
+typedef struct alpi_json_size {
+    size_t containers, values, depth;
+} alpi_json_size;
+alpi_json_size alpi_json_measure(const char *text, size_t size);
+
 /// The value at the first byte that is no white space; false when there is none.
 bool alpi_json_value(const char *text, size_t begin, size_t end, alpi_json_span *value);
 

@@ -19,6 +19,7 @@ typedef struct reader {
     alp_scene *scene;
     alpi_obj_names *images; // paths in the asset's folder
     alpi_obj_names names;   // of scene.materials
+    alpi_obj_names read;    // paths of libraries, in the asset's folder: each is read once
     size_t capacity;        // of scene.materials
     char *folder;           // of the library, in the asset's
     bool skipping;          // a material that is there already
@@ -371,8 +372,13 @@ static alp_result try_library(reader *r, alpi_obj_word name, bool only_try, bool
     }
     alp_result result = ALP_OK;
     if (path != NULL && access(path, F_OK) == 0) {
+        uint32_t number;
+        bool added = false;
         *found = true;
-        result = read_library(r, path, inner);
+        result = alpi_obj_names_add(&r->read, inner, strlen(inner), &number, &added);
+        if (added) {
+            result = read_library(r, path, inner);
+        }
     }
     if (result == ALP_ERROR_IO || result == ALP_ERROR_LIMIT) {
         snprintf(reason, sizeof reason, "%s", alp_context_message(context));
@@ -433,6 +439,7 @@ alp_result alpi_obj_read_materials(alpi_obj *obj, alp_scene *scene, alpi_obj_nam
                 .scene = scene,
                 .images = images,
                 .names = alpi_obj_names_create(obj->context),
+                .read = alpi_obj_names_create(obj->context),
                 .skipping = true,
                 .map_d = ALPI_NONE};
     alp_result result = ALP_OK;
@@ -444,5 +451,6 @@ alp_result alpi_obj_read_materials(alpi_obj *obj, alp_scene *scene, alpi_obj_nam
         result = match_names(&r, scene_materials);
     }
     alpi_obj_names_destroy(&r.names);
+    alpi_obj_names_destroy(&r.read);
     return result;
 }

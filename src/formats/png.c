@@ -12,6 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/// How far deflate can go (1032 : 1, zlib's documentation).
+enum { DEFLATE_MOST = 1032 };
+
 typedef struct png_job {
     alp_context *context;
     png_structp png;
@@ -84,6 +87,26 @@ static bool make_rows(png_job *job)
     return true;
 }
 
+static void check_size(png_job *job)
+{
+    const uint32_t width = png_get_image_width(job->png, job->info);
+    const uint32_t height = png_get_image_height(job->png, job->info);
+    const uint64_t pixels = (uint64_t)width * height;
+    char fault[100];
+    if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
+        job->code = ALP_ERROR_LIMIT;
+        snprintf(fault, sizeof fault, "has %u x %u pixels, more than 2^28", width, height);
+        png_error(job->png, fault);
+    }
+    const unsigned bits =
+        png_get_bit_depth(job->png, job->info) * (unsigned)png_get_channels(job->png, job->info);
+    if (pixels * bits / 8 / DEFLATE_MOST > job->size) { // a short file cannot ask for gigabytes
+        snprintf(fault, sizeof fault, "%zu bytes cannot hold %u x %u pixels: it was cut off",
+                 job->size, width, height);
+        png_error(job->png, fault);
+    }
+}
+
 static void read_image(png_job *job)
 {
     if (setjmp(png_jmpbuf(job->png)) != 0) {
@@ -91,13 +114,10 @@ static void read_image(png_job *job)
     }
     png_set_read_fn(job->png, job, read_bytes);
     png_set_user_limits(job->png, ALPI_IMAGE_SIDE_LIMIT, ALPI_IMAGE_SIDE_LIMIT);
+    // Texts and profiles, which nobody here asks for, may inflate to much more than the pixels.
+    png_set_keep_unknown_chunks(job->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_read_info(job->png, job->info);
-    uint64_t pixels = (uint64_t)png_get_image_width(job->png, job->info) *
-                      png_get_image_height(job->png, job->info);
-    if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
-        job->code = ALP_ERROR_LIMIT;
-        png_error(job->png, "has more than 2^28 pixels");
-    }
+    check_size(job);
     png_set_expand(job->png);   // palettes, fewer than 8 bits, a transparent colour
     png_set_scale_16(job->png); // rounds
     png_set_interlace_handling(job->png);

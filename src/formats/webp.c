@@ -26,9 +26,11 @@ static alp_result check(alp_context *context, const char *name,
         return alpi_fail(context, ALP_ERROR_UNSUPPORTED,
                          "%s: WebP: moves; only still ones are read", name);
     }
-    if (pixels > ALPI_IMAGE_PIXEL_LIMIT) {
-        return alpi_fail(context, ALP_ERROR_LIMIT, "%s: WebP: has %d x %d pixels, more than 2^28",
-                         name, features->width, features->height);
+    if (pixels > ALPI_IMAGE_PIXEL_LIMIT || features->width > ALPI_IMAGE_SIDE_LIMIT ||
+        features->height > ALPI_IMAGE_SIDE_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_LIMIT,
+                         "%s: WebP: has %d x %d pixels; the limits are 2^28, and %d in a row", name,
+                         features->width, features->height, ALPI_IMAGE_SIDE_LIMIT);
     }
     return ALP_OK;
 }

@@ -217,8 +217,29 @@ static void deep_nodes(void **state)
     memset(json, '[', DEPTH * 32);
     memcpy(json, "{'a':", 5);
     json[DEPTH * 32] = '\0';
-    assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_INVALID_DATA);
-    test_message_has(context, "depth");
+    assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_LIMIT);
+    test_message_has(context, "levels deep, the limit is 1000");
+    free(json);
+    alp_context_destroy(context);
+}
+
+/// Each of these takes a hundred times its bytes in the parser's tree: 4 GB out of 50 MB.
+static void values_are_counted(void **state)
+{
+    (void)state;
+    const size_t count = (1 << 24) - 1; // with the array and the whole, one too many
+    char *json = malloc(3 * count + 64);
+    assert_non_null(json);
+    char *end = json + sprintf(json, "{'a':[");
+    for (size_t i = 0; i < count; i++, end += 3) {
+        memcpy(end, "{},", 3);
+    }
+    memcpy(end - 1, "]}", 3);
+    alp_context *context = test_context(1);
+    alp_scene *scene;
+    assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_LIMIT);
+    test_message_has(context, "16777217 objects and arrays, 33554432 values; the limits are "
+                              "16777216 and 67108864");
     free(json);
     alp_context_destroy(context);
 }
@@ -266,10 +287,10 @@ static void other_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crafted_files),         cmocka_unit_test(third_party_files),
-        cmocka_unit_test(hostile_structures),    cmocka_unit_test(deep_nodes),
-        cmocka_unit_test(index_without_normals), cmocka_unit_test(expansion_is_limited),
-        cmocka_unit_test(other_kinds),
+        cmocka_unit_test(crafted_files),        cmocka_unit_test(third_party_files),
+        cmocka_unit_test(hostile_structures),   cmocka_unit_test(deep_nodes),
+        cmocka_unit_test(values_are_counted),   cmocka_unit_test(index_without_normals),
+        cmocka_unit_test(expansion_is_limited), cmocka_unit_test(other_kinds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

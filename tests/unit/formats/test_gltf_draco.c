@@ -219,6 +219,25 @@ static size_t bin_begin(const unsigned char *glb)
     return 28 + (size_t)glb[12] + ((size_t)glb[13] << 8) + ((size_t)glb[14] << 16);
 }
 
+/// Asset and stream agree on 100 million triangles, for which the decoder would ask for gigabytes.
+static void check_short_stream_that_agrees(alp_context *context)
+{
+    static const unsigned char stream[40] = {'D',  'R',  'A',  'C',  'O',  2,    2,
+                                             1,    1,    0,    0,    0,    0x80, 0xc2,
+                                             0xd7, 0x2f, 0x80, 0xc2, 0xd7, 0x2f};
+    static const char json[] =
+        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':40}],'bufferViews':[{'buffer':0,"
+        "'byteLength':40}],'accessors':[{'componentType':5126,'count':100000000,'type':'VEC3'},"
+        "{'componentType':5125,'count':300000000,'type':'SCALAR'}],'meshes':[{'primitives':[{"
+        "'attributes':{'POSITION':0},'indices':1,'extensions':{" DRACO
+        ":{'bufferView':0,'attributes':{'POSITION':0}}}}]}]}";
+    alp_scene *scene = NULL;
+    assert_int_equal(test_gltf_scene(context, json, stream, sizeof stream, &scene),
+                     ALP_ERROR_INVALID_DATA);
+    test_message_has(context, "they are too few for so many triangles (100000000 vertices and "
+                              "100000000 triangles are stated)");
+}
+
 /// Every stream cut short, and one that says it holds four thousand million triangles.
 static void streams_that_lie(void **state)
 {
@@ -247,6 +266,7 @@ static void streams_that_lie(void **state)
         memset(bad + begin + cut, 0xff, size - begin - cut);
         (void)!read_bytes(context, bad, size);
     }
+    check_short_stream_that_agrees(context);
     free(bad);
     free(good);
     alp_context_destroy(context);

@@ -188,6 +188,46 @@ static void shared_maps_keep_them(void **state)
     alp_context_destroy(context);
 }
 
+/// JSON has no infinity: what an instance has that is none must not be written as a node's.
+static void check_instances_that_are_nowhere(alp_context *context)
+{
+    static const float positions[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+    static const float places[3][3] = {{0, 0, 0}, {INFINITY, 0, 0}, {0, 6, 0}};
+    static const float scales[3][3] = {{1, 1, 1}, {1, 1, 1}, {1, NAN, 1}};
+    pack_asset *asset = pack_start();
+    pack_accessor(asset, pack_view(asset, positions, sizeof positions, 0), 5126, 3, "VEC3",
+                  ",'min':[0,0,0],'max':[1,2,0]");
+    pack_accessor(asset, pack_view(asset, places, sizeof places, 0), 5126, 3, "VEC3", "");
+    pack_accessor(asset, pack_view(asset, scales, sizeof scales, 0), 5126, 3, "VEC3", "");
+    const char *path =
+        pack_write(asset, "'extensionsUsed':['EXT_mesh_gpu_instancing'],'scenes':[{'nodes':[0]}],"
+                          "'nodes':[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{"
+                          "'attributes':{'TRANSLATION':1,'SCALE':2}}}}],'meshes':[{'primitives':["
+                          "{'attributes':{'POSITION':0}}]}]");
+    test_log_clear();
+    alp_scene *scene = NULL, *again = NULL;
+    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    assert_true(test_log_has("bad-coordinates"));
+    assert_non_null(strstr(test_log_text(), "2 of its instances left out"));
+    assert_int_equal(scene->surface_count, 3);
+    assert_int_equal(scene->usable_count, 1);
+    float uvs[3][3][2] = {{{0.0f}}};
+    const uint8_t *const pngs[] = {(const uint8_t *)"x"};
+    const size_t sizes[] = {1};
+    const alpi_mesh_patch patch = {.page_count = 1,
+                                   .corner_uvs = (const float(*)[3][2])uvs,
+                                   .page_pngs = pngs,
+                                   .page_png_sizes = sizes,
+                                   .occlusion_strength = 1.0f};
+    const char *out = test_path(test_folder(), "out.glb");
+    ASSERT_OK(context, alpi_gltf_write_patched(scene, &patch, out, true));
+    ASSERT_OK(context, alp_scene_load(context, out, &again));
+    assert_int_equal(again->triangle_count, 3);
+    assert_int_equal(again->usable_count, 1);
+    alp_scene_destroy(again);
+    alp_scene_destroy(scene);
+}
+
 static void broken_instances(void **state)
 {
     (void)state;
@@ -209,6 +249,7 @@ static void broken_instances(void **state)
                          ALP_ERROR_INVALID_DATA);
         test_message_has(context, cases[i].words);
     }
+    check_instances_that_are_nowhere(context);
     alp_context_destroy(context);
 }
 

@@ -44,6 +44,25 @@ static void values_are_found_by_path(void **state)
     assert_false(alpi_json_at(text, all(text), "c/0", &span));
 }
 
+static void texts_are_measured(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        alpi_json_size size;
+    } cases[] = {{"", {0, 1, 0}},
+                 {"{}", {1, 2, 1}},
+                 {"{\"a,[{\":[1,{\"b\":\"\\\",}\"},[]]}", {4, 7, 3}},
+                 {"}}]],,[[", {2, 5, 2}},
+                 {"[\"", {1, 2, 1}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const alpi_json_size size = alpi_json_measure(cases[i].text, strlen(cases[i].text));
+        assert_int_equal(size.containers, cases[i].size.containers);
+        assert_int_equal(size.values, cases[i].size.values);
+        assert_int_equal(size.depth, cases[i].size.depth);
+    }
+}
+
 static void keys_may_be_escaped(void **state)
 {
     (void)state;
@@ -174,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_found_by_path),
+        cmocka_unit_test(texts_are_measured),
         cmocka_unit_test(keys_may_be_escaped),
         cmocka_unit_test(broken_text_stays_in_bounds),
         cmocka_unit_test(deep_nesting_needs_no_stack),
