@@ -234,6 +234,23 @@ static alp_result match_elements(alpi_collada_document *d)
                            d->path);
 }
 
+/// Lines at which the blocks of the text begin: a file may give cause for a million messages.
+static alp_result count_lines(alpi_collada_document *d)
+{
+    const size_t count = d->text_size / ALPI_COLLADA_BLOCK + 1;
+    uint32_t line = 1;
+    ALPI_TRY_NEW(d->context, d->block_lines, count);
+    for (size_t b = 0; b < count; b++) {
+        const size_t begin = b * ALPI_COLLADA_BLOCK, left = d->text_size - begin;
+        const size_t size = left < ALPI_COLLADA_BLOCK ? left : ALPI_COLLADA_BLOCK;
+        d->block_lines[b] = line;
+        for (size_t i = 0; i < size; i++) {
+            line += d->text[begin + i] == '\n';
+        }
+    }
+    return ALP_OK;
+}
+
 static alp_result check_root(const alpi_collada_document *d)
 {
     if (!alpi_xml_is(d->root, "COLLADA")) {
@@ -269,6 +286,7 @@ static alp_result fill_document(alpi_collada_document *d, const char *path)
     }
     ALP_TRY(check_encoding(d));
     bool whole = false;
+    ALP_TRY(count_lines(d));
     ALP_TRY(alpi_collada_scan(d, &whole));
     ALP_TRY(parse_text(d));
     if (!whole) {
@@ -278,7 +296,8 @@ static alp_result fill_document(alpi_collada_document *d, const char *path)
     d->root = xmlDocGetRootElement(d->tree);
     ALP_TRY(match_elements(d));
     ALP_TRY(check_root(d));
-    return alpi_collada_index_ids(d);
+    ALP_TRY(alpi_collada_index_ids(d));
+    return alpi_collada_index_bindings(d);
 }
 
 // --- the document --------------------------------------------------------------------------------
@@ -322,9 +341,17 @@ void alpi_collada_document_destroy(alpi_collada_document *d)
     alp_context *context = d->context;
     xmlFreeDoc(d->tree);
     alpi_archive_destroy(d->archive);
-    void *const owned[] = {d->elements,       d->spans,      d->ids,
-                           d->archive_folder, d->owned_text, d->file_bytes,
-                           d->folder,         d->path,       d};
+    void *const owned[] = {d->elements,
+                           d->spans,
+                           d->ids,
+                           d->bounds,
+                           d->block_lines,
+                           d->archive_folder,
+                           d->owned_text,
+                           d->file_bytes,
+                           d->folder,
+                           d->path,
+                           d};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(context, owned[i]);
     }

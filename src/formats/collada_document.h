@@ -11,7 +11,12 @@
 
 /// What one document may hold.
 #define ALPI_COLLADA_TEXT_LIMIT ((uint64_t)1 << 30) // bytes
-enum { ALPI_COLLADA_DEPTH_LIMIT = 1000, ALPI_COLLADA_ELEMENT_LIMIT = 1 << 24 };
+enum {
+    ALPI_COLLADA_DEPTH_LIMIT = 1000,
+    ALPI_COLLADA_ELEMENT_LIMIT = 1 << 24,
+    ALPI_COLLADA_ATTRIBUTE_LIMIT = 100, // of one element: libxml2 compares each with each
+    ALPI_COLLADA_BLOCK = 4096           // bytes of text in which lines are counted for a message
+};
 
 /// Where an element stands in the text; of <a/> the last three are the same.
 typedef struct alpi_xml_span {
@@ -47,6 +52,9 @@ typedef struct alpi_collada_document {
     alpi_xml_span *spans;
     uint32_t id_count;
     struct alpi_collada_id *ids; // sorted by name
+    uint32_t bound_count;
+    struct alpi_collada_bound *bounds; // see collada_bindings.c
+    uint32_t *block_lines;             // line at which each block of the text begins
 } alpi_collada_document;
 
 /// Reads a .dae or .zae. No network, no other file, no entity is ever opened or expanded.
@@ -61,6 +69,11 @@ void alpi_collada_document_destroy(alpi_collada_document *document); // NULL doe
 /// Bytes of a file that the document names: beside it, or in its archive. Released by the caller.
 alp_result alpi_collada_file_read(const alpi_collada_document *document, const char *uri,
                                   uint8_t **bytes, size_t *size);
+
+/// The path below the document's folder of a file that it names, without escapes; NULL in *name
+/// where it lies elsewhere. Released by the caller.
+alp_result alpi_collada_file_name(const alpi_collada_document *document, const char *uri,
+                                  char **name);
 
 // --- collada_scan.c ------------------------------------------------------------------------------
 
@@ -95,6 +108,10 @@ char *alpi_xml_copy_text(alp_context *context, const xmlNode *node);
 
 /// The element with that id, NULL when there is none (or no id).
 xmlNode *alpi_collada_find(const alpi_collada_document *document, const char *id);
+/// What is bound to a name at an instance, an <instance_material>, or at that, a
+/// <bind_vertex_input>; the first where there are several, NULL where there is none.
+xmlNode *alpi_collada_bound_to(const alpi_collada_document *document, const xmlNode *owner,
+                               const char *name);
 /// What an attribute such as url="#id" refers to. INVALID_DATA where the attribute is missing or
 /// nothing has that id, or it is no `name`. NULL in *target with ALP_OK: it names another file.
 alp_result alpi_collada_resolve(const alpi_collada_document *document, const xmlNode *node,
@@ -103,6 +120,7 @@ alp_result alpi_collada_resolve(const alpi_collada_document *document, const xml
 alp_result alpi_collada_fail(const alpi_collada_document *document, const xmlNode *node,
                              const char *format, ...) ALP_PRINTF(3, 4);
 uint32_t alpi_collada_line(const alpi_collada_document *document, const xmlNode *node);
+uint32_t alpi_collada_line_at(const alpi_collada_document *document, size_t place);
 /// "line 12, geometry "box"" for warnings.
 enum { ALPI_COLLADA_OWNER_SIZE = 160 };
 void alpi_collada_owner(const alpi_collada_document *document, const xmlNode *node,

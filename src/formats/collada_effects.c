@@ -335,47 +335,28 @@ static void fill_material(alpi_collada_reader *reader, const alpi_collada_effect
     material->double_sided = effect->double_sided;
 }
 
-xmlNode *alpi_collada_binding(const xmlNode *instance, const char *symbol)
-{
-    static const char *const way[] = {"bind_material", "technique_common", "instance_material",
-                                      NULL};
-    xmlNode *binding = alpi_xml_descend(instance, way);
-    for (; binding != NULL; binding = alpi_xml_next(binding, "instance_material")) {
-        const char *bound = alpi_xml_attribute(binding, "symbol");
-        if (symbol != NULL && bound != NULL && strcmp(bound, symbol) == 0) {
-            return binding;
-        }
-    }
-    return NULL;
-}
-
 /// Our set of the coordinates that an effect calls `texcoord`; the first where nothing is bound.
-static uint32_t find_set(const xmlNode *binding, const alpi_collada_part *part,
-                         const alpi_collada_slot *slot)
+static uint32_t find_set(const alpi_collada_reader *reader, const xmlNode *binding,
+                         const alpi_collada_part *part, const alpi_collada_slot *slot)
 {
     if (slot->image == ALPI_NONE) {
         return 0;
     }
-    const xmlNode *bind = alpi_xml_child(binding, "bind_vertex_input");
-    for (; bind != NULL && slot->texcoord != NULL;
-         bind = alpi_xml_next(bind, "bind_vertex_input")) {
-        const char *semantic = alpi_xml_attribute(bind, "semantic");
-        const char *set = alpi_xml_attribute(bind, "input_set");
-        if (semantic == NULL || strcmp(semantic, slot->texcoord) != 0) {
-            continue;
-        }
-        double number = 0.0;
-        if (set != NULL && !alpi_text_number(&set, &number)) {
-            number = 0.0;
-        }
-        for (uint32_t k = 0; k < part->inputs.uv_count; k++) {
-            if ((double)part->inputs.uv_numbers[k] == number) {
-                return k;
-            }
-        }
-        return ALPI_NONE; // bound to a set that is not there, or is left out
+    const xmlNode *bind = alpi_collada_bound_to(reader->document, binding, slot->texcoord);
+    if (bind == NULL) {
+        return part->inputs.uv_count > 0 ? 0 : ALPI_NONE;
     }
-    return part->inputs.uv_count > 0 ? 0 : ALPI_NONE;
+    const char *set = alpi_xml_attribute(bind, "input_set");
+    double number = 0.0;
+    if (set != NULL && !alpi_text_number(&set, &number)) {
+        number = 0.0;
+    }
+    for (uint32_t k = 0; k < part->inputs.uv_count; k++) {
+        if ((double)part->inputs.uv_numbers[k] == number) {
+            return k;
+        }
+    }
+    return ALPI_NONE; // bound to a set that is not there, or is left out
 }
 
 /// A scene material of that element and those sets: found again, or made.
@@ -417,7 +398,7 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                                       const alpi_collada_part *part, uint32_t *material)
 {
     const alpi_collada_document *document = reader->document;
-    const xmlNode *binding = alpi_collada_binding(placement->instance, part->symbol);
+    const xmlNode *binding = alpi_collada_bound_to(document, placement->instance, part->symbol);
     xmlNode *element = NULL, *effect_element = NULL;
     *material = ALPI_NONE;
     if (binding != NULL) {
@@ -436,9 +417,10 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
     }
     const alpi_collada_effect *effect = NULL;
     ALP_TRY(read_effect(reader, effect_element, &effect));
-    const uint32_t sets[4] = {
-        find_set(binding, part, &effect->diffuse), find_set(binding, part, &effect->emission),
-        find_set(binding, part, &effect->transparent), find_set(binding, part, &effect->ambient)};
+    const uint32_t sets[4] = {find_set(reader, binding, part, &effect->diffuse),
+                              find_set(reader, binding, part, &effect->emission),
+                              find_set(reader, binding, part, &effect->transparent),
+                              find_set(reader, binding, part, &effect->ambient)};
     return get_material(reader, element, effect, sets, material);
 }
 

@@ -222,12 +222,12 @@ static alp_result add_polygon(work *w, size_t first_ring, size_t end_ring, uint3
             w->points[c][k] = alpi_collada_value(positions, index, k);
         }
     }
-    const alpi_ear_polygon polygon = {(const float(*)[3])w->points, w->ring_ends, rings};
-    const uint32_t count = alpi_ear_triangle_count(&polygon);
+    const alpi_polygon_rings polygon = {(const float(*)[3])w->points, w->ring_ends, rings};
+    const uint32_t count = alpi_polygon_triangle_count(&polygon);
     uint32_t(*triangles)[3] = NULL;
     bool tidy = true;
     ALP_TRY(add_triangles(w, count, &triangles));
-    ALP_TRY(alpi_ear_triangulate(&w->reader->cutter, &polygon, triangles, &tidy));
+    ALP_TRY(alpi_polygon_triangulate_rings(&w->reader->polygons, &polygon, triangles, &tidy));
     w->faces->untidy += !tidy;
     ALP_TRY(alpi_collada_grow(context, &w->faces->polygons, &w->polygon_capacity,
                               (size_t)w->faces->polygon_count + 1, sizeof *w->faces->polygons));

@@ -88,7 +88,24 @@ static void limit_count(alpi_collada_source *source, size_t value_count)
     source->count = held < source->count ? (uint32_t)held : source->count;
 }
 
-/// A <source>, read at its first use. A copy of the values where two sources share an array.
+/// A <float_array>, read at its first use: many sources may name one.
+static alp_result read_array(alpi_collada_reader *reader, xmlNode *element,
+                             const alpi_collada_array **array)
+{
+    uint32_t *slot = &reader->slots[alpi_xml_index(element)];
+    if (*slot == 0) {
+        ALP_TRY(alpi_collada_grow(reader->context, &reader->arrays, &reader->array_capacity,
+                                  reader->array_count + 1, sizeof *reader->arrays));
+        alpi_collada_array *made = &reader->arrays[reader->array_count++];
+        *made = (alpi_collada_array){0}; // released with the reader, also after a failure
+        ALP_TRY(alpi_collada_floats(reader->document, element, &made->values, &made->count));
+        *slot = reader->array_count;
+    }
+    *array = &reader->arrays[*slot - 1];
+    return ALP_OK;
+}
+
+/// A <source>, read at its first use.
 static alp_result read_source(alpi_collada_reader *reader, xmlNode *element, uint32_t *index)
 {
     uint32_t *slot = &reader->slots[alpi_xml_index(element)];
@@ -105,11 +122,12 @@ static alp_result read_source(alpi_collada_reader *reader, xmlNode *element, uin
     if (array == NULL) {
         return alpi_collada_fail(reader->document, element, "has no <float_array>");
     }
-    *index = reader->source_count++; // from here the reader releases it
-    size_t count = 0;
-    ALP_TRY(alpi_collada_floats(reader->document, array, &source->values, &count));
+    const alpi_collada_array *values = NULL;
+    ALP_TRY(read_array(reader, array, &values));
+    *index = reader->source_count++;
+    source->values = values->values; // stays where it is when the list of arrays grows
     const uint32_t stated = source->count;
-    limit_count(source, count);
+    limit_count(source, values->count);
     if (source->count < stated) {
         char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(reader->document, element, owner);
@@ -187,7 +205,11 @@ static alp_result add_vertices(alpi_collada_reader *reader, const xmlNode *input
     xmlNode *vertices = NULL;
     ALP_TRY(alpi_collada_resolve(reader->document, input, "source", "vertices", &vertices));
     const xmlNode *inner = alpi_xml_child(vertices, "input");
-    for (; inner != NULL; inner = alpi_xml_next(inner, "input")) {
+    for (uint32_t count = 1; inner != NULL; inner = alpi_xml_next(inner, "input"), count++) {
+        if (count > INPUT_LIMIT) {
+            return alpi_collada_fail(reader->document, vertices, "has more than %d inputs",
+                                     INPUT_LIMIT);
+        }
         ALP_TRY(add_input(reader, inner, offset, inputs));
     }
     return ALP_OK;
@@ -343,12 +365,13 @@ alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry
 {
     uint32_t *slot = &reader->slots[alpi_xml_index(geometry)];
     *mesh = ALPI_NONE;
-    if (*slot != 0) {
+    if (*slot != 0 && *slot != ALPI_NONE) {
         *mesh = *slot - 1;
         return ALP_OK;
     }
-    const xmlNode *element = alpi_xml_child(geometry, "mesh");
+    const xmlNode *element = *slot == 0 ? alpi_xml_child(geometry, "mesh") : NULL;
     if (element == NULL) {
+        *slot = ALPI_NONE; // not looked for again
         reader->not_meshes++;
         return ALP_OK;
     }

@@ -8,8 +8,12 @@
 
 #include <string.h>
 
-/// Nodes may show nodes many times over and so may multiply a small file.
-enum { VISIT_LIMIT = 1 << 22 };
+/// Nodes may show nodes many times over and so may multiply a small file: what the walk may meet.
+enum {
+    VISIT_LIMIT = 1 << 24, // elements; a long one counts for as many as it has kilobytes
+    PLACE_LIMIT = 1 << 22, // instances of geometries, controllers, lights and cameras
+    CHAIN_LIMIT = 16       // a skin of a morph of a geometry
+};
 
 /// An element whose children are being read.
 typedef struct frame {
@@ -24,7 +28,6 @@ typedef struct walk {
     frame *stack;
     size_t depth, capacity;
     bool *open; // [elements] on the stack
-    uint32_t visits;
 } walk;
 
 /// The matrix by value: it may lie in the stack, which moves as it grows.
@@ -35,11 +38,6 @@ static alp_result enter(walk *w, xmlNode *element, mat4 matrix, xmlNode *outer)
     if (w->open[index]) {
         return alpi_collada_fail(reader->document, element,
                                  "contains itself by way of <instance_node>; break the circle");
-    }
-    if (++w->visits > VISIT_LIMIT) {
-        return alpi_fail(reader->context, ALP_ERROR_LIMIT,
-                         "%s: its nodes are shown more than %d times; split the scene",
-                         reader->document->path, VISIT_LIMIT);
     }
     ALP_TRY(alpi_collada_grow(reader->context, &w->stack, &w->capacity, w->depth + 1,
                               sizeof *w->stack));
@@ -68,7 +66,6 @@ static alp_result place(alpi_collada_reader *reader, xmlNode *instance, const fr
 /// <instance_controller>: the mesh of a skin or morph as it stands before it is deformed.
 static alp_result place_controlled(alpi_collada_reader *reader, xmlNode *instance, const frame *at)
 {
-    enum { CHAIN_LIMIT = 16 }; // a skin of a morph of a geometry
     const alpi_collada_document *document = reader->document;
     mat4 matrix = at->matrix;
     xmlNode *controller = NULL;
@@ -170,6 +167,152 @@ static alp_result walk_from(walk *w, xmlNode *scene)
     return ALP_OK;
 }
 
+// --- how much that will be -----------------------------------------------------------------------
+
+/// What a walk through a node meets. Found once for each node, so that thirty nodes that each show
+/// the next twice take thirty steps to be refused.
+typedef struct extent {
+    uint64_t visits, places;
+    bool known;
+} extent;
+
+typedef struct survey {
+    const alpi_collada_document *document;
+    extent *extents; // [elements]
+    frame *stack;
+    size_t depth, capacity;
+    bool *open;
+    uint64_t looked; // this pass itself
+} survey;
+
+/// What a reference leads to, without a word about it: the walk will say what is wrong with it.
+static xmlNode *target_of(const alpi_collada_document *document, const xmlNode *node,
+                          const char *attribute)
+{
+    const char *url = alpi_xml_attribute(node, attribute);
+    url = url != NULL ? url + strspn(url, " \t\r\n") : "";
+    return alpi_collada_find(document, url[0] == '#' ? url + 1 : url);
+}
+
+static uint64_t weight_of(const alpi_collada_document *document, const xmlNode *element)
+{
+    const alpi_xml_span *span = &document->spans[alpi_xml_index(element)];
+    return 1 + (span->end - span->begin) / 1024;
+}
+
+/// Elements inside an element, among which one is looked for.
+static uint64_t elements_in(const alpi_collada_document *document, const xmlNode *element)
+{
+    const uint32_t index = alpi_xml_index(element);
+    const size_t end = document->spans[index].end;
+    uint32_t low = index + 1, high = document->element_count;
+    while (low < high) { // the first that begins behind it
+        const uint32_t middle = low + (high - low) / 2;
+        if (document->spans[middle].begin < end) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low - index;
+}
+
+/// What one child that is no node adds; controllers are looked into each time.
+static void add_leaf(survey *s, const xmlNode *child, extent *sum)
+{
+    uint64_t visits = weight_of(s->document, child);
+    if (alpi_xml_is(child, "instance_controller")) {
+        const xmlNode *controller = target_of(s->document, child, "url");
+        for (int i = 0; alpi_xml_is(controller, "controller") && i < CHAIN_LIMIT; i++) {
+            visits += elements_in(s->document, controller);
+            if (s->looked + visits > VISIT_LIMIT) {
+                break;
+            }
+            const xmlNode *skin = alpi_xml_child(controller, "skin");
+            const xmlNode *bind = alpi_xml_child(skin, "bind_shape_matrix");
+            visits += bind != NULL ? weight_of(s->document, bind) : 0;
+            controller = target_of(
+                s->document, skin != NULL ? skin : alpi_xml_child(controller, "morph"), "source");
+        }
+    }
+    s->looked += visits;
+    sum->visits += visits;
+    sum->places += strncmp((const char *)child->name, "instance_", strlen("instance_")) == 0;
+}
+
+static alp_result open_node(survey *s, const alpi_collada_reader *reader, xmlNode *element)
+{
+    const uint32_t index = alpi_xml_index(element);
+    if (s->open[index]) {
+        return alpi_collada_fail(reader->document, element,
+                                 "contains itself by way of <instance_node>; break the circle");
+    }
+    ALP_TRY(alpi_collada_grow(reader->context, &s->stack, &s->capacity, s->depth + 1,
+                              sizeof *s->stack));
+    s->stack[s->depth++] = (frame){.element = element, .next = alpi_xml_child(element, NULL)};
+    s->open[index] = true;
+    s->extents[index] = (extent){.visits = 1};
+    return ALP_OK;
+}
+
+static alp_result check_extent(const alpi_collada_reader *reader, uint64_t visits, uint64_t places)
+{
+    return visits <= VISIT_LIMIT && places <= PLACE_LIMIT
+               ? ALP_OK
+               : alpi_fail(reader->context, ALP_ERROR_LIMIT,
+                           "%s: its nodes show more than %d elements, or place more than %d "
+                           "geometries and lights; split the scene",
+                           reader->document->path, VISIT_LIMIT, PLACE_LIMIT);
+}
+
+static alp_result survey_from(survey *s, const alpi_collada_reader *reader, xmlNode *scene)
+{
+    ALP_TRY(open_node(s, reader, scene));
+    while (s->depth > 0) {
+        frame *at = &s->stack[s->depth - 1];
+        extent *sum = &s->extents[alpi_xml_index(at->element)];
+        xmlNode *child = at->next;
+        ALP_TRY(check_extent(reader, sum->visits, sum->places));
+        ALP_TRY(check_extent(reader, s->looked, 0));
+        if (child == NULL) {
+            s->open[alpi_xml_index(at->element)] = false;
+            sum->known = true;
+            s->depth--;
+            continue;
+        }
+        xmlNode *node =
+            alpi_xml_is(child, "instance_node") ? target_of(s->document, child, "url") : child;
+        const extent *below = alpi_xml_is(node, "node") ? &s->extents[alpi_xml_index(node)] : NULL;
+        if (below != NULL && !below->known) { // comes again when it is
+            ALP_TRY(open_node(s, reader, node));
+            continue;
+        }
+        if (below != NULL) {
+            sum->visits += below->visits;
+            sum->places += below->places;
+        } else {
+            add_leaf(s, child, sum);
+        }
+        at->next = alpi_xml_next(child, NULL);
+    }
+    return ALP_OK;
+}
+
+/// Fails where the walk would not end in a reasonable time, or go round in circles.
+static alp_result survey_scene(const alpi_collada_reader *reader, xmlNode *scene)
+{
+    survey s = {.document = reader->document};
+    const uint32_t count = reader->document->element_count;
+    s.extents = ALPI_NEW(reader->context, extent, count);
+    s.open = ALPI_NEW(reader->context, bool, count);
+    alp_result result = s.extents == NULL || s.open == NULL ? ALP_ERROR_OUT_OF_MEMORY
+                                                            : survey_from(&s, reader, scene);
+    alpi_release(reader->context, s.extents);
+    alpi_release(reader->context, s.open);
+    alpi_release(reader->context, s.stack);
+    return result;
+}
+
 // --- which scene ---------------------------------------------------------------------------------
 
 /// Geometries that no node shows: placed where they stand, so that the file is not empty.
@@ -218,6 +361,7 @@ alp_result alpi_collada_read_nodes(alpi_collada_reader *reader)
     if (scene == NULL) {
         return place_all(reader);
     }
+    ALP_TRY(survey_scene(reader, scene));
     walk w = {.reader = reader};
     ALPI_TRY_NEW(reader->context, w.open, reader->document->element_count);
     alp_result result = walk_from(&w, scene);

@@ -71,6 +71,8 @@ typedef struct alpi_collada_patcher {
     char *const *image_names; // [page_count] files of occlusion, as the document refers to them
     char *const *light_names; // the same of light
     bool *page_used;          // [page_count]
+    uint64_t foreign_sets;    // bit n: something else than our maps reads coordinate set n
+    bool foreign_sets_known;
     alpi_bytes images, effects, materials; // what the libraries gain
 } alpi_collada_patcher;
 
@@ -90,6 +92,18 @@ alp_result alpi_collada_patch_geometry(alpi_collada_patcher *patcher, uint32_t c
 /// id of the geometry of a class in the written file, as it stands in an attribute.
 void alpi_collada_print_geometry_id(const alpi_collada_patcher *patcher, uint32_t class_index,
                                     alpi_bytes *text);
+
+// --- collada_patch_again.c -----------------------------------------------------------------------
+
+/// Whether all primitives of a geometry have coordinates of an earlier bake as their last set, all
+/// are baked anew, and nothing else reads that set. *source: what held them, where no other element
+/// needs it; else NULL.
+bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada_class *class_of,
+                               uint32_t *number, const xmlNode **source);
+/// The <input> of a primitive's highest TEXCOORD where an earlier bake wrote it and its indices are
+/// read by no other; NULL else.
+const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,
+                                      uint32_t *number, uint32_t *offset);
 
 // --- collada_patch_material.c --------------------------------------------------------------------
 

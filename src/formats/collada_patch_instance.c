@@ -74,7 +74,7 @@ static alp_result bind_materials(alpi_collada_patcher *p, uint32_t placement, al
         }
         const char *target = NULL;
         ALP_TRY(alpi_collada_get_material(p, first + symbol->surface, symbol->page, &target));
-        const xmlNode *old = alpi_collada_binding(instance, symbol->old);
+        const xmlNode *old = alpi_collada_bound_to(p->document, instance, symbol->old);
         if (old == NULL || strcmp(symbol->old, symbol->name) != 0) {
             print_material(p, old, symbol, target, added);
             continue;

@@ -28,6 +28,9 @@ typedef struct work {
     alpi_bytes source_id; // as it stands in an attribute
     char ending[64];      // of the ids inside a copy
     bool *rewritten;      // [elements of the geometry] whose text is gone; only of a copy
+    uint32_t again_number;
+    bool again;                // the set of an earlier bake is taken anew
+    const xmlNode *old_source; // of it, which goes; or NULL
 } work;
 
 /// One primitive while it is written.
@@ -41,6 +44,7 @@ typedef struct part {
     bool agreed;
     uint32_t page_count; // of different pages
     uint32_t new_offset;
+    const xmlNode *own_input; // of an earlier bake, whose place the new one takes; or NULL
 } part;
 
 void alpi_collada_print_geometry_id(const alpi_collada_patcher *p, uint32_t class_index,
@@ -150,9 +154,9 @@ static void print_corner(const work *w, const part *a, uint32_t corner, uint32_t
 {
     const uint32_t *indices = a->faces.indices + (size_t)corner * a->inputs.stride;
     for (uint32_t k = 0; k < a->inputs.stride; k++) {
-        alpi_xml_print_index(text, indices[k]);
+        alpi_xml_print_index(text, a->own_input != NULL && k == a->new_offset ? uv : indices[k]);
     }
-    if (w->patcher->patch->corner_uvs != NULL) {
+    if (w->patcher->patch->corner_uvs != NULL && a->own_input == NULL) {
         alpi_xml_print_index(text, uv);
     }
 }
@@ -207,6 +211,16 @@ static void name_symbol(work *w, const part *a, const alpi_collada_symbol *symbo
     alpi_bytes_destroy(&text);
 }
 
+/// Its text is gone: ids in it are not renamed.
+static void mark_rewritten(work *w, const xmlNode *element)
+{
+    const uint32_t end = alpi_xml_end_index(w->patcher->document, element);
+    const uint32_t base = alpi_xml_index(w->class_of->geometry);
+    for (uint32_t i = alpi_xml_index(element); w->rewritten != NULL && i < end; i++) {
+        w->rewritten[i - base] = true;
+    }
+}
+
 /// The element stays what it is.
 static void extend_part(work *w, const part *a)
 {
@@ -229,7 +243,10 @@ static void extend_part(work *w, const part *a)
     alpi_bytes text = alpi_bytes_create(w->patcher->context);
     print_input(w, a, &text);
     w->edits->inserted.failed |= text.failed;
-    if (!text.failed && last_input != NULL) {
+    if (!text.failed && a->own_input != NULL) {
+        alpi_xml_replace(d, w->edits, a->own_input, (const char *)text.bytes);
+        mark_rewritten(w, a->own_input);
+    } else if (!text.failed && last_input != NULL) {
         alpi_xml_insert(w->edits, alpi_xml_span_of(d, last_input)->end, (const char *)text.bytes);
     }
     alpi_bytes_destroy(&text);
@@ -325,7 +342,9 @@ static void print_piece(const work *w, const part *a, uint32_t page, const char 
     alpi_bytes_print(text, "\">");
     const xmlNode *input = alpi_xml_child(a->element, "input");
     for (; input != NULL; input = alpi_xml_next(input, "input")) {
-        print_old_input(w, input, text);
+        if (input != a->own_input) {
+            print_old_input(w, input, text);
+        }
     }
     print_input(w, a, text);
     if (a->faces.polygon_count > 0) {
@@ -369,11 +388,7 @@ static alp_result replace_part(work *w, const part *a)
         alpi_xml_replace(p->document, w->edits, a->element, (const char *)text.bytes);
     }
     alpi_bytes_destroy(&text);
-    const uint32_t end = alpi_xml_end_index(p->document, a->element);
-    const uint32_t base = alpi_xml_index(w->class_of->geometry);
-    for (uint32_t i = alpi_xml_index(a->element); w->rewritten != NULL && i < end; i++) {
-        w->rewritten[i - base] = true;
-    }
+    mark_rewritten(w, a->element);
     return ALP_OK;
 }
 
@@ -395,7 +410,10 @@ static alp_result patch_part(work *w, part *a)
     const char *old = alpi_xml_attribute(a->element, "material");
     const bool one_page = !p->baked[a->surface] || lies_on_one_page(p, a->surface);
     if (p->baked[a->surface] && p->patch->corner_uvs != NULL) {
+        uint32_t number = 0;
         a->new_offset = a->inputs.stride;
+        a->own_input =
+            w->again ? alpi_collada_own_input(p, a->element, &number, &a->new_offset) : NULL;
         ALP_TRY(alpi_collada_read_faces(&p->reader, a->element, &a->inputs, &a->faces));
         ALP_TRY(find_corner_uvs(w, a));
     } else if (!one_page) {
@@ -483,6 +501,8 @@ static alp_result find_number(work *w)
     for (uint32_t s = w->class_of->first_surface; s < w->class_of->surface_end; s++) {
         corners += 3 * (uint64_t)p->scene->surfaces[s].triangle_count;
     }
+    w->again = alpi_collada_find_own_set(p, w->class_of, &w->again_number, &w->old_source);
+    w->uv_number = w->again ? w->again_number : w->uv_number;
     return p->patch->corner_uvs != NULL ? make_pool(w, corners) : ALP_OK;
 }
 
@@ -507,6 +527,10 @@ static alp_result patch_geometry(work *w)
     alpi_collada_patcher *p = w->patcher;
     alpi_bytes_print(&w->source_id, "%s-uv-%u", p->prefix, w->class_index);
     ALP_TRY(patch_parts(w));
+    if (w->old_source != NULL) {
+        alpi_xml_replace(p->document, w->edits, w->old_source, "");
+        mark_rewritten(w, w->old_source);
+    }
     const xmlNode *vertices =
         alpi_xml_child(alpi_xml_child(w->class_of->geometry, "mesh"), "vertices");
     if (p->patch->corner_uvs != NULL && vertices != NULL) {

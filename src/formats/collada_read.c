@@ -20,15 +20,15 @@ alp_result alpi_collada_reader_create(alpi_collada_document *document, alpi_coll
 {
     *reader = (alpi_collada_reader){.context = document->context,
                                     .document = document,
-                                    .cutter = {.context = document->context}};
+                                    .polygons = {.context = document->context}};
     ALPI_TRY_NEW(reader->context, reader->slots, document->element_count);
     return ALP_OK;
 }
 
 void alpi_collada_reader_destroy(alpi_collada_reader *r)
 {
-    for (uint32_t i = 0; i < r->source_count; i++) {
-        alpi_release(r->context, r->sources[i].values);
+    for (uint32_t i = 0; i < r->array_count; i++) {
+        alpi_release(r->context, r->arrays[i].values);
     }
     for (uint32_t m = 0; m < r->mesh_count; m++) {
         for (uint32_t p = 0; p < r->meshes[m].part_count; p++) {
@@ -37,12 +37,12 @@ void alpi_collada_reader_destroy(alpi_collada_reader *r)
         }
         alpi_release(r->context, r->meshes[m].parts);
     }
-    void *const owned[] = {r->sources, r->meshes, r->placements, r->fixtures,
-                           r->effects, r->slots,  r->materials,  r->images};
+    void *const owned[] = {r->arrays,  r->sources, r->meshes,    r->placements, r->fixtures,
+                           r->effects, r->slots,   r->materials, r->images};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(r->context, owned[i]);
     }
-    alpi_ear_cutter_destroy(&r->cutter);
+    alpi_polygon_scratch_destroy(&r->polygons);
 }
 
 static void destroy_origin(alp_context *context, void *data)
@@ -98,15 +98,20 @@ static alp_result allocate_scene(alpi_collada_reader *reader)
     uint64_t vertices = 0, triangles = 0, surfaces = 0;
     uint32_t uv_sets = 0;
     bool colors = false;
-    for (uint32_t i = 0; i < reader->placement_count; i++) {
-        const alpi_collada_mesh *mesh = &reader->meshes[reader->placements[i].mesh];
+    for (uint32_t m = 0; m < reader->mesh_count; m++) { // once each, however often they are placed
+        alpi_collada_mesh *mesh = &reader->meshes[m];
         for (uint32_t p = 0; p < mesh->part_count; p++) {
             const alpi_collada_part *part = &mesh->parts[p];
-            vertices += scene_vertex_count(part);
-            triangles += part->triangle_count;
+            mesh->vertex_count += scene_vertex_count(part);
+            mesh->triangle_count += part->triangle_count;
             uv_sets = part->inputs.uv_count > uv_sets ? part->inputs.uv_count : uv_sets;
             colors |= part->inputs.source[ALPI_COLLADA_COLOR] != ALPI_NONE;
         }
+    }
+    for (uint32_t i = 0; i < reader->placement_count; i++) { // of less than 2^32 below 2^64
+        const alpi_collada_mesh *mesh = &reader->meshes[reader->placements[i].mesh];
+        vertices += mesh->vertex_count;
+        triangles += mesh->triangle_count;
         surfaces += mesh->part_count;
     }
     ALP_TRY(add_arrays(reader, vertices, triangles, surfaces));

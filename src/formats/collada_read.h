@@ -13,14 +13,20 @@
 
 #include "base/vec.h"
 #include "formats/collada_document.h"
-#include "formats/collada_polygon.h"
+#include "formats/polygon.h"
 #include "scene/scene.h"
 
 // --- geometry ------------------------------------------------------------------------------------
 
+/// A <float_array>; sources may share it.
+typedef struct alpi_collada_array {
+    float *values;
+    size_t count;
+} alpi_collada_array;
+
 /// A <source> of floats: component k of element i is values[first + i * stride + place[k]].
 typedef struct alpi_collada_source {
-    float *values;
+    const float *values; // of its array
     uint32_t count, stride, first;
     uint32_t components, place[4];
 } alpi_collada_source;
@@ -77,6 +83,7 @@ typedef struct alpi_collada_mesh {
     uint32_t index; // order in which they are met
     alpi_collada_part *parts;
     uint32_t part_count;
+    uint64_t vertex_count, triangle_count; // of all parts, when the scene is filled
 } alpi_collada_mesh;
 
 // --- placing -------------------------------------------------------------------------------------
@@ -141,8 +148,9 @@ typedef struct alpi_collada_reader {
     alpi_collada_document *document;
     alp_scene *scene; // being filled
     uint32_t *slots;  // [elements] 1 + the index of what was made of an element, 0 = nothing yet
-    alpi_ear_cutter cutter;
+    alpi_polygon_scratch polygons;
 
+    alpi_collada_array *arrays;
     alpi_collada_source *sources;
     alpi_collada_mesh *meshes;
     alpi_collada_placement *placements;
@@ -150,9 +158,10 @@ typedef struct alpi_collada_reader {
     alpi_collada_effect *effects;
     alpi_collada_material *materials; // [scene.material_count]
     alpi_collada_image *images;       // [scene.image_count]
-    uint32_t source_count, mesh_count, placement_count, fixture_count, effect_count;
+    uint32_t array_count, source_count, mesh_count, placement_count, fixture_count, effect_count;
     uint32_t material_count, image_count;
-    size_t source_capacity, mesh_capacity, placement_capacity, fixture_capacity, effect_capacity;
+    size_t array_capacity, source_capacity, mesh_capacity, placement_capacity, fixture_capacity,
+        effect_capacity;
     size_t material_capacity, scene_material_capacity, image_capacity;
 
     mat4 root; // file → metres, +Y up
@@ -191,8 +200,6 @@ alp_result alpi_collada_read_transform(const alpi_collada_document *document,
 alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                                       const alpi_collada_placement *placement,
                                       const alpi_collada_part *part, uint32_t *material);
-/// The <instance_material> that binds a symbol at an instance, NULL when there is none.
-xmlNode *alpi_collada_binding(const xmlNode *instance, const char *symbol);
 /// The technique element of an effect that holds its shader, and the shader; NULL without.
 xmlNode *alpi_collada_shader(const xmlNode *effect);
 /// Decodes the images that materials use.

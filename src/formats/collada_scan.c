@@ -16,15 +16,6 @@ typedef struct scan {
     uint32_t open[ALPI_COLLADA_DEPTH_LIMIT]; // elements that are open
 } scan;
 
-static uint32_t line_at(const alpi_collada_document *document, size_t place)
-{
-    uint32_t line = 1;
-    for (size_t i = 0; i < place && i < document->text_size; i++) {
-        line += document->text[i] == '\n';
-    }
-    return line;
-}
-
 /// Moves behind the next `what`; false when it does not come.
 static bool skip_past(scan *s, const char *what)
 {
@@ -45,10 +36,11 @@ static bool skip_past(scan *s, const char *what)
     return false;
 }
 
-/// Moves behind the ">" of a tag; signs between quotes do not count.
-static bool skip_tag(scan *s)
+/// Moves behind the ">" of a tag; signs between quotes do not count. *quoted of them.
+static bool skip_tag(scan *s, uint32_t *quoted)
 {
     const alpi_collada_document *d = s->document;
+    *quoted = 0;
     while (s->at < d->text_size) {
         const char c = d->text[s->at++];
         if (c == '>') {
@@ -59,6 +51,7 @@ static bool skip_tag(scan *s)
             if (!skip_past(s, quote)) {
                 return false;
             }
+            ++*quoted;
         }
     }
     return false;
@@ -67,14 +60,21 @@ static bool skip_tag(scan *s)
 static alp_result open_element(scan *s, size_t begin, bool *more)
 {
     alpi_collada_document *d = s->document;
-    *more = skip_tag(s);
+    uint32_t attributes;
+    *more = skip_tag(s, &attributes);
     if (!*more) {
         return ALP_OK;
+    }
+    if (attributes > ALPI_COLLADA_ATTRIBUTE_LIMIT) {
+        return alpi_fail(d->context, ALP_ERROR_LIMIT,
+                         "%s: line %u: an element of %u attributes, more than %d; take some out",
+                         d->path, alpi_collada_line_at(d, begin), attributes,
+                         ALPI_COLLADA_ATTRIBUTE_LIMIT);
     }
     if (d->element_count >= ALPI_COLLADA_ELEMENT_LIMIT) {
         return alpi_fail(d->context, ALP_ERROR_LIMIT,
                          "%s: line %u: more than %d elements; split the document", d->path,
-                         line_at(d, begin), ALPI_COLLADA_ELEMENT_LIMIT);
+                         alpi_collada_line_at(d, begin), ALPI_COLLADA_ELEMENT_LIMIT);
     }
     void *spans = d->spans;
     ALP_TRY(alpi_grow(d->context, &spans, &s->span_capacity, d->element_count + 1,
@@ -85,7 +85,7 @@ static alp_result open_element(scan *s, size_t begin, bool *more)
         if (s->depth >= ALPI_COLLADA_DEPTH_LIMIT) {
             return alpi_fail(d->context, ALP_ERROR_LIMIT,
                              "%s: line %u: elements are nested more than %d deep; flatten them",
-                             d->path, line_at(d, begin), ALPI_COLLADA_DEPTH_LIMIT);
+                             d->path, alpi_collada_line_at(d, begin), ALPI_COLLADA_DEPTH_LIMIT);
         }
         s->open[s->depth++] = d->element_count;
     }
@@ -109,13 +109,14 @@ static alp_result skip_doctype(scan *s, bool *more)
 {
     const alpi_collada_document *d = s->document;
     const size_t begin = s->at;
-    *more = skip_tag(s);
+    uint32_t quoted;
+    *more = skip_tag(s, &quoted);
     const size_t size = (*more ? s->at : d->text_size) - begin;
     if (memchr(d->text + begin, '[', size) != NULL) {
         return alpi_fail(d->context, ALP_ERROR_UNSUPPORTED,
                          "%s: line %u: declarations of its own (<!DOCTYPE … [ … ]>) are not read; "
                          "take them out",
-                         d->path, line_at(d, begin));
+                         d->path, alpi_collada_line_at(d, begin));
     }
     return ALP_OK;
 }

@@ -158,17 +158,21 @@ alp_result alpi_collada_resolve(const alpi_collada_document *d, const xmlNode *n
 
 // --- messages ------------------------------------------------------------------------------------
 
-uint32_t alpi_collada_line(const alpi_collada_document *d, const xmlNode *node)
+uint32_t alpi_collada_line_at(const alpi_collada_document *d, size_t place)
 {
-    uint32_t line = 1;
-    if (d->spans == NULL || alpi_xml_index(node) >= d->element_count) {
-        return line;
-    }
-    const size_t end = d->spans[alpi_xml_index(node)].begin;
-    for (size_t i = 0; i < end; i++) {
+    const size_t block = place / ALPI_COLLADA_BLOCK;
+    uint32_t line = d->block_lines[block];
+    for (size_t i = block * ALPI_COLLADA_BLOCK; i < place; i++) {
         line += d->text[i] == '\n';
     }
     return line;
+}
+
+uint32_t alpi_collada_line(const alpi_collada_document *d, const xmlNode *node)
+{
+    return d->spans != NULL && alpi_xml_index(node) < d->element_count
+               ? alpi_collada_line_at(d, d->spans[alpi_xml_index(node)].begin)
+               : 1;
 }
 
 static void clean(char *text)
@@ -248,6 +252,20 @@ static alp_result find_file(const alpi_collada_document *d, const char *name, ch
     return name[scheme] != ':' || alpi_outside_takes(d->context, name)
                ? alpi_outside_path(d->context, d->folder, name, path)
                : ALP_OK;
+}
+
+alp_result alpi_collada_file_name(const alpi_collada_document *d, const char *uri, char **name)
+{
+    *name = alpi_copy_string(d->context, uri);
+    if (*name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const bool decoded = decode_path(*name);
+    if (!decoded || !alpi_path_stays_below(*name) || (*name)[strcspn(*name, ":/")] == ':') {
+        alpi_release(d->context, *name);
+        *name = NULL;
+    }
+    return ALP_OK;
 }
 
 alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *uri, uint8_t **bytes,

@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "formats/gltf_patch.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -219,41 +220,94 @@ typedef struct writing {
     const alpi_mesh_patch *patch;
     const char *path;
     image_files occlusion, light;
-    alpi_file_set *files;
+    alpi_gltf_files files;
+    alpi_file_set *set;
 } writing;
 
-static alp_result add_files(const writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
+static alp_result add_file(writing *w, const char *path, const void *bytes, size_t size)
+{
+    return alpi_gltf_files_add(
+        &w->files, (alpi_gltf_file){alpi_copy_string(w->context, path), bytes, size, NULL});
+}
+
+static alp_result add_maps(writing *w, const alpi_collada_patcher *p)
 {
     for (uint32_t i = 0; i < w->patch->page_count; i++) {
         if (i < w->occlusion.count && p->page_used[i]) {
-            ALP_TRY(alpi_file_set_add(w->files, w->occlusion.paths[i], w->patch->page_pngs[i],
-                                      w->patch->page_png_sizes[i]));
+            ALP_TRY(add_file(w, w->occlusion.paths[i], w->patch->page_pngs[i],
+                             w->patch->page_png_sizes[i]));
         }
         if (i < w->light.count && p->page_used[i]) {
-            ALP_TRY(alpi_file_set_add(w->files, w->light.paths[i], w->patch->light->pages[i],
-                                      w->patch->light->page_sizes[i]));
+            ALP_TRY(add_file(w, w->light.paths[i], w->patch->light->pages[i],
+                             w->patch->light->page_sizes[i]));
         }
     }
-    return alpi_file_set_add(w->files, w->path, text->bytes, text->size);
+    return ALP_OK;
 }
 
-/// Images that the document names by relative paths stay where they are.
-static alp_result tell_of_images(const alpi_collada_patcher *p, const char *path)
+/// The image that an <init_from> names goes where the new document looks for it.
+static alp_result add_image_copy(writing *w, const alpi_collada_document *d, const char *uri,
+                                 const char *folder)
 {
-    const alpi_collada_document *d = p->document;
-    char *folder = alpi_path_folder(p->context, path);
+    char *name = NULL;
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    ALP_TRY(alpi_collada_file_name(d, uri, &name));
+    if (name == NULL) {
+        if (strncmp(uri, "..", 2) == 0) { // else an address that stays right
+            alpi_warn(w->context, "images", w->path,
+                      "names \"%.200s\", which lies outside the document's folder and is not "
+                      "copied: put it beside the new one likewise",
+                      uri);
+        }
+        return ALP_OK;
+    }
+    alp_result result = alpi_collada_file_read(d, uri, &bytes, &size);
+    if (result == ALP_OK) {
+        char *path = alpi_format(w->context, "%s%s", folder, name);
+        result = alpi_gltf_files_add_copy(&w->files, path, bytes, size);
+    } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
+        alpi_note(w->context, "missing-file", name,
+                  "the document refers to it, but it cannot be read: the copy will miss it too");
+        result = ALP_OK;
+    }
+    alpi_release(w->context, name);
+    return result;
+}
+
+/// Images that the document names by relative paths go with it to another folder, as a .gltf's do;
+/// those of an archive come out of it.
+static alp_result add_image_copies(writing *w, const alpi_collada_document *d)
+{
+    char *folder = alpi_path_folder(w->context, w->path);
     if (folder == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    const bool moved = strcmp(folder, d->folder) != 0;
-    alpi_release(p->context, folder);
-    const xmlNode *image = alpi_xml_child(alpi_xml_child(d->root, "library_images"), "image");
-    if (image != NULL && (moved || d->archive != NULL)) {
-        alpi_warn(p->context, "images", path,
-                  "names images %s, which are not copied: put them beside it",
-                  d->archive != NULL ? "of the archive" : "of the folder that it was read from");
+    const bool moved = d->archive != NULL || !alpi_gltf_same_folder(folder, d->folder);
+    alp_result result = ALP_OK;
+    for (uint32_t i = 0; moved && result == ALP_OK && i < d->element_count; i++) {
+        if (!alpi_xml_is(d->elements[i], "image")) {
+            continue;
+        }
+        const xmlNode *from = alpi_xml_child(d->elements[i], "init_from");
+        const xmlNode *ref = alpi_xml_child(from, "ref"); // 1.5
+        char *uri = alpi_xml_copy_text(w->context, ref != NULL ? ref : from);
+        result = uri == NULL      ? ALP_ERROR_OUT_OF_MEMORY
+                 : uri[0] != '\0' ? add_image_copy(w, d, uri, folder)
+                                  : ALP_OK;
+        alpi_release(w->context, uri);
     }
-    return ALP_OK;
+    alpi_release(w->context, folder);
+    return result;
+}
+
+static alp_result write_files(writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
+{
+    ALP_TRY(add_maps(w, p));
+    ALP_TRY(add_image_copies(w, p->document));
+    ALP_TRY(add_file(w, w->path, text->bytes, text->size));
+    ALP_TRY(alpi_gltf_files_make_folders(&w->files));
+    return alpi_gltf_files_add_to(&w->files, w->set);
 }
 
 static alp_result patch_and_write(writing *w, const alp_scene *scene)
@@ -282,10 +336,7 @@ static alp_result patch_and_write(writing *w, const alp_scene *scene)
         result = print_document(&p, &text);
     }
     if (result == ALP_OK) {
-        result = tell_of_images(&p, w->path);
-    }
-    if (result == ALP_OK) {
-        result = add_files(w, &p, &text);
+        result = write_files(w, &p, &text);
     }
     alpi_bytes_destroy(&text);
     patcher_destroy(&p);
@@ -342,7 +393,11 @@ alp_result alpi_collada_add_patched(const alp_scene *scene, const alpi_mesh_patc
                          "write .glb",
                          path);
     }
-    writing w = {.context = context, .patch = patch, .path = path, .files = files};
+    writing w = {.context = context,
+                 .patch = patch,
+                 .path = path,
+                 .set = files,
+                 .files = {.context = context}};
     const uint32_t count = patch->page_count;
     alp_result result =
         name_files(context, path, "ao", patch->page_pngs != NULL ? count : 0, &w.occlusion);
@@ -352,6 +407,7 @@ alp_result alpi_collada_add_patched(const alp_scene *scene, const alpi_mesh_patc
     if (result == ALP_OK) {
         result = patch_and_write(&w, scene);
     }
+    alpi_gltf_files_destroy(&w.files);
     image_files_destroy(context, &w.occlusion);
     image_files_destroy(context, &w.light);
     return result;

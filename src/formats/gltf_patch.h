@@ -269,6 +269,14 @@ typedef struct alpi_gltf_files {
 
 /// Takes over path and owned, also on failure.
 alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file);
+/// A file that the document refers to, copied with it. Nothing is added where the list has one of
+/// that path, or the file is there already with these bytes. Takes over path and bytes.
+alp_result alpi_gltf_files_add_copy(alpi_gltf_files *files, char *path, uint8_t *bytes,
+                                    size_t size);
+/// Makes the folders of all of them.
+alp_result alpi_gltf_files_make_folders(const alpi_gltf_files *files);
+/// Whether two folders ("" or "dir/") are the same one.
+bool alpi_gltf_same_folder(const char *a, const char *b);
 void alpi_gltf_files_destroy(alpi_gltf_files *files);
 alp_result alpi_gltf_files_add_to(const alpi_gltf_files *files, alpi_file_set *set);
 

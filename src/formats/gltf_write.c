@@ -52,7 +52,7 @@ alp_result alpi_gltf_files_add_to(const alpi_gltf_files *files, alpi_file_set *s
 
 // --- files that the asset refers to --------------------------------------------------------------
 
-static bool same_folder(const char *a, const char *b)
+bool alpi_gltf_same_folder(const char *a, const char *b)
 {
     struct stat first, second;
     return stat(a[0] != '\0' ? a : ".", &first) == 0 &&
@@ -94,6 +94,23 @@ static bool is_outside(const alpi_gltf_files *files, const alpi_gltf_document *d
     return true;
 }
 
+alp_result alpi_gltf_files_add_copy(alpi_gltf_files *files, char *path, uint8_t *bytes, size_t size)
+{
+    bool repeated = false;
+    const alp_result result = path == NULL
+                                  ? ALP_ERROR_OUT_OF_MEMORY
+                                  : compare_file(files->context, path, bytes, size, &repeated);
+    for (size_t i = 0; result == ALP_OK && i < files->count; i++) {
+        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
+    }
+    if (repeated || result != ALP_OK) {
+        alpi_release(files->context, path);
+        alpi_release(files->context, bytes);
+        return result;
+    }
+    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
+}
+
 /// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
 static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *document,
                            const char *source, const char *folder)
@@ -109,18 +126,7 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
     char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
-    bool repeated = false;
-    result = path == NULL ? ALP_ERROR_OUT_OF_MEMORY
-                          : compare_file(files->context, path, bytes, size, &repeated);
-    for (size_t i = 0; result == ALP_OK && i < files->count; i++) {
-        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
-    }
-    if (repeated || result != ALP_OK) {
-        alpi_release(files->context, path);
-        alpi_release(files->context, bytes);
-        return result;
-    }
-    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
+    return alpi_gltf_files_add_copy(files, path, bytes, size);
 }
 
 /// @param fallbacks copy buffers only that are fallbacks: the others went into the asset
@@ -157,7 +163,7 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
-    if (!same_folder(folder, document->folder)) {
+    if (!alpi_gltf_same_folder(folder, document->folder)) {
         result = add_copies(files, document, "buffers", NULL, merged, folder);
         if (result == ALP_OK) {
             result = add_copies(files, document, "images", image_embedded, false, folder);
@@ -306,7 +312,7 @@ static alp_result collect_files(writing *w, alpi_gltf_home home)
     return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
 }
 
-static alp_result make_folders(const alpi_gltf_files *files)
+alp_result alpi_gltf_files_make_folders(const alpi_gltf_files *files)
 {
     for (size_t i = 0; i < files->count; i++) {
         char *folder = alpi_path_folder(files->context, files->items[i].path);
@@ -333,7 +339,7 @@ static alp_result run_writing(writing *w, const alp_scene *scene, alpi_file_set 
         result = collect_files(w, home);
     }
     if (result == ALP_OK) {
-        result = make_folders(&w->files);
+        result = alpi_gltf_files_make_folders(&w->files);
     }
     if (result == ALP_OK) {
         result = alpi_gltf_files_add_to(&w->files, set);

@@ -3,10 +3,15 @@
 // coordinates at the right corners, and what the bake does not touch stays as it was.
 #include "test_collada.h"
 
+#include "base/file.h"
+#include "base/memory.h"
 #include "formats/collada_read.h"
 #include "formats/formats.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 static const char inside[] = TEST_COLLADA_SQUARE(
     "<polylist count='1'>" TEST_COLLADA_INPUT
@@ -65,6 +70,138 @@ static void mirrored_twice(void **state)
     alp_context_destroy(context);
 }
 
+/// Bakes coordinates by place times `scale` into the document at `path`, every second triangle on
+/// a page of its own where wanted; the scene that was written.
+static alp_scene *bake_again(alp_context *context, const char *path, const float scale[2],
+                             bool two_pages)
+{
+    static float uvs[8][3][2];
+    static uint32_t pages[8];
+    const uint8_t *const pngs[] = {(const uint8_t *)"x", (const uint8_t *)"y"};
+    const size_t sizes[] = {1, 1};
+    alp_scene *old = NULL, *new = NULL;
+    ASSERT_OK(context, alp_scene_load(context, path, &old));
+    assert_int_equal(old->triangle_count, 4);
+    for (uint32_t t = 0; t < 4; t++) {
+        pages[t] = two_pages && t % 2 == 1;
+        for (int k = 0; k < 3; k++) {
+            const float *p = old->positions[old->triangles[t][k]];
+            uvs[t][k][0] = scale[0] * p[0];
+            uvs[t][k][1] = scale[1] * p[1];
+        }
+    }
+    const alpi_mesh_patch patch = {.page_count = two_pages ? 2 : 1,
+                                   .triangle_pages = two_pages ? pages : NULL,
+                                   .corner_uvs = (const float(*)[3][2])uvs,
+                                   .page_pngs = pngs,
+                                   .page_png_sizes = sizes,
+                                   .extras_json = "{}"};
+    ASSERT_OK(context, alpi_scene_write_patched(old, &patch, path, true));
+    ASSERT_OK(context, alp_scene_load(context, path, &new));
+    assert_int_equal(new->triangle_count, 4);
+    alp_scene_destroy(old);
+    return new;
+}
+
+/// The last set has the coordinates that bake_again gave.
+static void assert_coordinates(const alp_scene *scene, uint32_t sets, const float scale[2])
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        assert_int_equal(scene->surfaces[scene->triangle_surface[t]].uv_sets, sets);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = scene->triangles[t][k];
+            ASSERT_NEAR(scene->uvs[sets - 1][v][0], scale[0] * scene->positions[v][0], 0.0);
+            ASSERT_NEAR(scene->uvs[sets - 1][v][1], scale[1] * scene->positions[v][1], 0.0);
+        }
+    }
+}
+
+/// Baked once more, whether its triangles lie on one page or two, it still has one set and one
+/// source for each geometry; where another texture reads our set, it gets a second one.
+static void baked_again(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    size_t size;
+    char *text = test_collada_text(inside, &size);
+    char *path = alpi_format(context, "%s/again.dae", test_folder());
+    ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
+    free(text);
+    for (int round = 0; round < 6; round++) { // powers of two are exact; 0 takes indices away
+        const float scale[2] = {0.125f / (float)(1 << round), round % 3 == 1 ? 0.0f : 0.125f};
+        alp_scene *scene = bake_again(context, path, scale, round == 2);
+        assert_coordinates(scene, 1, scale);
+        alp_scene_destroy(scene);
+        text = (char *)test_read_file(path, &size);
+        int sources = 0;
+        for (const char *at = text; (at = strstr(at, "<source id=\"alpenglow")) != NULL; at++) {
+            sources++;
+        }
+        assert_int_equal(sources, 2); // two places with coordinates of their own
+        free(text);
+    }
+    static const char ours[] = "<bind_vertex_input semantic=\"ALPENGLOW\"";
+    text = (char *)test_read_file(path, &size);
+    char *place = strstr(text, ours);
+    assert_non_null(place);
+    memcpy(place, "<bind_vertex_input semantic=\"ANOTHER!!\"", sizeof ours - 1);
+    ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
+    free(text);
+    static const float half[2] = {0.5f, 0.5f};
+    alp_scene *scene = bake_again(context, path, half, false);
+    assert_coordinates(scene, 2, half);
+    alp_scene_destroy(scene);
+    alpi_release(context, path);
+    alp_context_destroy(context);
+}
+
+/// Images that the document names below its folder go with it to another one; those that are there
+/// already are kept, and what cannot be copied stays a reference.
+static void images_go_along(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "<COLLADA version=\"1.4.1\"><library_images><image id=\"a\"><init_from>tex/two%20words.png"
+        "</init_from></image><image id=\"b\"><init_from>./tex/two%20words.png</init_from></image>"
+        "<image id=\"c\"><init_from>none.png</init_from></image><image id=\"d\"><init_from>../d.png"
+        "</init_from></image><image id=\"e\"><init_from>file:///e.png</init_from></image>"
+        "</library_images></COLLADA>";
+    static const char picture[] = "bytes of a picture";
+    alp_context *context = test_context(1);
+    char *from = alpi_format(context, "%s/from/tex", test_folder());
+    char *to = alpi_format(context, "%s/to", test_folder());
+    ASSERT_OK(context, alpi_folder_create(context, from));
+    ASSERT_OK(context, alpi_folder_create(context, to));
+    char *input = alpi_format(context, "%s/../in.dae", from);
+    char *image = alpi_format(context, "%s/two words.png", from);
+    char *output = alpi_format(context, "%s/out.dae", to);
+    char *copy = alpi_format(context, "%s/tex/two words.png", to);
+    ASSERT_OK(context, alpi_file_write(context, input, true, text, strlen(text)));
+    ASSERT_OK(context, alpi_file_write(context, image, true, picture, sizeof picture));
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, input, &scene));
+    const alpi_mesh_patch patch = {0};
+    for (int round = 0; round < 2; round++) { // what is there already with the same bytes is fine
+        ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, output, round == 1));
+        size_t size = 0;
+        assert_true(test_log_has("images") > 0 && test_log_has("missing-file") > 0);
+        char *copied = (char *)test_read_file(copy, &size);
+        assert_int_equal(size, sizeof picture);
+        assert_memory_equal(copied, picture, size);
+        free(copied);
+    }
+    ASSERT_OK(context, alpi_file_write(context, copy, true, "other", 5));
+    (void)remove(output);
+    assert_int_equal(alpi_scene_write_patched(scene, &patch, output, false), ALP_ERROR_IO);
+    assert_int_equal(access(output, F_OK), -1); // all files or none
+    alp_scene_destroy(scene);
+    char *const names[] = {from, to, input, image, output, copy};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        alpi_release(context, names[i]);
+    }
+    alp_context_destroy(context);
+}
+
 /// A .dae is written only of a scene that was read from one.
 static void other_scenes(void **state)
 {
@@ -81,7 +218,8 @@ static void other_scenes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(mirrored_twice),
-                                       cmocka_unit_test(other_scenes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mirrored_twice), cmocka_unit_test(images_go_along),
+        cmocka_unit_test(baked_again), cmocka_unit_test(other_scenes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

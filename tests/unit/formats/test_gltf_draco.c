@@ -346,6 +346,43 @@ static void accessors_that_do_not_fit(void **state)
     alp_context_destroy(context);
 }
 
+/// An attribute that is shorter or longer than the vertices of the stream, and more of them than
+/// are decoded: before memory is asked for.
+static void counts_that_differ(void **state)
+{
+    (void)state;
+    static const char end[] = ",\"type\":\"VEC2\"";
+    alp_context *context = test_context(1);
+    size_t size, at = 0;
+    draco_input input = wave_input();
+    unsigned char *bytes = test_read_file(write_wave(&input, "", input.index_count), &size);
+    while (memcmp(bytes + at, end, sizeof end - 1) != 0) {
+        at++;
+    }
+    const unsigned char digit = bytes[at - 1]; // the last of its count
+    for (unsigned char other = '0'; other <= '9'; other++) {
+        if (other != digit) {
+            bytes[at - 1] = other;
+            assert_int_equal(read_bytes(context, bytes, size), ALP_ERROR_INVALID_DATA);
+            test_message_has(context, "TEXCOORD_0 (accessor 2) has");
+        }
+    }
+    free(bytes);
+    alp_scene *scene = NULL;
+    assert_int_equal(
+        test_gltf_scene(context,
+                        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':4}],'bufferViews':[{"
+                        "'buffer':0,'byteLength':4}],'accessors':[{'componentType':5126,'count':"
+                        "134217729,'type':'VEC3'},{'componentType':5125,'count':3,'type':'SCALAR'}"
+                        "],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,"
+                        "'extensions':{" DRACO
+                        ":{'bufferView':0,'attributes':{'POSITION':0}}}}]}]}",
+                        (const uint8_t *)"1234", 4, &scene),
+        ALP_ERROR_LIMIT);
+    test_message_has(context, "134217729 compressed vertices, more than the limit of 134217728");
+    alp_context_destroy(context);
+}
+
 #endif
 
 int main(void)
@@ -356,7 +393,7 @@ int main(void)
         cmocka_unit_test(sequential_is_exact),       cmocka_unit_test(edgebreaker),
         cmocka_unit_test(strips_come_as_triangles),  cmocka_unit_test(patched_is_plain),
         cmocka_unit_test(streams_that_lie),          cmocka_unit_test(damaged_streams),
-        cmocka_unit_test(accessors_that_do_not_fit),
+        cmocka_unit_test(accessors_that_do_not_fit), cmocka_unit_test(counts_that_differ),
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

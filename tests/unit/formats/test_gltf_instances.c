@@ -87,6 +87,40 @@ static void instances_stand(void **state)
     alp_context_destroy(context);
 }
 
+/// What is not given is 0, no turn and 1; a skinned mesh stands once, where its joints are.
+static void parts_left_out(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context,
+                                      write_instances("'mesh':0,'extensions':{'EXT_mesh_gpu_"
+                                                      "instancing':{'attributes':{'TRANSLATION':2}}"
+                                                      "}",
+                                                      ""),
+                                      &scene));
+    assert_int_equal(scene->surface_count, COUNT);
+    assert_corner(scene, 1, 1, 6, 0, 100);
+    assert_corner(scene, 2, 2, 0, 8, 100);
+    alp_scene_destroy(scene);
+    ASSERT_OK(context,
+              alp_scene_load(context,
+                             write_instances("'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{"
+                                             "'attributes':{'SCALE':4}}}",
+                                             ""),
+                             &scene));
+    assert_corner(scene, 2, 2, 0, 6, 100);
+    alp_scene_destroy(scene);
+    ASSERT_OK(context, alp_scene_load(context,
+                                      write_instances("'mesh':0,'skin':0,'extensions':{" INSTANCED
+                                                      "}}],'skins':[{'joints':[0]}],'more':[{'a':0",
+                                                      ""),
+                                      &scene));
+    assert_int_equal(scene->surface_count, 1);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// Each with a map of its own: they become nodes, whatever else their node has.
 static void baked_ones_become_nodes(void **state)
 {
@@ -240,11 +274,9 @@ static void sample(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(instances_stand),
-        cmocka_unit_test(baked_ones_become_nodes),
-        cmocka_unit_test(shared_maps_keep_them),
-        cmocka_unit_test(broken_instances),
-        cmocka_unit_test(sample),
+        cmocka_unit_test(instances_stand),         cmocka_unit_test(parts_left_out),
+        cmocka_unit_test(baked_ones_become_nodes), cmocka_unit_test(shared_maps_keep_them),
+        cmocka_unit_test(broken_instances),        cmocka_unit_test(sample),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -330,6 +330,9 @@ static void short_streams_ask_for_little(void **state)
         {"'byteLength':12000,'extensions':{'EXT_meshopt_compression':{'buffer':0,"
          "'byteLength':40,'byteStride':4,'mode':'TRIANGLES','count':3000}}",
          "bufferView 0: 40 compressed bytes cannot hold", ALP_ERROR_INVALID_DATA},
+        {"'byteLength':16,'extensions':{'EXT_meshopt_compression':{'buffer':0,"
+         "'byteLength':40,'byteStride':4,'mode':'TRIANGLES','count':4}}",
+         "bufferView 0: 4 compressed indices make no triangles", ALP_ERROR_INVALID_DATA},
         {"'byteLength':12,'extensions':{'EXT_meshopt_compression':{'buffer':0,"
          "'byteOffset':8,'byteLength':40,'byteStride':4,'mode':'TRIANGLES','count':3}}",
          "pass the end of buffer 0 (40 bytes)", ALP_ERROR_INVALID_DATA},

@@ -105,6 +105,43 @@ static void skins_that_do_not_hold(void **state)
     alp_context_destroy(context);
 }
 
+/// Two sets of influences; weights that do not sum to 1, none at all, and a negative one.
+static void weights_of_all_kinds(void **state)
+{
+    (void)state;
+    static const float positions[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const uint8_t joints[2][3][4] = {{{0}, {0}, {0, 1, 0, 0}}, {{1}, {1}, {0}}};
+    static const float weights[2][3][4] = {{{0.5f}, {0}, {0.5f, -1, 0, 0}}, {{0.5f}, {0}, {0}}};
+    static const float bind[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                      {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1}};
+    pack_asset *asset = pack_start();
+    pack_accessor(asset, pack_view(asset, positions, sizeof positions, 0), 5126, 3, "VEC3",
+                  ",'min':[0,0,0],'max':[1,1,0]");
+    for (int set = 0; set < 2; set++) {
+        pack_accessor(asset, pack_view(asset, joints[set], sizeof *joints, 0), 5121, 3, "VEC4", "");
+        pack_accessor(asset, pack_view(asset, weights[set], sizeof *weights, 0), 5126, 3, "VEC4",
+                      "");
+    }
+    pack_accessor(asset, pack_view(asset, bind, sizeof bind, 0), 5126, 2, "MAT4", "");
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context,
+              alp_scene_load(
+                  context,
+                  pack_write(asset, "'scenes':[{'nodes':[0,1,2]}],'nodes':[{'mesh':0,'skin':0,"
+                                    "'translation':[50,0,0]}," JOINTS
+                                    "],'skins':[{'joints':[1,2],'inverseBindMatrices':5}],'meshes':"
+                                    "[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,"
+                                    "'WEIGHTS_0':2,'JOINTS_1':3,'WEIGHTS_1':4}}]}]"),
+                  &scene));
+    // Joint 0 leads to (0, 0, 5), joint 1 to (−1, 0, 0) turned and moved: (1, 2, 0).
+    assert_at(scene, 0, 0.5, 1.0, 2.5);
+    assert_at(scene, 1, 51, 0, 0); // nothing moves it: its node
+    assert_at(scene, 2, 0, 1, 5);  // of joint 0 alone
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// Default weights of the mesh, and of a node, which come first.
 static void morph_targets(void **state)
 {
@@ -177,9 +214,8 @@ static void choice_of_a_scene(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(skin_at_rest),
-        cmocka_unit_test(skins_that_do_not_hold),
-        cmocka_unit_test(morph_targets),
+        cmocka_unit_test(skin_at_rest),         cmocka_unit_test(skins_that_do_not_hold),
+        cmocka_unit_test(weights_of_all_kinds), cmocka_unit_test(morph_targets),
         cmocka_unit_test(choice_of_a_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

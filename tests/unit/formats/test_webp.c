@@ -91,6 +91,19 @@ static void damaged_ones(void **state)
     alp_context_destroy(context);
 }
 
+/// An extended header with the mark of frames that follow, as RIFF: that is all that is looked at.
+static void moving_ones(void **state)
+{
+    (void)state;
+    static const uint8_t bytes[] = "RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x07\0\0\x07\0\0";
+    alp_context *context = test_context(1);
+    alp_image *image = NULL;
+    assert_int_equal(alpi_webp_decode(context, "a.webp", bytes, sizeof bytes - 1, &image),
+                     ALP_ERROR_UNSUPPORTED);
+    test_message_has(context, "a.webp: WebP: moves");
+    alp_context_destroy(context);
+}
+
 /// A red factor times the texture; of `textures[0]` members are given.
 static alp_scene *load_textured(alp_context *context, const char *texture)
 {
@@ -144,6 +157,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_come_back),
         cmocka_unit_test(damaged_ones),
+        cmocka_unit_test(moving_ones),
         cmocka_unit_test(textures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
