@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow info: what is in a scene.
+#include "findings.h"
 #include "output.h"
 #include "report.h"
 #include "session.h"
@@ -248,14 +249,16 @@ static json_t *make_cameras(const alp_scene *scene, uint32_t count)
     return list;
 }
 
-static int print_json(const session *s, const alp_scene_info *info, const default_work *work)
+static int print_json(const session *s, const alp_scene_info *info, const default_work *work,
+                      const alp_diagnosis *diagnosis)
 {
-    json_t *document =
-        json_pack("{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
-                  make_scene(info), "work", "ao", work_json(&work->ao), "light",
-                  work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
-                  "lights", make_lights(s->scene, info->lights), "cameras",
-                  make_cameras(s->scene, info->cameras), "warnings", report_warnings(&s->messages));
+    json_t *document = json_pack(
+        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
+        make_scene(info), "work", "ao", work_json(&work->ao), "light", work_json(&work->light),
+        "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
+        make_lights(s->scene, info->lights), "cameras", make_cameras(s->scene, info->cameras),
+        "uv_sets", findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis),
+        "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }
@@ -265,31 +268,51 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
     return EXIT_DONE;
 }
 
+static void print_text(const session *s, const char *path, const alp_scene_info *info,
+                       const default_work *work, const alp_diagnosis *diagnosis)
+{
+    print_scene(path, info);
+    print_work(work);
+    print_surfaces(s->scene, info->surfaces);
+    findings_print_uv_sets(diagnosis);
+    print_lights(s->scene, info);
+    findings_print(diagnosis);
+}
+
+/// Everything that is told, before anything is.
+static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
+{
+    int code = session_end(s, alp_scene_examine(s->scene, NULL, session_progress, s));
+    if (code == EXIT_DONE) {
+        code = session_end(s, estimate_work(s, work));
+    }
+    return code == EXIT_DONE ? findings_look(s, diagnosis) : code;
+}
+
 int command_info(const command_line *a)
 {
     session s;
+    default_work work = {{0}, {0}};
+    alp_diagnosis *diagnosis = NULL;
     int code = session_open(&s, a);
+    s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
-        code = session_end(&s, alp_scene_examine(s.scene, NULL, session_progress, &s));
-    }
-    default_work work = {{0}, {0}};
-    if (code == EXIT_DONE) {
-        code = session_end(&s, estimate_work(&s, &work));
+        code = look(&s, &work, &diagnosis);
     }
     if (code == EXIT_DONE) {
         alp_scene_info info = alp_scene_get_info(s.scene);
         if (a->values[OPTION_JSON].given) {
-            code = print_json(&s, &info, &work);
+            code = print_json(&s, &info, &work, diagnosis);
         } else {
-            print_scene(a->operands[0], &info);
-            print_work(&work);
-            print_surfaces(s.scene, info.surfaces);
-            print_lights(s.scene, &info);
+            print_text(&s, a->operands[0], &info, &work, diagnosis);
         }
+    } else {
+        messages_print_held(&s.messages);
     }
+    alp_diagnosis_destroy(diagnosis);
     session_close(&s);
     return code;
 }
