@@ -92,7 +92,7 @@ typedef struct alp_uv_set_info {
     uint32_t surfaces, missing_surfaces;        ///< that have it, that do not
     uint32_t triangles;                         ///< usable ones that have it
     uint32_t outside_triangles, flat_triangles; ///< out of [0, 1]; without area in it
-    uint32_t overlapping_triangles;             ///< of those inside [0, 1]
+    uint32_t overlapping_triangles;             ///< of those inside [0, 1], at least so many
     uint32_t islands;                           ///< connected in space and in the set
     uint32_t touching_islands;                  ///< without a free texel to another one
     double coverage;      ///< share of the unit square that holds something, [0, 1]

@@ -143,7 +143,9 @@ static alp_result add_message(alp_diagnosis *d, const alp_report_finding *messag
         release_finding(d->context, &f);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    f.view.code = words->kind == ALP_FINDING_MESSAGE ? f.code : words->code;
+    if (strcmp(words->code, code) != 0) { // it has no words: its own name
+        f.view.code = f.code;
+    }
     return append(d, &f);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The doctor's look at materials and lights.
+// The doctor's look at materials.
 #include "bake/doctor.h"
 
 #include "base/memory.h"
@@ -12,9 +12,6 @@ enum { POINTS = 1024 }; // spread over the area, as in the check for metal
 static const float WHITE = 0.9499f;
 /// A material counts as white from this share of the scene's area on: less changes no light.
 static const double WHITE_SHARE = 0.02;
-/// Candela: ten searchlights of a stadium (about 1e5 each). Lux: the sun outside of the air gives
-/// 1.34e5 (the solar constant's illuminance, ASTM E490).
-static const double STRONGEST_LAMP = 1e6, STRONGEST_SUN = 1.5e5;
 
 static const double NO_VALUE = (double)NAN;
 
@@ -50,7 +47,7 @@ static alp_result look_for_white(alp_diagnosis *d)
         const alpi_finding_facts facts = {ALP_FINDING_WHITE, ALP_PLACE_MATERIAL, m, 0, share};
         if (share >= WHITE_SHARE) {
             result = alpi_diagnosis_add(d, facts,
-                                        "a diffuse colour of 0.95 or more, on %.2g %% of the "
+                                        "a diffuse colour of 0.95 or more, on %.3g %% of the "
                                         "scene's area",
                                         100.0 * share);
         }
@@ -132,57 +129,4 @@ alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis)
     }
     alpi_release(diagnosis->context, used);
     return result;
-}
-
-// --- lights --------------------------------------------------------------------------------------
-
-/// From a point to the scene's bounding box, metres; 0 inside.
-static double distance_to_scene(const alp_scene *scene, vec3 p)
-{
-    const vec3 none = {0.0f, 0.0f, 0.0f};
-    const vec3 below = vec3_max(vec3_sub(scene->bounds_min, p), none);
-    const vec3 above = vec3_max(vec3_sub(p, scene->bounds_max), none);
-    return (double)vec3_length(vec3_add(below, above));
-}
-
-static alp_result look_at_strength(alp_diagnosis *d, uint32_t index)
-{
-    const alpi_light *light = &d->scene->lights[index];
-    const bool sun = light->kind == ALPI_LIGHT_DIRECTIONAL;
-    const double strength = (double)light->intensity * (double)largest(light->color);
-    alpi_finding_facts facts = {.place = ALP_PLACE_LIGHT, .index = index, .value = strength};
-    if (!(strength > 0.0)) {
-        facts.kind = ALP_FINDING_LIGHT_OFF;
-        return alpi_diagnosis_add(d, facts, "its intensity or its colour is 0");
-    }
-    if (strength > (sun ? STRONGEST_SUN : STRONGEST_LAMP)) {
-        facts.kind = ALP_FINDING_LIGHT_STRONG;
-        return alpi_diagnosis_add(d, facts, "%.3g %s, more than any %s", strength,
-                                  sun ? "lux" : "candela", sun ? "sun on Earth" : "usual lamp");
-    }
-    return ALP_OK;
-}
-
-static alp_result look_at_range(alp_diagnosis *d, uint32_t index)
-{
-    const alpi_light *light = &d->scene->lights[index];
-    if (light->kind == ALPI_LIGHT_DIRECTIONAL || d->scene->usable_count == 0) {
-        return ALP_OK;
-    }
-    const double distance = distance_to_scene(d->scene, light->position);
-    const alpi_finding_facts facts = {ALP_FINDING_LIGHT_RANGE, ALP_PLACE_LIGHT, index, 0, distance};
-    return (double)light->range <= distance
-               ? alpi_diagnosis_add(d, facts,
-                                    "its range of %.3g m ends before the scene, %.3g m away",
-                                    (double)light->range, distance)
-               : ALP_OK;
-}
-
-alp_result alpi_doctor_look_at_lights(alp_diagnosis *diagnosis)
-{
-    for (uint32_t i = 0; i < diagnosis->scene->light_count; i++) {
-        ALP_TRY(look_at_strength(diagnosis, i));
-        ALP_TRY(look_at_range(diagnosis, i));
-    }
-    return ALP_OK;
 }

@@ -264,21 +264,17 @@ static alp_result look_at_size(alp_diagnosis *d)
     const vec3 size = vec3_sub(d->scene->bounds_max, d->scene->bounds_min);
     const double side = (double)fmaxf(fmaxf(size.x, size.y), size.z);
     const alpi_finding_facts facts = {.kind = ALP_FINDING_SIZE, .value = side};
-    if (side > LARGEST_SIDE && 0.01 * side <= LARGEST_GUESS) {
-        return alpi_diagnosis_add(d, facts,
-                                  "the longest side is %.4g m, with a unit taken for a metre; if "
-                                  "it is a centimetre, %.3g m",
-                                  side, 0.01 * side);
-    }
     if (side > LARGEST_SIDE) {
-        return alpi_diagnosis_add(d, facts,
-                                  "the longest side is %.4g m, with a unit taken for a metre; if "
-                                  "it is a millimetre, %.3g m",
-                                  side, 0.001 * side);
+        const bool centimetres = 0.01 * side <= LARGEST_GUESS;
+        return alpi_diagnosis_add(
+            d, facts, "the longest side is %.4g m; if its unit is meant to be a %s, %.3g m", side,
+            centimetres ? "centimetre" : "millimetre", (centimetres ? 0.01 : 0.001) * side);
     }
     if (side > 0.0 && side < SMALLEST_SIDE) {
-        return alpi_diagnosis_add(
-            d, facts, "the longest side is %.3g m, with a unit taken for a metre", side);
+        return alpi_diagnosis_add(d, facts,
+                                  "the longest side is %.3g m; if it is meant to be %.3g m, the "
+                                  "unit was lost",
+                                  side, 100.0 * side);
     }
     return ALP_OK;
 }

@@ -47,8 +47,7 @@ static char *make_reason(const alp_diagnosis *d, const alpi_uv_set_facts *f)
                            f->flat == 1 ? " has" : "s have");
     }
     if (f->overlapping > 0) {
-        return alpi_format(context, "%u triangle%s%s", f->overlapping,
-                           f->overlapping == 1 ? " overlaps" : "s overlap",
+        return alpi_format(context, "triangles overlap%s",
                            f->shared >= 1.0 ? ", as nodes share a mesh" : "");
     }
     return alpi_copy_string(context, "");
@@ -109,6 +108,21 @@ static alp_result tell_triangles(alp_diagnosis *d, alpi_finding_facts facts,
                               alpi_plural(f->triangles), fault, at.triangle, at.surface);
 }
 
+static alp_result tell_overlaps(alp_diagnosis *d, const alpi_uv_set_facts *f)
+{
+    if (f->overlapping == 0) {
+        return ALP_OK;
+    }
+    const bool shared = f->shared >= 1.0;
+    const spot at = spot_of(d->scene, f->first_overlap);
+    const alpi_finding_facts facts = {shared ? ALP_FINDING_UV_SHARED : ALP_FINDING_UV_OVERLAP,
+                                      ALP_PLACE_UV_SET, KEPT_SET, f->overlapping, f->overlap};
+    return alpi_diagnosis_add(
+        d, facts, "triangles %s on %.3g %% of its texels, such as %u of %.60s",
+        shared ? "lie in the place of the same ones of another node" : "overlap",
+        100.0 * f->overlap, at.triangle, at.surface);
+}
+
 static alp_result tell_faults(alp_diagnosis *d, const alpi_uv_set_facts *f)
 {
     const double all = f->triangles;
@@ -122,14 +136,7 @@ static alp_result tell_faults(alp_diagnosis *d, const alpi_uv_set_facts *f)
         d,
         (alpi_finding_facts){.kind = ALP_FINDING_UV_FLAT, .count = f->flat, .value = f->flat / all},
         f, f->first_flat, "have no area in it"));
-    const bool all_shared = f->shared >= 1.0;
-    return tell_triangles(
-        d,
-        (alpi_finding_facts){.kind = all_shared ? ALP_FINDING_UV_SHARED : ALP_FINDING_UV_OVERLAP,
-                             .count = f->overlapping,
-                             .value = f->overlap},
-        f, f->first_overlap,
-        all_shared ? "lie in the place of the same triangle of another node" : "overlap others");
+    return tell_overlaps(d, f);
 }
 
 // --- what will be seen of a bake in it -----------------------------------------------------------
