@@ -5,6 +5,7 @@
 #include "output.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /// So many findings of a kind are told one by one; JSON has them all.
 enum { FINDINGS_TOLD = 8 };
@@ -101,10 +102,11 @@ static void print_advice(const alp_finding *f, uint32_t left_out)
     }
 }
 
-/// Messages of no kind have advice of their own each.
+/// Whether the same is seen of both and to be done about them.
 static bool are_alike(const alp_finding *a, const alp_finding *b)
 {
-    return a->kind == b->kind && a->kind != ALP_FINDING_MESSAGE;
+    return strcmp(a->code, b->code) == 0 && strcmp(a->seen, b->seen) == 0 &&
+           strcmp(a->todo, b->todo) == 0;
 }
 
 void findings_print(const alp_diagnosis *diagnosis)

@@ -151,8 +151,7 @@ static alp_result add_message(alp_diagnosis *d, const alp_report_finding *messag
 
 // --- order ---------------------------------------------------------------------------------------
 
-/// Errors first, then by kind; messages of no kind after those of one. Stable by `count`, which is
-/// not asked: the place in the list decides.
+/// Errors first, then by kind; messages of no kind last, by code.
 static int compare_findings(const alp_finding *a, const alp_finding *b)
 {
     if (a->severity != b->severity) {
@@ -162,7 +161,7 @@ static int compare_findings(const alp_finding *a, const alp_finding *b)
     if (a_last != b_last) {
         return a_last ? 1 : -1;
     }
-    return a->kind < b->kind ? -1 : a->kind > b->kind;
+    return a->kind != b->kind ? (a->kind < b->kind ? -1 : 1) : strcmp(a->code, b->code);
 }
 
 /// Bottom-up merge sort: stable, and there may be one finding for each of many surfaces.

@@ -116,7 +116,7 @@ static alp_result look_for_surface(alp_diagnosis *d, uint32_t index)
     const alp_scene *scene = d->scene;
     const alpi_light *light = &scene->lights[index];
     if (light->kind == ALPI_LIGHT_DIRECTIONAL || !(light->intensity > 0.0f) ||
-        is_told(d, light->name)) {
+        (light->name != NULL && is_told(d, light->name))) {
         return ALP_OK;
     }
     const double reach =
