@@ -286,7 +286,7 @@ static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
     if (code == EXIT_DONE) {
         code = session_end(s, estimate_work(s, work));
     }
-    return code == EXIT_DONE ? findings_look(s, diagnosis) : code;
+    return code == EXIT_DONE ? findings_look(s, NULL, diagnosis) : code;
 }
 
 int command_info(const command_line *a)

@@ -10,7 +10,7 @@
 /// So many findings of a kind are told one by one; JSON has them all.
 enum { FINDINGS_TOLD = 8 };
 
-int findings_look(session *s, alp_diagnosis **diagnosis)
+int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis)
 {
     *diagnosis = NULL;
     const size_t count = s->messages.warning_count;
@@ -22,7 +22,8 @@ int findings_look(session *s, alp_diagnosis **diagnosis)
     alp_diagnosis_options options = alp_diagnosis_options_default();
     options.messages = heard;
     options.message_count = (uint32_t)count;
-    options.progress = session_progress;
+    options.light = baked != NULL && (baked->maps & ALP_MAP_LIGHT) != 0;
+    options.progress = baked == NULL ? session_progress : NULL;
     options.progress_user = s;
     const alp_result result = alp_scene_diagnose(s->scene, &options, diagnosis);
     free(heard);

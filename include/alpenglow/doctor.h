@@ -110,14 +110,13 @@ typedef struct alp_diagnosis_options {
                                         ///< of this scene: what was set right in reading is known
                                         ///< by them alone; copied. NULL (default) = none
     uint32_t message_count;             ///< default 0
-    alp_progress_fn *progress;          ///< NULL, or asked whether to go on
+    bool light; ///< light is to be baked: NO_LIGHT is a warning then, not a note; default false
+    alp_progress_fn *progress; ///< NULL, or asked whether to go on
     void *progress_user;
 } alp_diagnosis_options;
 ALP_API alp_diagnosis_options alp_diagnosis_options_default(void);
 
-/// What the doctor found. Immutable; must be destroyed before its scene.
-typedef struct alp_diagnosis alp_diagnosis;
-
+/// Makes a diagnosis (alp_diagnosis of report.h: immutable, to be destroyed before its scene).
 /// Looks for what will go wrong with a bake of the scene: geometry, texture coordinates, materials,
 /// lights, and what was told before (see options). The same scene and options give the same
 /// findings on any number of workers. alp_scene_examine looks at the light that gets in, by rays,

@@ -113,7 +113,7 @@ static const char *advice_of(const char *text)
     return advice;
 }
 
-static alp_result add_message(alp_diagnosis *d, const alp_report_finding *message)
+static alp_result add_message(alp_diagnosis *d, const alp_report_finding *message, bool light)
 {
     const char *code = message->code != NULL ? message->code : "";
     const char *text = message->text != NULL ? message->text : "";
@@ -142,6 +142,9 @@ static alp_result add_message(alp_diagnosis *d, const alp_report_finding *messag
     if (f.code == NULL || f.view.todo == NULL) {
         release_finding(d->context, &f);
         return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    if (light && words->kind == ALP_FINDING_NO_LIGHT) {
+        f.view.severity = ALP_SEVERITY_WARNING;
     }
     if (strcmp(words->code, code) != 0) { // it has no words: its own name
         f.view.code = f.code;
@@ -200,7 +203,7 @@ static alp_result sort_findings(alp_diagnosis *d)
 static alp_result look(alp_diagnosis *d, const alp_diagnosis_options *options)
 {
     for (uint32_t i = 0; i < options->message_count; i++) {
-        ALP_TRY(add_message(d, &options->messages[i]));
+        ALP_TRY(add_message(d, &options->messages[i], options->light));
     }
     ALP_TRY(alpi_doctor_look_at_mesh(d));
     ALP_TRY(alpi_doctor_look_at_uvs(d));
