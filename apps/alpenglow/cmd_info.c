@@ -2,6 +2,7 @@
 // alpenglow info: what is in a scene.
 #include "findings.h"
 #include "output.h"
+#include "pictures.h"
 #include "report.h"
 #include "session.h"
 #include "work.h"
@@ -250,15 +251,15 @@ static json_t *make_cameras(const alp_scene *scene, uint32_t count)
 }
 
 static int print_json(const session *s, const alp_scene_info *info, const default_work *work,
-                      const alp_diagnosis *diagnosis)
+                      const alp_diagnosis *diagnosis, json_t *pictures)
 {
     json_t *document = json_pack(
-        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
-        make_scene(info), "work", "ao", work_json(&work->ao), "light", work_json(&work->light),
-        "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
+        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version", alp_version(),
+        "scene", make_scene(info), "work", "ao", work_json(&work->ao), "light",
+        work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
         make_lights(s->scene, info->lights), "cameras", make_cameras(s->scene, info->cameras),
         "uv_sets", findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis),
-        "warnings", report_warnings(&s->messages));
+        "pictures", pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }
@@ -277,6 +278,29 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
     findings_print_uv_sets(diagnosis);
     print_lights(s->scene, info);
     findings_print(diagnosis);
+}
+
+/// The pictures first: with JSON, their names are in the one document.
+static int tell(session *s, const command_line *a, const default_work *work,
+                const alp_diagnosis *diagnosis)
+{
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    const bool is_json = a->values[OPTION_JSON].given;
+    json_t *pictures = NULL;
+    const int drawn = pictures_write(s, diagnosis, a, &pictures);
+    int code = drawn;
+    if (is_json && drawn == EXIT_DONE) {
+        code = print_json(s, &info, work, diagnosis, pictures);
+    } else if (!is_json) {
+        print_text(s, a->operands[0], &info, work, diagnosis);
+        for (size_t i = 0; drawn == EXIT_DONE && i < json_array_size(pictures); i++) {
+            printf("%s%-9s  ", i == 0 ? "\n" : "", "picture");
+            print_clean(stdout, json_string_value(json_array_get(pictures, i)));
+            putchar('\n');
+        }
+    }
+    json_decref(pictures);
+    return code;
 }
 
 /// Everything that is told, before anything is.
@@ -303,12 +327,7 @@ int command_info(const command_line *a)
         code = look(&s, &work, &diagnosis);
     }
     if (code == EXIT_DONE) {
-        alp_scene_info info = alp_scene_get_info(s.scene);
-        if (a->values[OPTION_JSON].given) {
-            code = print_json(&s, &info, &work, diagnosis);
-        } else {
-            print_text(&s, a->operands[0], &info, &work, diagnosis);
-        }
+        code = tell(&s, a, &work, diagnosis);
     } else {
         messages_print_held(&s.messages);
     }

@@ -139,6 +139,20 @@ ALP_API uint32_t alp_diagnosis_uv_set_count(const alp_diagnosis *diagnosis);
 /// @param index < count, else a zeroed struct with an empty reason
 ALP_API alp_uv_set_info alp_diagnosis_get_uv_set(const alp_diagnosis *diagnosis, uint32_t index);
 
+/// Pictures of what was found: 0 is the scene, 960 × 720, from where most of it is seen, its
+/// colours in even light; red: normals that look to the back, orange: backs of single-sided
+/// surfaces. Then the UV sets in their order, 1024 × 1024, row 0 is v = 0: islands in colours of
+/// their own, red where triangles overlap; orange lines are triangles outside of the unit square,
+/// which then is framed in white, with half a tile around it. None where there is nothing to bake.
+ALP_API uint32_t alp_diagnosis_picture_count(const alp_diagnosis *diagnosis);
+/// "scene", "uv0" … "uv3": to name a file by. "" past the last. Static.
+ALP_API const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, uint32_t index);
+/// @param image out: 8-bit RGB, which the caller destroys
+/// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+/// Cost: of the scene some seconds, as alp_render takes; of a set a raster.
+ALP_API ALP_NODISCARD alp_result alp_diagnosis_picture(const alp_diagnosis *diagnosis,
+                                                       uint32_t index, alp_image **image);
+
 /// "error", "warning", "note". Static.
 ALP_API const char *alp_severity_name(alp_severity severity);
 /// "scene", "surface", "material", "light", "uv-set", "message". Static.

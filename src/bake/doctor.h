@@ -57,6 +57,10 @@ alp_result alpi_doctor_look_at_uvs(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_lights(alp_diagnosis *diagnosis);
 
+// doctor_pictures.c, doctor_layout.c. On failure *image is NULL.
+alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image);
+alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_image **image);
+
 /// "s" unless there is one.
 static inline const char *alpi_plural(uint64_t count)
 {
