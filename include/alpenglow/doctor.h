@@ -122,8 +122,10 @@ ALP_API alp_diagnosis_options alp_diagnosis_options_default(void);
 /// findings on any number of workers. alp_scene_examine looks at the light that gets in, by rays,
 /// and tells the log: call it first, to have its messages here.
 /// @param options NULL = defaults
-/// @return ALP_OK, whatever was found; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
-/// Cost: some looks at each triangle, a raster of each UV set; about a second for a million.
+/// @return ALP_OK, whatever was found; INVALID_ARGUMENT; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer
+///         fails); CANCELLED
+/// Cost: some looks at each triangle, a raster of each UV set, the acceleration structure, which
+/// the scene keeps, and 16,384 rays; some seconds for a million triangles.
 ALP_API ALP_NODISCARD alp_result alp_scene_diagnose(const alp_scene *scene,
                                                     const alp_diagnosis_options *options,
                                                     alp_diagnosis **diagnosis);

@@ -209,6 +209,7 @@ static alp_result look(alp_diagnosis *d, const alp_diagnosis_options *options)
     ALP_TRY(alpi_doctor_look_at_uvs(d));
     ALP_TRY(alpi_doctor_look_at_materials(d));
     ALP_TRY(alpi_doctor_look_at_lights(d));
+    ALP_TRY(alpi_doctor_look_at_backs(d));
     return sort_findings(d);
 }
 

@@ -56,6 +56,7 @@ alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_uvs(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_lights(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_backs(alp_diagnosis *diagnosis);
 
 // doctor_pictures.c, doctor_layout.c. On failure *image is NULL.
 alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image);

@@ -20,7 +20,8 @@ typedef struct color {
     uint8_t r, g, b;
 } color;
 static const color GROUND = {38, 41, 48}, GROUND_LIGHT = {45, 48, 56}, OUTSIDE = {24, 25, 29},
-                   FRAME = {240, 240, 240}, RED = {235, 40, 40}, ORANGE = {255, 150, 40};
+                   FRAME = {240, 240, 240}, RED = {235, 40, 40}, DARK_RED = {150, 12, 20},
+                   ORANGE = {255, 150, 40};
 
 typedef struct layout_picture {
     const alp_atlas *layout;
@@ -128,7 +129,8 @@ static void clip_axis(double from, double along, double *begin, double *end)
     *end = fmin(*end, fmax(a, b));
 }
 
-static void put_line(layout_picture *p, const float *from, const float *to)
+/// A line of the picture; with `over`, where that colour is alone.
+static void put_line(layout_picture *p, const float *from, const float *to, const color *over)
 {
     const double x = pixel_of(p, (double)from[0]), y = pixel_of(p, (double)from[1]);
     const double dx = pixel_of(p, (double)to[0]) - x, dy = pixel_of(p, (double)to[1]) - y;
@@ -148,7 +150,8 @@ static void put_line(layout_picture *p, const float *from, const float *to)
         const double t = begin + (end - begin) * i / steps;
         const int column = (int)(x + t * dx), row = (int)(y + t * dy);
         if (column >= 0 && column < SIDE && row >= 0 && row < SIDE) {
-            p->pixels[(size_t)row * SIDE + (size_t)column] = ORANGE;
+            color *at = &p->pixels[(size_t)row * SIDE + (size_t)column];
+            *at = over == NULL ? ORANGE : at->r == over->r && at->g == over->g ? DARK_RED : *at;
         }
     }
 }
@@ -165,7 +168,19 @@ static void put_outside(layout_picture *p, uint32_t set)
         }
         for (int k = 0; k < 3; k++) {
             put_line(p, scene->uvs[set][scene->triangles[t][k]],
-                     scene->uvs[set][scene->triangles[t][(k + 1) % 3]]);
+                     scene->uvs[set][scene->triangles[t][(k + 1) % 3]], NULL);
+        }
+    }
+}
+
+/// Outlines in what overlaps, which would be one red shape without them.
+static void put_overlapping(layout_picture *p, uint32_t set)
+{
+    const alp_scene *scene = p->layout->scene;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        for (int k = 0; k < 3 && p->layout->triangle_pages[t] != ALPI_NONE; k++) {
+            put_line(p, scene->uvs[set][scene->triangles[t][k]],
+                     scene->uvs[set][scene->triangles[t][(k + 1) % 3]], &RED);
         }
     }
 }
@@ -183,8 +198,10 @@ static void move_into_window(alp_atlas *layout, const layout_picture *p)
     }
 }
 
-static alp_result draw(layout_picture *p, alp_atlas *layout, uint32_t set, bool has_outside)
+static alp_result draw(layout_picture *p, alp_atlas *layout, uint32_t set,
+                       const alpi_uv_set_facts *facts)
 {
+    const bool has_outside = facts->outside > 0, has_overlaps = facts->overlapping > 0;
     p->low = has_outside ? -AROUND : 0.0;
     p->size = has_outside ? 1.0 + 2.0 * AROUND : 1.0;
     p->layout = layout;
@@ -194,6 +211,9 @@ static alp_result draw(layout_picture *p, alp_atlas *layout, uint32_t set, bool 
     }
     move_into_window(layout, p);
     ALP_TRY(alpi_raster(layout, 0, 1, put_band, p));
+    if (has_overlaps) {
+        put_overlapping(p, set);
+    }
     put_borders(p);
     put_frame(p);
     return ALP_OK;
@@ -215,7 +235,7 @@ alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_ima
             p.islands[i] = ALPI_NONE;
         }
         p.pixels = (color *)(void *)alp_image_bytes(*image);
-        result = draw(&p, layout, set, facts.outside > 0);
+        result = draw(&p, layout, set, &facts);
     }
     alpi_release(scene->context, p.islands);
     alp_atlas_destroy(layout);

@@ -115,7 +115,8 @@ static uint32_t count_grave(const report_job *job)
 static void put_tiles(alpi_page *page, const report_job *job)
 {
     const alp_bake_report *r = job->report;
-    const uint32_t findings = count_findings(job);
+    const uint32_t grave = count_grave(job), notes = count_findings(job) - grave;
+    char more[32] = "";
     alpi_page_put(page, "<dl class=\"tiles\">\n");
     put_tile(page, "Triangles", alpi_grouped(r->scene.triangles).text, "");
     if (job->at_vertices) {
@@ -133,8 +134,11 @@ static void put_tiles(alpi_page *page, const report_job *job)
                                  : alpi_significant((double)r->rays / 1e6, 3).text,
              r->rays < 10000000u ? "" : "million");
     put_tile(page, "Memory", alpi_bytes(r->peak_memory_bytes).text, "peak of our own");
-    alpi_page_format(page, "<div%s><dt>Findings</dt><dd>%u</dd></div>\n</dl>\n",
-                     count_grave(job) > 0 ? " class=\"alert\"" : "", findings);
+    if (notes > 0) {
+        snprintf(more, sizeof more, "<small>%u note%s</small>", notes, notes == 1 ? "" : "s");
+    }
+    alpi_page_format(page, "<div%s><dt>Findings</dt><dd>%u%s</dd></div>\n</dl>\n",
+                     grave > 0 ? " class=\"alert\"" : "", grave, more);
 }
 
 // --- findings ------------------------------------------------------------------------------------

@@ -7,6 +7,8 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 static const float SQUARE[4][3] = {{0, 0, 0}, {2, 0, 0}, {2, 0, -2}, {0, 0, -2}};
 static const float SQUARE_AGAIN[4][3] = {{0, -0.0f, 0}, {2, 0, 0}, {2, 0, -2}, {0, 0, -2}};
@@ -219,6 +221,37 @@ static void sizes_that_are_odd(void **state)
     }
 }
 
+/// A square over another: the lower one sees the upper one, from below where that looks up too.
+static void backs_that_others_see(void **state)
+{
+    (void)state;
+    static const float ROOF[4][3] = {{0, 1, 0}, {2, 1, 0}, {2, 1, -2}, {0, 1, -2}};
+    static const float FAR_ROOF[4][3] = {{0, 19, 0}, {2, 19, 0}, {2, 19, -2}, {0, 19, -2}};
+    for (int i = 0; i < 4; i++) {
+        alp_context *context = test_context(1);
+        alp_mesh meshes[2] = {square(), square()};
+        meshes[0].uvs = meshes[1].uvs = NULL;
+        meshes[1].positions = i == 3 ? FAR_ROOF[0] : ROOF[0];
+        meshes[1].double_sided = i == 1;
+        if (i == 2) {
+            meshes[1].indices = TURNED[0];
+            meshes[1].normals = DOWN[0];
+        }
+        alp_scene *scene = make(context, meshes, 2);
+        alp_diagnosis *d = diagnose(scene);
+        const alp_finding f = find(d, ALP_FINDING_BACKS_SEEN);
+        if (i == 0) {
+            ASSERT_NEAR(f.value, 1.0, 0.0); // nothing else is seen
+            assert_int_equal(f.index, 1);
+        } else { // from so far, one ray in 90 · 2 meets it: too few to say
+            assert_int_equal(f.kind, ALP_FINDING_MESSAGE);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 // --- materials -----------------------------------------------------------------------------------
 
 static void colours_that_take_no_light(void **state)
@@ -400,6 +433,38 @@ static void messages_become_findings(void **state)
     alp_context_destroy(context);
 }
 
+/// Finds each kind of the header in the words, and its words in the manual.
+static void the_manual_says_the_same(void **state)
+{
+    (void)state;
+    size_t size = 0;
+    unsigned char *bytes = test_read_file(ALP_SOURCE_FOLDER "/docs/doctor.md", &size);
+    char *text = test_malloc(size + 1);
+    memcpy(text, bytes, size);
+    text[size] = '\0';
+    uint32_t known = 0;
+    for (int kind = 1; kind <= ALP_FINDING_LIGHT_RANGE; kind++) {
+        const alpi_finding_words *w = alpi_finding_words_of((alp_finding_kind)kind);
+        if (w->kind == ALP_FINDING_MESSAGE) {
+            continue; // a number that is not used
+        }
+        known++;
+        char row[800];
+        snprintf(row, sizeof row, "| `%s` | %s |", w->code, alp_severity_name(w->severity));
+        const char *at = strstr(text, row);
+        assert_non_null(at);
+        snprintf(row, sizeof row, " | %s | %s |\n", w->seen, w->todo[0] != '\0' ? w->todo : "–");
+        const char *end = strchr(at, '\n') + 1;
+        if (strlen(row) > (size_t)(end - at) || strncmp(end - strlen(row), row, strlen(row)) != 0) {
+            fail_msg("docs/doctor.md says otherwise of %s:%s", w->code, row);
+        }
+        assert_ptr_equal(alpi_finding_words_by_code(w->code), w);
+    }
+    assert_int_equal(known, 35); // of the header
+    test_free(text);
+    free(bytes);
+}
+
 static void what_is_asked_wrongly_is_refused(void **state)
 {
     (void)state;
@@ -455,12 +520,14 @@ int main(void)
         cmocka_unit_test(nothing_to_bake_is_an_error),
         cmocka_unit_test(triangles_in_one_place),
         cmocka_unit_test(normals_against_their_triangles),
+        cmocka_unit_test(backs_that_others_see),
         cmocka_unit_test(sizes_that_are_odd),
         cmocka_unit_test(colours_that_take_no_light),
         cmocka_unit_test(emission_that_does_not_glow),
         cmocka_unit_test(materials_that_are_cut_away),
         cmocka_unit_test(lights_that_do_nothing_or_too_much),
         cmocka_unit_test(messages_become_findings),
+        cmocka_unit_test(the_manual_says_the_same),
         cmocka_unit_test(what_is_asked_wrongly_is_refused),
         cmocka_unit_test(every_allocation_may_fail),
     };
