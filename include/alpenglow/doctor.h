@@ -145,7 +145,8 @@ ALP_API alp_uv_set_info alp_diagnosis_get_uv_set(const alp_diagnosis *diagnosis,
 /// colours in even light; red: normals that look to the back, orange: backs of single-sided
 /// surfaces. Then the UV sets in their order, 1024 × 1024, row 0 is v = 0: islands in colours of
 /// their own, red where triangles overlap; orange lines are triangles outside of the unit square,
-/// which then is framed in white, with half a tile around it. None where there is nothing to bake.
+/// which then is framed in white, with up to four tiles around it. None where there is nothing to
+/// bake.
 ALP_API uint32_t alp_diagnosis_picture_count(const alp_diagnosis *diagnosis);
 /// "scene", "uv0" … "uv3": to name a file by. "" past the last. Static.
 ALP_API const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, uint32_t index);

@@ -10,8 +10,9 @@
 #include <math.h>
 
 enum { SIDE = 1024, CELLS = 8 }; // texels; squares of the ground across the unit square
-/// Where triangles lie outside, so much of each neighbouring tile is shown.
-static const double AROUND = 0.5;
+/// Where triangles lie outside, so much around the unit square is shown, least and most: beyond
+/// four tiles it would be too small to see.
+static const double LEAST_AROUND = 0.25, MOST_AROUND = 4.0;
 /// Lines are drawn pixel by pixel: a bound on the work, a few of the longest for each of a million
 /// triangles.
 static const uint64_t STEP_LIMIT = (uint64_t)1 << 28;
@@ -185,6 +186,23 @@ static void put_overlapping(layout_picture *p, uint32_t set)
     }
 }
 
+/// How much around the unit square is to be shown, a little more than is used.
+static double reach_of(const alp_atlas *layout, uint32_t set)
+{
+    const alp_scene *scene = layout->scene;
+    double reach = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const bool is_outside = scene->triangle_usable[t] &&
+                                scene->surfaces[scene->triangle_surface[t]].uv_sets > set &&
+                                layout->triangle_pages[t] == ALPI_NONE;
+        for (int k = 0; k < 6 && is_outside; k++) { // a NaN does not count
+            const double value = (double)scene->uvs[set][scene->triangles[t][k / 2]][k % 2];
+            reach = fmax(reach, fmax(-value, value - 1.0));
+        }
+    }
+    return fmin(fmax(1.05 * reach, LEAST_AROUND), MOST_AROUND);
+}
+
 // --- all of it -----------------------------------------------------------------------------------
 
 /// Moves the layout's coordinates from the unit square to their part of the window.
@@ -202,8 +220,9 @@ static alp_result draw(layout_picture *p, alp_atlas *layout, uint32_t set,
                        const alpi_uv_set_facts *facts)
 {
     const bool has_outside = facts->outside > 0, has_overlaps = facts->overlapping > 0;
-    p->low = has_outside ? -AROUND : 0.0;
-    p->size = has_outside ? 1.0 + 2.0 * AROUND : 1.0;
+    const double around = has_outside ? reach_of(layout, set) : 0.0;
+    p->low = -around;
+    p->size = 1.0 + 2.0 * around;
     p->layout = layout;
     put_ground(p);
     if (has_outside) {

@@ -253,7 +253,7 @@ static alp_result count_surfaces(alp_diagnosis *d, alp_finding_kind kind, surfac
     if (facts.count == 1) {
         return alpi_diagnosis_add(d, facts, "%s", what);
     }
-    return alpi_diagnosis_add(d, facts, "%s, as %llu of %u surfaces", what,
+    return alpi_diagnosis_add(d, facts, "%s (%llu of %u surfaces)", what,
                               (unsigned long long)facts.count, scene->surface_count);
 }
 

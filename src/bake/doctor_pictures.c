@@ -17,7 +17,7 @@ static const float SKY_UP = 1.1f, SKY_DOWN = 0.35f;
 static const vec3 TOP = {0.32f, 0.36f, 0.42f}, BOTTOM = {0.72f, 0.74f, 0.77f};
 /// Linear; normals that look to the back, and backs of single-sided surfaces.
 static const vec3 RED = {0.80f, 0.03f, 0.03f}, ORANGE = {0.90f, 0.32f, 0.02f};
-static const float TINT = 0.75f; // so much of the colour, the rest is the picture
+static const float TINT = 0.9f; // so much of the colour, the rest is the picture
 /// A lamp over the left shoulder: factors of what faces away from it, and towards it.
 static const float KEY_LOW = 0.72f, KEY_HIGH = 1.25f;
 

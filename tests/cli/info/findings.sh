@@ -16,7 +16,7 @@ echo "== nothing to bake is an error of the scene, not of info"
 echo '{"asset":{"version":"2.0"},"scene":0,"scenes":[{}]}' >empty.gltf
 alpenglow info empty.gltf | sed -n '/^findings/,$p'
 echo "${PIPESTATUS[0]}"
-echo "== what the reader warned of of is told where it fails"
+echo "== what the reader warned of is told where it fails"
 room "$grey" "$(lamp 0 0 1 0),$(lamp 1 0 1 0)" \
     '{"type":"point","intensity":-1},{"type":"lamp"}' >bad.gltf
 alpenglow info bad.gltf
