@@ -381,6 +381,24 @@ static void lights_that_do_nothing_or_too_much(void **state)
     }
 }
 
+/// In the plane of a triangle and in its box, and not in it.
+static void a_lamp_beside_a_triangle(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_mesh mesh = square();
+    mesh.triangle_count = 1; // of which x ≥ −z
+    alp_scene *scene = make(context, &mesh, 1);
+    scene->lights = ALPI_NEW(context, alpi_light, 1);
+    scene->light_count = 1;
+    scene->lights[0] = lamp((vec3){0.5f, 0.0f, -1.5f}, 40.0f, INFINITY);
+    has_none(scene);
+    scene->lights[0].position = (vec3){1.5f, 0.0f, -0.5f};
+    has_only(scene, ALP_FINDING_LIGHT_ON_SURFACE, 0, 0.0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 // --- messages and order --------------------------------------------------------------------------
 
 static void messages_become_findings(void **state)
@@ -526,6 +544,7 @@ int main(void)
         cmocka_unit_test(emission_that_does_not_glow),
         cmocka_unit_test(materials_that_are_cut_away),
         cmocka_unit_test(lights_that_do_nothing_or_too_much),
+        cmocka_unit_test(a_lamp_beside_a_triangle),
         cmocka_unit_test(messages_become_findings),
         cmocka_unit_test(the_manual_says_the_same),
         cmocka_unit_test(what_is_asked_wrongly_is_refused),
