@@ -29,9 +29,8 @@ struct alp_diagnosis {
 /// What is said of every finding of a kind.
 typedef struct alpi_finding_words {
     alp_finding_kind kind;
-    const char *code;
     alp_severity severity;
-    const char *seen, *todo;
+    const char *code, *seen, *todo;
 } alpi_finding_words;
 const alpi_finding_words *alpi_finding_words_of(alp_finding_kind kind);
 /// Words of the message with this code; those of ALP_FINDING_MESSAGE where there are none.

@@ -30,7 +30,7 @@ typedef struct survey {
     alpi_area_point points[POINTS];
     uint32_t hits[POINTS][RAYS]; // surface met from behind, or one of these
 } survey;
-enum { NOTHING = ALPI_NONE, FRONT = ALPI_NONE - 1 };
+static const uint32_t NOTHING = ALPI_NONE, FRONT = ALPI_NONE - 1;
 
 /// The place of a point, just above the front of its triangle.
 static vec3 start_of(const alp_scene *scene, const alpi_area_point *point, vec3 *normal)

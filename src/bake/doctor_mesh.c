@@ -55,6 +55,12 @@ static int compare_points(const float *a, const float *b)
     return 0;
 }
 
+static bool are_same(const corners *a, const corners *b)
+{
+    return compare_points(a->at[0], b->at[0]) == 0 && compare_points(a->at[1], b->at[1]) == 0 &&
+           compare_points(a->at[2], b->at[2]) == 0;
+}
+
 static void order_two(corners *c, int first, int second)
 {
     if (compare_points(c->at[first], c->at[second]) > 0) {
@@ -98,7 +104,7 @@ static uint32_t first_at(const alp_scene *scene, twins *w, uint32_t triangle, co
             return ALPI_NONE;
         }
         const corners other = ordered_corners(scene, there);
-        if (memcmp(other.at, c->at, sizeof c->at) == 0) {
+        if (are_same(&other, c)) {
             *turned = other.turned != c->turned;
             return there;
         }

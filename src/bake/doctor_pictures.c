@@ -74,8 +74,9 @@ static vec3 mix(vec3 a, vec3 b, float share)
 static void put_pixel(const scene_picture *p, uint32_t pixel, const look *l)
 {
     const float *light = &p->light[4 * (size_t)pixel], open = p->open[4 * (size_t)pixel];
+    const uint32_t row = pixel / WIDTH;
     const float covered = fminf(fmaxf(light[3], 0.0f), 1.0f);
-    const vec3 behind = mix(TOP, BOTTOM, (float)(pixel / WIDTH) / (HEIGHT - 1));
+    const vec3 behind = mix(TOP, BOTTOM, (float)row / (HEIGHT - 1));
     const vec3 surface = vec3_scale(vec3_load(light), open * l->key);
     // What is wrong is darker where it is closed, so that its shape stays visible.
     const vec3 color = vec3_add(vec3_scale(mix(behind, surface, covered), 1.0f - l->tint),
@@ -95,9 +96,9 @@ static void put_two(const scene_picture *p, uint32_t first)
     alpi_hits hits;
     look looks[2] = {{.key = 0.0f}, {.key = 0.0f}};
     for (uint32_t k = 0; k < ALPI_PACKET; k++) {
-        const uint32_t pixel = first + k / 4;
+        const uint32_t pixel = first + k / 4, row = pixel / WIDTH;
         x[k] = (float)(pixel % WIDTH) + (k % 2 == 0 ? 0.25f : 0.75f);
-        y[k] = (float)(pixel / WIDTH) + (k % 4 < 2 ? 0.25f : 0.75f);
+        y[k] = (float)row + (k % 4 < 2 ? 0.25f : 0.75f);
     }
     p->view.loops->aim(&p->view, ALPI_PACKET, x, y, (float *const[3]){d[0], d[1], d[2]});
     alpi_rays_clear(&rays);
