@@ -2,13 +2,14 @@
 #include "transport/direct_polygons.h"
 
 #include "base/random.h"
-#include "scene/triangle_light.h"
+#include "transport/direct_polygon_aim.h"
 #include "transport/panes.h"
 
 #include <string.h>
 
 enum { STREAM_POLYGON = 13, USE_PLACE = 0, USE_POLYGON = 1 };
 enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
+enum { MISSED = 2 * R }; // rays of those that met nothing
 _Static_assert(CHUNK % R == 0 && SCOUTS % R == 0, "replicates take turns");
 /// Means of form factors over a half's replicates are uneven where their range is more of their
 /// mean.
@@ -119,42 +120,6 @@ uint32_t alpi_polygons_collect(const alpi_direct_emitters *emitters, const uint3
         measure(&polygons[i]);
     }
     return count;
-}
-
-// --- near ones -----------------------------------------------------------------------------------
-
-/// Instead of the loops' even density over the area, of which little counts where it is near: a
-/// direction of even density over the solid angle.
-static void aim_near(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s, int lane)
-{
-    const vec3 origin = {w->origin[0][s][lane], w->origin[1][s][lane], w->origin[2][s][lane]};
-    const vec3 normal = {w->normal[0][s][lane], w->normal[1][s][lane], w->normal[2][s][lane]};
-    const vec3 halves[2][3] = {{p->corner[0], p->corner[1], p->corner[2]},
-                               {p->corner[0], p->corner[2], p->corner[3]}};
-    alpi_triangle_view views[2];
-    vec2 u = {w->u[s][lane], w->v[s][lane]};
-    views[0] = alpi_triangle_view_from(origin, halves[0]);
-    double chance = 1.0;
-    uint32_t k = 0;
-    if (!p->triangle) {
-        views[1] = alpi_triangle_view_from(origin, halves[1]);
-        const double both = views[0].solid_angle + views[1].solid_angle;
-        const double first = both > 0.0 ? views[0].solid_angle / both : 0.5;
-        k = (double)u.x >= first;
-        chance = k == 0 ? first : 1.0 - first;
-        u.x = (float)(((double)u.x - (k == 0 ? 0.0 : first)) / chance); // as even as it was
-        u.x = fminf(fmaxf(u.x, 0.0f), 1.0f - 0x1p-24f);
-    }
-    const vec3 direction = double3_to_vec3(alpi_triangle_sample(&views[k], u));
-    const double3 along = double3_from(direction);
-    const float cosine = vec3_dot(direction, normal);
-    const double density = chance * alpi_triangle_density(&views[k], along);
-    const float weight = density > 0.0 ? (float)((double)cosine / density) : 0.0f;
-    const bool gives = w->factor[s][lane] > 0.0 && weight > 0.0f && isfinite(weight);
-    const float distance = (float)alpi_triangle_hit_at(&views[k], along).distance;
-    const float reach = distance * (1.0f - 1e-5f) - 2.0f * w->offset[s][lane];
-    w->weight[s][lane] = gives ? weight : 0.0f;
-    alpi_rays_set(&w->rays[s], lane, origin, direction, gives && reach > 0.0f ? reach : 0.0f);
 }
 
 // --- gathering -----------------------------------------------------------------------------------
@@ -319,7 +284,14 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
     for (uint32_t s = 0; s < w->count; s++) {
         for (uint32_t i = 0; w->nears[s] >> i != 0; i++) {
             if ((w->nears[s] >> i & 1u) != 0 && w->factor[s][i] > 0.0) {
-                aim_near(w, p, s, (int)i);
+                alpi_polygon_aim_near(w, p, s, i);
+            }
+        }
+    }
+    for (uint32_t s = 0; s < w->count && g->above; s++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            if (w->factor[s][i] > 0.0) {
+                alpi_polygon_aim_above(w, p, s, i);
             }
         }
     }
@@ -457,6 +429,46 @@ static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receive
     return ALP_OK;
 }
 
+/// Which receivers see something of a polygon, but had no ray that went there: of a polygon that
+/// the horizon cuts, a few points of its whole area may all lie below. @return whether any did
+static bool find_missed(alpi_polygon_gather *g, uint32_t count)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        uint32_t missed = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double factor = 0.0, weight = 0.0;
+            for (int r = 0; r < R; r++) {
+                factor += g->tallies[k].factor[r][i];
+                weight += g->tallies[k].weight[r][i];
+            }
+            missed |= factor > 0.0 && weight == 0.0 ? 1u << i : 0u;
+        }
+        g->missed[k] = missed;
+        g->wanted[k][0] = g->wanted[k][1] = missed;
+        any = any || missed != 0;
+    }
+    return any;
+}
+
+/// Sends those a few rays to what is above their horizon. Who gets them depends on no ray.
+static alp_result gather_missed(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
+{
+    const uint32_t range[2] = {g->samples, g->samples + MISSED};
+    g->above = true;
+    const alp_result result = gather_samples(g, receivers, count, range, 0);
+    g->above = false;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        for (uint32_t i = 0; i < count; i++) {
+            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES && (g->missed[k] >> i & 1u) != 0; h++) {
+                scale_tally(&g->tallies[k], h, i,
+                            (double)g->samples / (double)(g->samples + MISSED));
+            }
+        }
+    }
+    return result;
+}
+
 void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
                          uint32_t samples, alpi_polygon_gather *g)
 {
@@ -465,6 +477,7 @@ void alpi_polygons_start(const alpi_direct_options *options, const alpi_receiver
     g->samples = samples;
     g->loops = loops_of(options->context);
     g->rays = 0;
+    g->above = false;
     memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set
     for (uint32_t s = 0; s < CHUNK; s++) {
         alpi_rays_clear(&g->wave.rays[s]);
@@ -501,6 +514,13 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
                     scale_tally(&g->tallies[k], h, i, (double)g->samples / few);
                 }
             }
+        }
+    }
+    if (find_missed(g, count)) {
+        ALP_TRY(gather_missed(g, receivers, count));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < g->polygon_count; k++) {
             finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
         }
     }

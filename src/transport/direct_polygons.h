@@ -9,7 +9,7 @@
 // noise 18 %; test_direct_polygons.c).
 //
 // Points of a polygon are of even density over its area, which is fast; for a receiver closer than
-// its diameter, over its solid angle.
+// its diameter, over its solid angle; where none of them was above the horizon, over what is.
 // Based on: D. R. Baum, H. E. Rushmeier, J. M. Winget. Improving Radiosity Solutions Through the
 // Use of Analytically Determined Form-Factors. SIGGRAPH 1989;
 //           E. Heitz, S. Hill, M. McGuire. Combining Analytic Direct Illumination and Stochastic
@@ -53,6 +53,8 @@ typedef struct alpi_polygon_gather {
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint32_t mixed[ALPI_POLYGON_LIMIT];                       // bit i: scouts of lane i disagreed
+    uint32_t missed[ALPI_POLYGON_LIMIT]; // bit i: no ray of lane i went to what it sees
+    bool above;                          // rays go to what is above the horizon alone
     uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;
