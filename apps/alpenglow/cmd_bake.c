@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
 #include "bake_options.h"
+#include "findings.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"
@@ -9,10 +10,10 @@
 #include "session.h"
 #include "work.h"
 
-static int write_report(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
-                        const command_line *a)
+static int write_json(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
+                      const alp_diagnosis *diagnosis, const command_line *a)
 {
-    json_t *document = report_make(s, lightmap, r);
+    json_t *document = report_make(s, lightmap, r, diagnosis);
     int code = document == NULL ? failure("out of memory")
                                 : output_write_json(document, a->values[OPTION_JSON].text,
                                                     a->values[OPTION_FORCE].given);
@@ -20,10 +21,31 @@ static int write_report(const session *s, const alp_lightmap *lightmap, const al
     return code;
 }
 
+/// What was asked for to be told of the bake, with the doctor's findings.
+static int report(session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
+                  const command_line *a)
+{
+    const bool wants_json = a->values[OPTION_JSON].text != NULL;
+    const bool wants_page = a->values[OPTION_REPORT].text != NULL;
+    alp_diagnosis *diagnosis = NULL;
+    int code = EXIT_DONE;
+    if (wants_json || wants_page) {
+        code = findings_look(s, r, &diagnosis);
+    }
+    if (code == EXIT_DONE && wants_json) {
+        code = write_json(s, lightmap, r, diagnosis, a);
+    }
+    if (code == EXIT_DONE && wants_page) {
+        code = report_page_write(s, lightmap, r, diagnosis, a);
+    }
+    alp_diagnosis_destroy(diagnosis);
+    return code;
+}
+
 static int bake(session *s, const command_line *a, alp_bake_options *o)
 {
     alp_lightmap *lightmap = NULL;
-    alp_bake_report report;
+    alp_bake_report told;
     o->progress = session_progress;
     o->progress_user = s;
     interrupt_defer();
@@ -33,19 +55,16 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         progress_clear(&s->progress); // where it fails, the bake says why
         work_print(stderr, &work);
     }
-    int code = session_end(s, alp_bake(s->scene, o, &lightmap, &report));
-    if (code == EXIT_DONE && a->values[OPTION_JSON].text != NULL) {
-        code = write_report(s, lightmap, &report, a);
-    }
-    if (code == EXIT_DONE && a->values[OPTION_REPORT].text != NULL) {
-        code = report_page_write(s, lightmap, &report, a);
+    int code = session_end(s, alp_bake(s->scene, o, &lightmap, &told));
+    if (code == EXIT_DONE) {
+        code = report(s, lightmap, &told, a);
     }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given && !is_told) {
-        bake_summary_print(s, a, lightmap, o, &report);
+        bake_summary_print(s, a, lightmap, o, &told);
     }
     alp_lightmap_destroy(lightmap);
-    if (code == EXIT_DONE && report.cut_off && interrupt_asked()) {
+    if (code == EXIT_DONE && told.cut_off && interrupt_asked()) {
         failure("interrupted; what there was is written (--keep-partial)");
         return EXIT_INTERRUPTED;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow info: what is in a scene.
+#include "findings.h"
 #include "output.h"
+#include "pictures.h"
 #include "report.h"
 #include "session.h"
 #include "work.h"
@@ -248,14 +250,16 @@ static json_t *make_cameras(const alp_scene *scene, uint32_t count)
     return list;
 }
 
-static int print_json(const session *s, const alp_scene_info *info, const default_work *work)
+static int print_json(const session *s, const alp_scene_info *info, const default_work *work,
+                      const alp_diagnosis *diagnosis, json_t *pictures)
 {
-    json_t *document =
-        json_pack("{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o}", "version", alp_version(), "scene",
-                  make_scene(info), "work", "ao", work_json(&work->ao), "light",
-                  work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
-                  "lights", make_lights(s->scene, info->lights), "cameras",
-                  make_cameras(s->scene, info->cameras), "warnings", report_warnings(&s->messages));
+    json_t *document = json_pack(
+        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version", alp_version(),
+        "scene", make_scene(info), "work", "ao", work_json(&work->ao), "light",
+        work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
+        make_lights(s->scene, info->lights), "cameras", make_cameras(s->scene, info->cameras),
+        "uv_sets", findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis),
+        "pictures", pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }
@@ -265,31 +269,69 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
     return EXIT_DONE;
 }
 
+static void print_text(const session *s, const char *path, const alp_scene_info *info,
+                       const default_work *work, const alp_diagnosis *diagnosis)
+{
+    print_scene(path, info);
+    print_work(work);
+    print_surfaces(s->scene, info->surfaces);
+    findings_print_uv_sets(diagnosis);
+    print_lights(s->scene, info);
+    findings_print(diagnosis);
+}
+
+/// The pictures first: with JSON, their names are in the one document.
+static int tell(session *s, const command_line *a, const default_work *work,
+                const alp_diagnosis *diagnosis)
+{
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    const bool is_json = a->values[OPTION_JSON].given;
+    json_t *pictures = NULL;
+    const int drawn = pictures_write(s, diagnosis, a, &pictures);
+    int code = drawn;
+    if (is_json && drawn == EXIT_DONE) {
+        code = print_json(s, &info, work, diagnosis, pictures);
+    } else if (!is_json) {
+        print_text(s, a->operands[0], &info, work, diagnosis);
+        for (size_t i = 0; drawn == EXIT_DONE && i < json_array_size(pictures); i++) {
+            printf("%s%-9s  ", i == 0 ? "\n" : "", "picture");
+            print_clean(stdout, json_string_value(json_array_get(pictures, i)));
+            putchar('\n');
+        }
+    }
+    json_decref(pictures);
+    return code;
+}
+
+/// Everything that is told, before anything is.
+static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
+{
+    int code = session_end(s, alp_scene_examine(s->scene, NULL, session_progress, s));
+    if (code == EXIT_DONE) {
+        code = session_end(s, estimate_work(s, work));
+    }
+    return code == EXIT_DONE ? findings_look(s, NULL, diagnosis) : code;
+}
+
 int command_info(const command_line *a)
 {
     session s;
+    default_work work = {{0}, {0}};
+    alp_diagnosis *diagnosis = NULL;
     int code = session_open(&s, a);
+    s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
-        code = session_end(&s, alp_scene_examine(s.scene, NULL, session_progress, &s));
-    }
-    default_work work = {{0}, {0}};
-    if (code == EXIT_DONE) {
-        code = session_end(&s, estimate_work(&s, &work));
+        code = look(&s, &work, &diagnosis);
     }
     if (code == EXIT_DONE) {
-        alp_scene_info info = alp_scene_get_info(s.scene);
-        if (a->values[OPTION_JSON].given) {
-            code = print_json(&s, &info, &work);
-        } else {
-            print_scene(a->operands[0], &info);
-            print_work(&work);
-            print_surfaces(s.scene, info.surfaces);
-            print_lights(s.scene, &info);
-        }
+        code = tell(&s, a, &work, diagnosis);
+    } else {
+        messages_print_held(&s.messages);
     }
+    alp_diagnosis_destroy(diagnosis);
     session_close(&s);
     return code;
 }

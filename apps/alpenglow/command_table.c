@@ -15,9 +15,13 @@ static const command_entry commands[COMMAND_COUNT] = {
                         "render a picture of a scene", 1, command_render,
                         "Renders SCENE from one of its cameras, or from an automatic one. A .png "
                         "is for looking at, an .exr or .hdr holds the linear values."},
-    [COMMAND_INFO] = {"info", "SCENE [--json]", "say what is in a scene", 1, command_info,
-                      "Prints what SCENE holds: triangles, surfaces with their texture "
-                      "coordinate sets, materials, lights, cameras, size."},
+    [COMMAND_INFO] = {"info", "SCENE [--json] [--pictures DIR]",
+                      "say what is in a scene, and what is wrong with it", 1, command_info,
+                      "Prints what SCENE holds: triangles, surfaces, materials, lights, cameras, "
+                      "size; which texture coordinate sets can hold a bake; and what is wrong, "
+                      "errors (it cannot be baked) first, then warnings (something will look "
+                      "wrong), then notes: each with what will be seen and what to do. Findings "
+                      "do not change the exit status."},
     [COMMAND_COMPARE] =
         {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
          "say how two images differ", 2, command_compare,

@@ -56,25 +56,38 @@ static void keep(message_log *m, const alp_log_message *logged)
         (message){copy_text(logged->code), copy_text(logged->object), copy_text(logged->text)};
 }
 
-void messages_log(void *user, const alp_log_message *logged)
+static void print_message(const message_log *m, bool warning, const char *object, const char *text)
 {
-    message_log *m = user;
-    bool warning = logged->level == ALP_LOG_WARNING;
-    if (warning) {
-        keep(m, logged);
-    } else if (m->quiet) {
-        return;
-    }
     if (m->progress != NULL) {
         progress_clear(m->progress);
     }
     fputs(warning ? "warning: " : "note: ", stderr);
-    if (logged->object[0] != '\0') {
-        print_clean(stderr, logged->object);
+    if (object[0] != '\0') {
+        print_clean(stderr, object);
         fputs(": ", stderr);
     }
-    print_clean(stderr, logged->text);
+    print_clean(stderr, text);
     fputc('\n', stderr);
+}
+
+void messages_log(void *user, const alp_log_message *logged)
+{
+    message_log *m = user;
+    const bool warning = logged->level == ALP_LOG_WARNING;
+    if (warning) {
+        keep(m, logged);
+    }
+    if (warning ? !m->held : !m->quiet) {
+        print_message(m, warning, logged->object, logged->text);
+    }
+}
+
+void messages_print_held(message_log *m)
+{
+    for (size_t i = 0; m->held && i < m->warning_count; i++) {
+        print_message(m, true, m->warnings[i].object, m->warnings[i].text);
+    }
+    m->held = false;
 }
 
 void messages_release(message_log *m)

@@ -15,6 +15,7 @@ typedef struct message {
 
 typedef struct message_log {
     bool quiet;                 // notes are not printed
+    bool held;                  // nor are warnings: the command tells them in its own way
     progress_display *progress; // its line is cleared first; NULL = none
     message *warnings;          // [warning_count]
     size_t warning_count, capacity;
@@ -22,6 +23,8 @@ typedef struct message_log {
 
 /// An alp_log_fn; `user` is a message_log.
 void messages_log(void *user, const alp_log_message *logged);
+/// Prints the warnings that were held, where the command cannot tell them after all.
+void messages_print_held(message_log *messages);
 void messages_release(message_log *messages);
 
 /// Prints text from files without control characters, which could steer a terminal.

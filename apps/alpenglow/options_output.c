@@ -97,7 +97,18 @@ static const option rows[] = {
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "--json",
-     .help = "Print JSON instead of a table."},
+     .help = "Print JSON instead of tables; all findings, where text tells the first 8 of a kind."},
+    {.id = OPTION_PICTURES,
+     .commands = IN_INFO,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--pictures",
+     .value = "DIR",
+     .help =
+         "Also draw there: scene.png, the scene in even light (red: normals that look to the "
+         "back, orange: backs of single-sided surfaces); uv0.png and so on, each set of texture "
+         "coordinates, row 0 is v = 0 (islands in colours of their own, red where triangles "
+         "overlap, orange lines outside of the unit square). DIR is made if missing."},
     {.id = OPTION_HEATMAP,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,
@@ -107,7 +118,7 @@ static const option rows[] = {
      .help = "Write a picture of |A - B|: black 0, white the 99th percentile and above, magenta "
              "covered in one only."},
     {.id = OPTION_FORCE,
-     .commands = RAY_COMMANDS | IN_COMPARE,
+     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",

@@ -2,6 +2,7 @@
 // The --json report of a bake.
 #include "report.h"
 
+#include "findings.h"
 #include "output.h"
 
 #include <math.h>
@@ -170,7 +171,8 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
-json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r)
+json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
+                    const alp_diagnosis *diagnosis)
 {
     // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
     char hash[24];
@@ -203,5 +205,7 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
         json_object_del(error, "ao");
     }
     json_object_set_new(document, "sampling", make_sampling(r));
+    json_object_set_new(document, "uv_sets", findings_uv_sets_json(diagnosis));
+    json_object_set_new(document, "findings", findings_json(diagnosis));
     return document;
 }

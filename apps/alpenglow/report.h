@@ -8,7 +8,9 @@
 #include <jansson.h>
 
 /// The document, or NULL when memory ran out. The caller releases it.
-json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *report);
+/// @param diagnosis of the session's scene
+json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *report,
+                    const alp_diagnosis *diagnosis);
 
 /// [{"code", "object", "text"}]
 json_t *report_warnings(const message_log *messages);

@@ -70,7 +70,7 @@ static char *make_command(const command_line *a)
 }
 
 int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_report *report,
-                      const command_line *a)
+                      const alp_diagnosis *diagnosis, const command_line *a)
 {
     const size_t count = s->messages.warning_count;
     alp_report_finding *findings = allocate_or_exit(NULL, count * sizeof *findings);
@@ -83,6 +83,7 @@ int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_r
     options.command = command;
     options.findings = findings;
     options.finding_count = (uint32_t)count;
+    options.diagnosis = diagnosis;
     options.overwrite = a->values[OPTION_FORCE].given;
     alp_bake_report whole = *report;
     whole.seconds_load = s->load_seconds;

@@ -9,8 +9,9 @@
 /// @return EXIT_DONE, or EXIT_USAGE or EXIT_FAILED after a message
 int report_page_check(const command_line *arguments);
 
-/// Writes the page. @return EXIT_DONE, or EXIT_FAILED after a message
+/// Writes the page. @param diagnosis of the session's scene   @return EXIT_DONE, or EXIT_FAILED
+/// after a message
 int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_report *report,
-                      const command_line *arguments);
+                      const alp_diagnosis *diagnosis, const command_line *arguments);
 
 #endif

@@ -7,6 +7,7 @@
 #include <alpenglow/bake.h>
 #include <alpenglow/context.h>
 #include <alpenglow/display.h>
+#include <alpenglow/doctor.h>
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>

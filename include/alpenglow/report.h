@@ -12,13 +12,18 @@ typedef struct alp_report_finding {
     const char *code, *object, *text;
 } alp_report_finding;
 
+typedef struct alp_diagnosis alp_diagnosis; // doctor.h
+
 typedef struct alp_report_options {
     size_t struct_size;
     const char *command;                ///< how the bake was asked for; NULL (default) = not shown
     const alp_report_finding *findings; ///< [finding_count], what the context's log heard; the
                                         ///< first 200 are shown
     uint32_t finding_count;             ///< default 0
-    bool overwrite;                     ///< default false: an existing file is an error
+    const alp_diagnosis *diagnosis; ///< of the scene, made with those messages: what it found is
+                                    ///< shown in their place, with what is seen and what to do;
+                                    ///< NULL (default) = the messages alone
+    bool overwrite;                 ///< default false: an existing file is an error
 } alp_report_options;
 ALP_API alp_report_options alp_report_options_default(void);
 

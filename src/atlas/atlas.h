@@ -63,6 +63,28 @@ typedef struct alpi_texels {
 alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels);
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels);
 
+// --- a UV set that is there already --------------------------------------------------------------
+
+/// What is to be known of a set before it is trusted. Triangles outside and flat ones count as
+/// neither islands' texels nor overlaps.
+typedef struct alpi_uv_set_facts {
+    uint32_t surfaces, missing_surfaces; // with usable triangles: that have it, that do not
+    uint32_t triangles;                  // usable, of surfaces that have it
+    uint32_t outside, flat, overlapping; // of those
+    uint32_t first_missing;              // surface, ALPI_NONE = none
+    uint32_t first_outside, first_flat, first_overlap; // triangles, ALPI_NONE = none
+    uint32_t islands, touching;       // connected in space and uv; without a free texel to another
+    double coverage, overlap, shared; // shares: of the page covered; of its texels where triangles
+                                      // overlap; of these, where instances of one mesh do
+    double density_ratio;             // of the surfaces of 1 % of the area or more
+    uint32_t finest, coarsest;        // surfaces, ALPI_NONE = none
+} alpi_uv_set_facts;
+/// Measures set `set` of all surfaces on a page of size × size texels.
+/// @param layout out: the triangles inside [0, 1] on page 0 at the set's coordinates, others on
+///               ALPI_NONE; charts are islands
+alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
+                              alpi_uv_set_facts *facts, alp_atlas **layout);
+
 // --- the layout of a texture that is there already -----------------------------------------------
 
 /// An atlas of one page, width × height, on which each surface s with textures[s] ≠ NULL lies where

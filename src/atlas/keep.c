@@ -147,7 +147,8 @@ static void flood_island(alp_atlas *atlas, const uint32_t (*neighbours)[3], uint
     for (uint32_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             uint32_t across = neighbours[queue[i]][k];
-            if (across != ALPI_NONE && atlas->triangle_charts[across] == ALPI_NONE &&
+            if (across != ALPI_NONE && atlas->triangle_pages[across] != ALPI_NONE &&
+                atlas->triangle_charts[across] == ALPI_NONE &&
                 joined_in_uv(atlas, neighbours, queue[i], k)) {
                 atlas->triangle_charts[across] = island;
                 queue[count++] = across;
@@ -156,8 +157,7 @@ static void flood_island(alp_atlas *atlas, const uint32_t (*neighbours)[3], uint
     }
 }
 
-/// Charts of a kept set: triangles connected in space and in uv.
-static alp_result find_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3])
+alp_result alpi_uv_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3])
 {
     const alp_scene *scene = atlas->scene;
     uint32_t *queue = ALPI_NEW(atlas->context, uint32_t, scene->usable_count);
@@ -166,11 +166,11 @@ static alp_result find_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3]
     }
     atlas->info.charts = 0;
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        atlas->triangle_pages[t] = 0;
         atlas->triangle_charts[t] = ALPI_NONE;
     }
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        if (scene->triangle_usable[t] && atlas->triangle_charts[t] == ALPI_NONE) {
+        if (scene->triangle_usable[t] && atlas->triangle_pages[t] != ALPI_NONE &&
+            atlas->triangle_charts[t] == ALPI_NONE) {
             flood_island(atlas, neighbours, t, queue);
         }
     }
@@ -199,7 +199,8 @@ alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **r
     *reason = NULL;
     ALP_TRY(check_presence(atlas->scene, reason));
     ALP_TRY(copy_coordinates(atlas, reason));
-    ALP_TRY(find_islands(atlas, neighbours));
+    memset(atlas->triangle_pages, 0, atlas->scene->triangle_count * sizeof *atlas->triangle_pages);
+    ALP_TRY(alpi_uv_islands(atlas, neighbours));
     atlas->info.mode = ALP_ATLAS_KEEP;
     atlas->info.pages = 1;
     return check_overlaps(atlas, reason);

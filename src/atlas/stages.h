@@ -67,6 +67,9 @@ alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint3
 /// Takes the scene's second UV set as it is. Where it cannot hold a bake, `reason` (released by the
 /// caller) says why and names triangles, and the call gives INVALID_DATA without a message.
 alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **reason);
+/// Charts of coordinates that are there: triangles on a page (not ALPI_NONE), connected in space
+/// and in uv. Sets triangle_charts and info.charts.
+alp_result alpi_uv_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3]);
 
 // --- texels --------------------------------------------------------------------------------------
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 
+#include <alpenglow/doctor.h>
 #include <alpenglow/report.h>
 
 #include <math.h>
@@ -93,10 +94,29 @@ static void put_error_tile(alpi_page *page, const report_job *job)
     }
 }
 
+/// How many the page tells of.
+static uint32_t count_findings(const report_job *job)
+{
+    const alp_diagnosis *d = job->options.diagnosis;
+    return d != NULL ? alp_diagnosis_finding_count(d) : job->options.finding_count;
+}
+
+/// How many of them are worse than notes.
+static uint32_t count_grave(const report_job *job)
+{
+    const alp_diagnosis *d = job->options.diagnosis;
+    uint32_t count = d != NULL ? 0 : job->options.finding_count;
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        count += alp_diagnosis_get_finding(d, i).severity != ALP_SEVERITY_NOTE;
+    }
+    return count;
+}
+
 static void put_tiles(alpi_page *page, const report_job *job)
 {
     const alp_bake_report *r = job->report;
-    const uint32_t findings = job->options.finding_count;
+    const uint32_t grave = count_grave(job), notes = count_findings(job) - grave;
+    char more[32] = "";
     alpi_page_put(page, "<dl class=\"tiles\">\n");
     put_tile(page, "Triangles", alpi_grouped(r->scene.triangles).text, "");
     if (job->at_vertices) {
@@ -114,8 +134,11 @@ static void put_tiles(alpi_page *page, const report_job *job)
                                  : alpi_significant((double)r->rays / 1e6, 3).text,
              r->rays < 10000000u ? "" : "million");
     put_tile(page, "Memory", alpi_bytes(r->peak_memory_bytes).text, "peak of our own");
-    alpi_page_format(page, "<div%s><dt>Findings</dt><dd>%u</dd></div>\n</dl>\n",
-                     findings > 0 ? " class=\"alert\"" : "", findings);
+    if (notes > 0) {
+        snprintf(more, sizeof more, "<small>%u note%s</small>", notes, notes == 1 ? "" : "s");
+    }
+    alpi_page_format(page, "<div%s><dt>Findings</dt><dd>%u%s</dd></div>\n</dl>\n",
+                     grave > 0 ? " class=\"alert\"" : "", grave, more);
 }
 
 // --- findings ------------------------------------------------------------------------------------
@@ -140,7 +163,7 @@ static void put_finding_text(alpi_page *page, const char *text)
     }
 }
 
-static void put_finding(alpi_page *page, const alp_report_finding *f)
+static void put_message(alpi_page *page, const alp_report_finding *f)
 {
     alpi_page_put(page, "<li><code>");
     alpi_page_text(page, f->code != NULL ? f->code : "", ALPI_REPORT_NAME);
@@ -151,15 +174,44 @@ static void put_finding(alpi_page *page, const alp_report_finding *f)
     alpi_page_put(page, "</li>\n");
 }
 
+/// One paragraph, unless there is nothing to say.
+static void put_words(alpi_page *page, const char *class, const char *text)
+{
+    if (text[0] != '\0') {
+        alpi_page_format(page, "<p class=\"%s\"><bdi>", class);
+        alpi_page_text(page, text, TEXT_LIMIT);
+        alpi_page_put(page, "</bdi></p>");
+    }
+}
+
+static void put_finding(alpi_page *page, const alp_finding *f)
+{
+    alpi_page_format(page, "<li class=\"%s\"><code>", alp_severity_name(f->severity));
+    alpi_page_text(page, f->code, ALPI_REPORT_NAME);
+    alpi_page_put(page, "</code><b><bdi>");
+    alpi_page_text(page, f->place == ALP_PLACE_SCENE ? alpi_path_name(f->name) : f->name,
+                   ALPI_REPORT_NAME);
+    alpi_page_put(page, "</bdi></b>");
+    put_words(page, "what", f->what);
+    put_words(page, "seen", f->seen);
+    put_words(page, "advice", f->todo);
+    alpi_page_put(page, "</li>\n");
+}
+
 static void put_findings(alpi_page *page, const report_job *job)
 {
-    const uint32_t count = job->options.finding_count;
+    const alp_diagnosis *d = job->options.diagnosis;
+    const uint32_t count = count_findings(job);
     if (count == 0) {
         return;
     }
     alpi_page_put(page, "<section id=\"findings\"><h2>Findings</h2>\n<ul class=\"findings\">\n");
-    for (uint32_t i = 0; i < count && i < FINDING_LIMIT; i++) {
-        put_finding(page, &job->options.findings[i]);
+    for (uint32_t i = 0; d != NULL && i < count && i < FINDING_LIMIT; i++) {
+        const alp_finding f = alp_diagnosis_get_finding(d, i);
+        put_finding(page, &f);
+    }
+    for (uint32_t i = 0; d == NULL && i < count && i < FINDING_LIMIT; i++) {
+        put_message(page, &job->options.findings[i]);
     }
     alpi_page_put(page, "</ul>\n");
     if (count > FINDING_LIMIT) {

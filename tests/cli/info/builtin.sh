@@ -1,3 +1,3 @@
 # SPDX-License-Identifier: MIT
 alpenglow info builtin:sphere-plane
-alpenglow info builtin:cornell | tail -1
+alpenglow info builtin:cornell | grep '^light '

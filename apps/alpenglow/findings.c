@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// What the doctor finds, as text and as JSON.
+#include "findings.h"
+
+#include "output.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// So many findings of a kind are told one by one; JSON has them all.
+enum { FINDINGS_TOLD = 8 };
+
+int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis)
+{
+    *diagnosis = NULL;
+    const size_t count = s->messages.warning_count;
+    alp_report_finding *heard = allocate_or_exit(NULL, count * sizeof *heard);
+    for (size_t i = 0; i < count; i++) {
+        const message *m = &s->messages.warnings[i];
+        heard[i] = (alp_report_finding){m->code, m->object, m->text};
+    }
+    alp_diagnosis_options options = alp_diagnosis_options_default();
+    options.messages = heard;
+    options.message_count = (uint32_t)count;
+    options.light = baked != NULL && (baked->maps & ALP_MAP_LIGHT) != 0;
+    options.progress = baked == NULL ? session_progress : NULL;
+    options.progress_user = s;
+    const alp_result result = alp_scene_diagnose(s->scene, &options, diagnosis);
+    free(heard);
+    return session_end(s, result);
+}
+
+// --- text ----------------------------------------------------------------------------------------
+
+void findings_print_uv_sets(const alp_diagnosis *diagnosis)
+{
+    const uint32_t count = alp_diagnosis_uv_set_count(diagnosis);
+    if (count == 0) {
+        return;
+    }
+    printf("\n%6s  %8s  %7s  %8s  %8s  %7s  %s\n", "uv set", "surfaces", "islands", "coverage",
+           "overlaps", "outside", "can hold a bake");
+    for (uint32_t i = 0; i < count; i++) {
+        const alp_uv_set_info u = alp_diagnosis_get_uv_set(diagnosis, i);
+        printf("%6u  %8u  %7u  %6.1f %%  %6.1f %%  %7u  ", u.set, u.surfaces, u.islands,
+               100.0 * u.coverage, 100.0 * u.overlap, u.outside_triangles);
+        if (!u.holds_bake) {
+            printf("no: %s\n", u.reason);
+        } else {
+            puts(u.set == 1 ? "yes" : "yes, but bakes keep set 1 alone");
+        }
+    }
+}
+
+/// "2 errors, 1 note": what there is none of is left out.
+static void print_tally(const alp_diagnosis *diagnosis)
+{
+    uint32_t tally[3] = {0};
+    const uint32_t count = alp_diagnosis_finding_count(diagnosis);
+    for (uint32_t i = 0; i < count; i++) {
+        tally[alp_diagnosis_get_finding(diagnosis, i).severity]++;
+    }
+    printf("\nfindings   ");
+    const char *comma = "";
+    for (int s = 0; s < 3; s++) {
+        if (tally[s] > 0) {
+            printf("%s%u %s%s", comma, tally[s], alp_severity_name((alp_severity)s),
+                   tally[s] == 1 ? "" : "s");
+            comma = ", ";
+        }
+    }
+    puts(count == 0 ? "none" : "");
+}
+
+static void print_finding(const alp_finding *f)
+{
+    printf("%-9s  ", alp_severity_name(f->severity));
+    if (f->place != ALP_PLACE_SCENE && f->name[0] != '\0') {
+        print_clean(stdout, f->name);
+        printf(": ");
+    }
+    print_clean(stdout, f->what);
+    printf(" [");
+    print_clean(stdout, f->code);
+    printf("]\n");
+}
+
+/// What is the same for all findings of a kind: said once, after the last of them.
+static void print_advice(const alp_finding *f, uint32_t left_out)
+{
+    if (left_out > 0) {
+        printf("%-9s  and %u more of this kind; --json lists all\n", "", left_out);
+    }
+    if (f->seen[0] != '\0') {
+        printf("%-9s  seen: ", "");
+        print_clean(stdout, f->seen);
+        putchar('\n');
+    }
+    if (f->todo[0] != '\0') {
+        printf("%-9s  do: ", "");
+        print_clean(stdout, f->todo);
+        putchar('\n');
+    }
+}
+
+/// Whether the same is seen of both and to be done about them.
+static bool are_alike(const alp_finding *a, const alp_finding *b)
+{
+    return strcmp(a->code, b->code) == 0 && strcmp(a->seen, b->seen) == 0 &&
+           strcmp(a->todo, b->todo) == 0;
+}
+
+void findings_print(const alp_diagnosis *diagnosis)
+{
+    const uint32_t count = alp_diagnosis_finding_count(diagnosis);
+    print_tally(diagnosis);
+    for (uint32_t first = 0, end; first < count; first = end) {
+        const alp_finding f = alp_diagnosis_get_finding(diagnosis, first);
+        for (end = first; end < count; end++) {
+            const alp_finding next = alp_diagnosis_get_finding(diagnosis, end);
+            if (end > first && !are_alike(&f, &next)) {
+                break;
+            }
+            if (end - first < FINDINGS_TOLD) {
+                print_finding(&next);
+            }
+        }
+        const uint32_t same = end - first;
+        print_advice(&f, same > FINDINGS_TOLD ? same - FINDINGS_TOLD : 0);
+    }
+}
+
+// --- JSON ----------------------------------------------------------------------------------------
+
+json_t *findings_json(const alp_diagnosis *diagnosis)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
+        const alp_finding f = alp_diagnosis_get_finding(diagnosis, i);
+        json_array_append_new(
+            list, json_pack("{s:o, s:s, s:s, s:I, s:o, s:I, s:o, s:o, s:o, s:o}", "code",
+                            json_text(f.code), "severity", alp_severity_name(f.severity), "place",
+                            alp_finding_place_name(f.place), "index", (json_int_t)f.index, "name",
+                            json_text(f.name), "count", (json_int_t)f.count, "value",
+                            json_number(f.value), "what", json_text(f.what), "seen",
+                            json_text(f.seen), "todo", json_text(f.todo)));
+    }
+    return list;
+}
+
+json_t *findings_uv_sets_json(const alp_diagnosis *diagnosis)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < alp_diagnosis_uv_set_count(diagnosis); i++) {
+        const alp_uv_set_info u = alp_diagnosis_get_uv_set(diagnosis, i);
+        json_array_append_new(
+            list,
+            json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:b, "
+                      "s:o}",
+                      "set", (json_int_t)u.set, "surfaces", (json_int_t)u.surfaces,
+                      "missing_surfaces", (json_int_t)u.missing_surfaces, "triangles",
+                      (json_int_t)u.triangles, "outside_triangles", (json_int_t)u.outside_triangles,
+                      "flat_triangles", (json_int_t)u.flat_triangles, "overlapping_triangles",
+                      (json_int_t)u.overlapping_triangles, "islands", (json_int_t)u.islands,
+                      "touching_islands", (json_int_t)u.touching_islands, "coverage",
+                      json_number(u.coverage), "overlap", json_number(u.overlap), "shared",
+                      json_number(u.shared), "density_ratio", json_number(u.density_ratio),
+                      "holds_bake", (int)u.holds_bake, "reason", json_text(u.reason)));
+    }
+    return list;
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The pictures of --pictures.
+#include "pictures.h"
+
+#include "output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/// "FOLDER/NAME.png"; malloc'ed.
+static char *make_path(const char *folder, const char *name)
+{
+    const size_t size = strlen(folder) + strlen(name) + sizeof "/.png";
+    char *path = allocate_or_exit(NULL, size);
+    const char *slash = folder[strlen(folder) - 1] == '/' ? "" : "/";
+    snprintf(path, size, "%s%s%s.png", folder, slash, name);
+    return path;
+}
+
+static int make_folder(const char *folder)
+{
+    struct stat there;
+    if (mkdir(folder, 0777) == 0 ||
+        (errno == EEXIST && stat(folder, &there) == 0 && S_ISDIR(there.st_mode))) {
+        return EXIT_DONE;
+    }
+    char text[512];
+    snprintf(text, sizeof text, "--pictures %.300s: the folder cannot be made: %s", folder,
+             errno == EEXIST ? "a file has its name" : strerror(errno));
+    return failure(text);
+}
+
+static int write_one(session *s, const alp_diagnosis *diagnosis, uint32_t index, const char *path,
+                     bool overwrite)
+{
+    alp_image *image = NULL;
+    alp_result result = alp_diagnosis_picture(diagnosis, index, &image);
+    if (result == ALP_OK) {
+        result = alp_image_save(image, path, overwrite);
+    }
+    alp_image_destroy(image);
+    return session_end(s, result);
+}
+
+int pictures_write(session *s, const alp_diagnosis *diagnosis, const command_line *a,
+                   json_t **paths)
+{
+    *paths = json_array();
+    const char *folder = a->values[OPTION_PICTURES].text;
+    if (folder == NULL) {
+        return EXIT_DONE;
+    }
+    const bool overwrite = a->values[OPTION_FORCE].given;
+    const uint32_t count = alp_diagnosis_picture_count(diagnosis);
+    int code = count > 0 ? make_folder(folder) : EXIT_DONE;
+    for (int pass = 0; pass < 2; pass++) { // nothing is drawn before all may be written
+        for (uint32_t i = 0; i < count && code == EXIT_DONE; i++) {
+            char *path = make_path(folder, alp_diagnosis_picture_name(diagnosis, i));
+            if (pass == 0) {
+                code = output_check(path, overwrite);
+            } else {
+                code = write_one(s, diagnosis, i, path, overwrite);
+                json_array_append_new(*paths, json_text(path));
+            }
+            free(path);
+        }
+    }
+    return code;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What the parts of the doctor share: a list of findings, and who looks for what.
+#ifndef ALPI_BAKE_DOCTOR_H
+#define ALPI_BAKE_DOCTOR_H
+
+#include "scene/scene.h"
+
+#include <alpenglow/doctor.h>
+
+enum { ALPI_DOCTOR_PAGE = 1024 }; // side of the page that UV sets are measured on, texels
+
+/// A finding with the texts that it owns.
+typedef struct alpi_finding {
+    alp_finding view;
+    char *name, *what;
+    char *code, *todo; // of messages; NULL: the words of the kind
+} alpi_finding;
+
+struct alp_diagnosis {
+    alp_context *context;
+    const alp_scene *scene;
+    alpi_finding *findings; // [count]
+    size_t count, capacity;
+    alp_uv_set_info uv_sets[ALPI_UV_SET_LIMIT];
+    char *reasons[ALPI_UV_SET_LIMIT];
+    uint32_t uv_set_count;
+};
+
+/// What is said of every finding of a kind.
+typedef struct alpi_finding_words {
+    alp_finding_kind kind;
+    alp_severity severity;
+    const char *code, *seen, *todo;
+} alpi_finding_words;
+const alpi_finding_words *alpi_finding_words_of(alp_finding_kind kind);
+/// Words of the message with this code; those of ALP_FINDING_MESSAGE where there are none.
+const alpi_finding_words *alpi_finding_words_by_code(const char *code);
+
+/// Where, how many, how much.
+typedef struct alpi_finding_facts {
+    alp_finding_kind kind;
+    alp_finding_place place;
+    uint32_t index;
+    uint64_t count;
+    double value;
+} alpi_finding_facts;
+/// Adds a finding with what is wrong.
+alp_result alpi_diagnosis_add(alp_diagnosis *diagnosis, alpi_finding_facts facts,
+                              const char *format, ...) ALP_PRINTF(3, 4);
+/// Whether the kind has been found.
+bool alpi_diagnosis_has(const alp_diagnosis *diagnosis, alp_finding_kind kind);
+
+// Each in the file of its name.
+alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_uvs(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_lights(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_backs(alp_diagnosis *diagnosis);
+
+// doctor_pictures.c, doctor_layout.c. On failure *image is NULL.
+alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image);
+alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_image **image);
+
+/// "s" unless there is one.
+static inline const char *alpi_plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
+#endif

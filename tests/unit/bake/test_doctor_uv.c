@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The doctor's look at UV sets: shares of closed form, and the same verdict as --atlas keep.
+#include "test_support.h"
+
+#include "scene/scene.h"
+
+#include <math.h>
+
+/// Two squares of 4 m² side by side, each a rectangle of the set: low u, low v, high u, high v.
+typedef struct rectangles {
+    float of[2][4];
+} rectangles;
+
+static const uint32_t TRIANGLES[2][3] = {{0, 1, 2}, {0, 2, 3}};
+static const float UP[4][3] = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
+
+static alp_scene *make(alp_context *context, const rectangles *r)
+{
+    float positions[2][4][3], uvs[2][4][2];
+    alp_mesh meshes[2];
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 4; k++) {
+            const bool right = k == 1 || k == 2, far = k >= 2;
+            positions[i][k][0] = 5.0f * (float)i + (right ? 2.0f : 0.0f);
+            positions[i][k][1] = 0.0f;
+            positions[i][k][2] = far ? -2.0f : 0.0f;
+            uvs[i][k][0] = r->of[i][right ? 2 : 0];
+            uvs[i][k][1] = r->of[i][far ? 3 : 1];
+        }
+        meshes[i] = (alp_mesh){.vertex_count = 4,
+                               .positions = positions[i][0],
+                               .normals = UP[0],
+                               .uvs = isfinite(r->of[i][0]) ? uvs[i][0] : NULL,
+                               .triangle_count = 2,
+                               .indices = TRIANGLES[0],
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
+    return scene;
+}
+
+static bool has(const alp_diagnosis *d, alp_finding_kind kind)
+{
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        if (alp_diagnosis_get_finding(d, i).kind == kind) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// What --atlas keep makes of the scene.
+static bool keep_takes(const alp_scene *scene)
+{
+    alp_atlas_options o = alp_atlas_options_default();
+    o.mode = ALP_ATLAS_KEEP;
+    alp_atlas *atlas = NULL;
+    const alp_result result = alp_atlas_create(scene, &o, &atlas);
+    assert_true(result == ALP_OK || result == ALP_ERROR_INVALID_DATA);
+    alp_atlas_destroy(atlas);
+    return result == ALP_OK;
+}
+
+/// Shares hold to a unit of 1/65536 in each of the texels at the border of a rectangle.
+static const double SHARE = 1e-4;
+
+static void sets_are_judged(void **state)
+{
+    (void)state;
+    const float gap = 4.0f / 1024.0f;
+    static const int NONE = -1;
+    const struct {
+        rectangles set;
+        int kind; // the finding, NONE = none
+        bool holds;
+        double coverage, overlap;
+        uint32_t islands, touching;
+    } cases[] = {
+        {{{{0, 0, 0.5f - gap, 1}, {0.5f, 0, 1, 1}}}, NONE, true, 1.0 - 4.0 / 1024.0, 0, 2, 0},
+        {{{{0, 0, 0.5f, 1}, {0.5f, 0, 1, 1}}}, ALP_FINDING_UV_PADDING, true, 1.0, 0, 2, 2},
+        {{{{0, 0, 0.5f, 0.5f}, {0.25f, 0.25f, 0.75f, 0.75f}}},
+         ALP_FINDING_UV_OVERLAP,
+         false,
+         0.4375,
+         1.0 / 7.0,
+         2,
+         2},
+        {{{{0, 0, 0.5f, 1}, {0.75f, 0, 1.5f, 1}}}, ALP_FINDING_UV_OUTSIDE, false, 0.5, 0, 2, 0},
+        {{{{0, 0, 0.5f, 1}, {0.75f, 0.5f, 0.75f, 0.5f}}}, ALP_FINDING_UV_FLAT, false, 0.5, 0, 2, 0},
+        {{{{0, 0, 0.5f, 1}, {NAN, 0, 1, 1}}}, ALP_FINDING_UV_MISSING, false, 0.5, 0, 1, 0},
+        {{{{0, 0, 0.9f, 0.9f}, {0.95f, 0.95f, 1.0f, 1.0f}}},
+         ALP_FINDING_UV_DENSITY,
+         true,
+         0.8125,
+         0,
+         2,
+         0},
+    };
+    static const alp_finding_kind kinds[] = {ALP_FINDING_NO_UVS,     ALP_FINDING_UV_MISSING,
+                                             ALP_FINDING_UV_OUTSIDE, ALP_FINDING_UV_FLAT,
+                                             ALP_FINDING_UV_OVERLAP, ALP_FINDING_UV_SHARED,
+                                             ALP_FINDING_UV_PADDING, ALP_FINDING_UV_DENSITY};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, &cases[i].set);
+        alp_diagnosis *d = NULL;
+        ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+        assert_int_equal(alp_diagnosis_uv_set_count(d), 2);
+        const alp_uv_set_info u = alp_diagnosis_get_uv_set(d, 1);
+        assert_int_equal(u.set, 1);
+        assert_int_equal(u.holds_bake, cases[i].holds);
+        assert_int_equal(u.holds_bake, u.reason[0] == '\0');
+        assert_int_equal(u.holds_bake, keep_takes(scene));
+        ASSERT_NEAR(u.coverage, cases[i].coverage, SHARE);
+        ASSERT_NEAR(u.overlap, cases[i].overlap, SHARE);
+        assert_int_equal(u.islands, cases[i].islands);
+        assert_int_equal(u.touching_islands, cases[i].touching);
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+            assert_int_equal(has(d, kinds[k]), (int)kinds[k] == cases[i].kind);
+        }
+        if (cases[i].kind == (int)ALP_FINDING_UV_DENSITY) { // 0.9 over 0.05, in single precision
+            ASSERT_NEAR(u.density_ratio, 18.0, 18.0 * 1e-5);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+static void nodes_of_one_mesh_share(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make(context, &(rectangles){{{0, 0, 1, 1}, {0, 0, 1, 1}}});
+    alp_diagnosis *d = NULL;
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+    assert_true(has(d, ALP_FINDING_UV_OVERLAP));
+    assert_false(has(d, ALP_FINDING_UV_SHARED));
+    alp_diagnosis_destroy(d);
+    scene->surfaces[1].mesh = scene->surfaces[0].mesh;
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+    assert_false(has(d, ALP_FINDING_UV_OVERLAP));
+    assert_true(has(d, ALP_FINDING_UV_SHARED));
+    ASSERT_NEAR(alp_diagnosis_get_uv_set(d, 1).shared, 1.0, 0.0);
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void any_number_of_workers_finds_the_same(void **state)
+{
+    (void)state;
+    static const uint32_t workers[] = {1, 2, 7};
+    alp_uv_set_info first = {0};
+    for (int i = 0; i < 3; i++) {
+        alp_context *context = test_context(workers[i]);
+        alp_scene *scene =
+            make(context, &(rectangles){{{0, 0, 0.51f, 0.97f}, {0.3f, 0.1f, 0.77f, 0.93f}}});
+        alp_diagnosis *d = NULL;
+        ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+        const alp_uv_set_info u = alp_diagnosis_get_uv_set(d, 1);
+        first = i == 0 ? u : first;
+        assert_true(u.coverage == first.coverage && u.overlap == first.overlap);
+        assert_int_equal(u.overlapping_triangles, first.overlapping_triangles);
+        assert_int_equal(u.touching_islands, first.touching_islands);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sets_are_judged),
+        cmocka_unit_test(nodes_of_one_mesh_share),
+        cmocka_unit_test(any_number_of_workers_finds_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
