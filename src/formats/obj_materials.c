@@ -394,7 +394,7 @@ static alp_result try_library(reader *r, alpi_obj_word name, bool only_try, bool
         bool added = false;
         *found = true;
         result = alpi_obj_names_add(&r->read, inner, strlen(inner), &number, &added);
-        if (added) {
+        if (result == ALP_OK && added) {
             result = read_library(r, path, inner);
         }
     }
