@@ -105,6 +105,15 @@ bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada
 const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,
                                       uint32_t *number, uint32_t *offset);
 
+/// The <input> that the new one stands before; NULL: it comes last, or where `own` (or NULL) is.
+/// Blender shows every texture by the first coordinates of an element, whatever its material binds,
+/// and of a material that shows light only that texture counts.
+const xmlNode *alpi_collada_next_input(const alpi_collada_patcher *patcher,
+                                       const xmlNode *primitive, const xmlNode *own);
+/// Puts the text of the new one in its place.
+void alpi_collada_place_input(const alpi_collada_patcher *patcher, alpi_edits *edits,
+                              const xmlNode *primitive, const xmlNode *own, const char *text);
+
 // --- collada_patch_material.c --------------------------------------------------------------------
 
 /// Which effects are used with one page only.

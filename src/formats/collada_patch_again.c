@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A document that was baked before: its set of bake coordinates is taken anew, where it is surely
-// ours and nobody else reads it, so that sets do not pile up.
+// Where the input of bake coordinates stands. In a document that was baked before its set is taken
+// anew, where it is surely ours and nobody else reads it, so that sets do not pile up.
 #include "formats/collada_patch.h"
 
 #include "formats/collada_numbers.h"
@@ -8,6 +8,37 @@
 #include <string.h>
 
 enum { SET_LIMIT = 64 };
+
+const xmlNode *alpi_collada_next_input(const alpi_collada_patcher *p, const xmlNode *primitive,
+                                       const xmlNode *own)
+{
+    const xmlNode *input = p->patch->light != NULL ? alpi_xml_child(primitive, "input") : NULL;
+    for (; input != NULL; input = alpi_xml_next(input, "input")) {
+        const char *semantic = alpi_xml_attribute(input, "semantic");
+        if (semantic != NULL && strcmp(semantic, "TEXCOORD") == 0) {
+            return input != own ? input : NULL;
+        }
+    }
+    return NULL;
+}
+
+void alpi_collada_place_input(const alpi_collada_patcher *p, alpi_edits *edits,
+                              const xmlNode *primitive, const xmlNode *own, const char *text)
+{
+    const xmlNode *next = alpi_collada_next_input(p, primitive, own), *last = NULL;
+    for (const xmlNode *input = alpi_xml_child(primitive, "input"); input != NULL;
+         input = alpi_xml_next(input, "input")) {
+        last = input;
+    }
+    if (next != NULL) {
+        alpi_xml_insert(edits, alpi_xml_span_of(p->document, next)->begin, text);
+    }
+    if (own != NULL) {
+        alpi_xml_replace(p->document, edits, own, next != NULL ? "" : text);
+    } else if (next == NULL && last != NULL) {
+        alpi_xml_insert(edits, alpi_xml_span_of(p->document, last)->end, text);
+    }
+}
 
 /// Whether an id is "alpenglow-uv-3", "alpenglow2-uv-3" or one of these with the ending of a copy.
 static bool is_our_source(const char *id)

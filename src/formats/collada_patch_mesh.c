@@ -224,12 +224,9 @@ static void mark_rewritten(work *w, const xmlNode *element)
 /// The element stays what it is.
 static void extend_part(work *w, const part *a)
 {
-    const alpi_collada_document *d = w->patcher->document;
-    const xmlNode *last_input = NULL;
     uint32_t corner = 0;
     for (const xmlNode *e = alpi_xml_child(a->element, NULL); e != NULL;
          e = alpi_xml_next(e, NULL)) {
-        last_input = alpi_xml_is(e, "input") ? e : last_input;
         if (alpi_xml_is(e, "p")) {
             rewrite_list(w, a, e, &corner);
         }
@@ -243,11 +240,12 @@ static void extend_part(work *w, const part *a)
     alpi_bytes text = alpi_bytes_create(w->patcher->context);
     print_input(w, a, &text);
     w->edits->inserted.failed |= text.failed;
-    if (!text.failed && a->own_input != NULL) {
-        alpi_xml_replace(d, w->edits, a->own_input, (const char *)text.bytes);
+    if (!text.failed) {
+        alpi_collada_place_input(w->patcher, w->edits, a->element, a->own_input,
+                                 (const char *)text.bytes);
+    }
+    if (a->own_input != NULL) {
         mark_rewritten(w, a->own_input);
-    } else if (!text.failed && last_input != NULL) {
-        alpi_xml_insert(w->edits, alpi_xml_span_of(d, last_input)->end, (const char *)text.bytes);
     }
     alpi_bytes_destroy(&text);
 }
@@ -340,13 +338,19 @@ static void print_piece(const work *w, const part *a, uint32_t page, const char 
     alpi_bytes_print(text, "<%s count=\"%u\" material=\"", name, piece.count);
     alpi_xml_print_text(text, symbol);
     alpi_bytes_print(text, "\">");
-    const xmlNode *input = alpi_xml_child(a->element, "input");
+    const xmlNode *input = alpi_xml_child(a->element, "input"),
+                  *next = alpi_collada_next_input(w->patcher, a->element, a->own_input);
     for (; input != NULL; input = alpi_xml_next(input, "input")) {
+        if (input == next) {
+            print_input(w, a, text);
+        }
         if (input != a->own_input) {
             print_old_input(w, input, text);
         }
     }
-    print_input(w, a, text);
+    if (next == NULL) {
+        print_input(w, a, text);
+    }
     if (a->faces.polygon_count > 0) {
         alpi_bytes_print(text, "<vcount>");
         alpi_bytes_add(text, piece.counts.bytes, piece.counts.size);
