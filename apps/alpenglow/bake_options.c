@@ -419,8 +419,8 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
         code = read_choice(values, o);
     }
     if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
-        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf or "
-                                         "--maps-dir DIR");
+        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf, "
+                                         "-o OUT.dae, -o OUT.obj or --maps-dir DIR");
     }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;

@@ -106,7 +106,7 @@ static void print_scenes(void)
     size_t count = 0;
     const char *const *names = builtin_scene_names(&count);
     int column = INDENT;
-    printf("\nSCENE is a .gltf, .glb or .obj file, or one of\n%*s", INDENT, "");
+    printf("\nSCENE is a .gltf, .glb, .dae, .zae or .obj file, or one of\n%*s", INDENT, "");
     for (size_t i = 0; i < count; i++) {
         print_wrapped(names[i], INDENT, &column);
     }

@@ -222,7 +222,8 @@ static void put_scenes(void)
     const char *const *names = builtin_scene_names(&count);
     fputs(".PP\n", stdout);
     put_usage("SCENE");
-    fputs("\nis a .gltf, .glb or .obj file, or one of these, which need none:\n", stdout);
+    fputs("\nis a .gltf, .glb, .dae, .zae or .obj file, or one of these, which need none:\n",
+          stdout);
     for (size_t i = 0; i < count; i++) {
         put_font('B', names[i], strlen(names[i]));
         fputs(i + 1 < count ? ",\n" : ".\n", stdout);
