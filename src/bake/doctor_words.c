@@ -151,6 +151,11 @@ static const alpi_finding_words words[] = {
      "export the mesh in its pose, without its skin"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "no-scene", "meshes at places that are a guess",
      "export the document with its scene"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "not-mesh", "those shapes are missing",
+     "turn splines and solids into meshes before export"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "trailing-bytes",
+     "nothing; but the file may be cut together wrongly, or hide something",
+     "export the file anew"},
 };
 
 enum { WORDS_COUNT = sizeof words / sizeof *words };
