@@ -425,6 +425,8 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
             if (code != EXIT_DONE) {
                 return code;
             }
+        } else if (operands < wanted && words[i][0] == '\0' && command != COMMAND_BENCH) {
+            return usage_error(command, "needs %s; an empty name is none", operand_names(command));
         } else if (operands < wanted) {
             parsed->operands[operands++] = words[i];
         } else {

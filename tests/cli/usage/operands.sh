@@ -9,6 +9,9 @@ try render a.glb -o a.png
 try render
 try info
 try info a b
+try info ''
+try bake '' -o a.glb
+try compare a ''
 try compare
 try compare a
 try compare a b c
