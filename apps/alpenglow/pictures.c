@@ -55,7 +55,11 @@ int pictures_write(session *s, const alp_diagnosis *diagnosis, const command_lin
     }
     const bool overwrite = a->values[OPTION_FORCE].given;
     const uint32_t count = alp_diagnosis_picture_count(diagnosis);
-    int code = count > 0 ? make_folder(folder) : EXIT_DONE;
+    if (count == 0) {
+        fputs("alpenglow: --pictures: there is nothing to draw: no triangle has an area\n", stderr);
+        return EXIT_DONE;
+    }
+    int code = make_folder(folder);
     for (int pass = 0; pass < 2; pass++) { // nothing is drawn before all may be written
         for (uint32_t i = 0; i < count && code == EXIT_DONE; i++) {
             char *path = make_path(folder, alp_diagnosis_picture_name(diagnosis, i));

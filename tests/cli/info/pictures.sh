@@ -11,4 +11,7 @@ echo text >file
 alpenglow info baked.glb --pictures file --json
 echo $?
 ls out
+printf 'v 0 0 0\nf 1 1 1\n' >point.obj
+alpenglow info point.obj --pictures none 2>&1 | grep pictures
+ls none 2>&1 | grep -c cannot
 head -c 8 out/uv0.png | od -An -c
