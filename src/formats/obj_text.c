@@ -157,32 +157,36 @@ bool alpi_obj_word_is(alpi_obj_word word, const char *name)
 
 // --- numbers -------------------------------------------------------------------------------------
 
-/// Fails unless a number ends here as a word does ("1.#IND" is none).
-static alp_result check_number(alpi_obj_text *t, const char *what, const char *behind)
+/// Fails unless a number ends here as a word does ("1.#IND" is none) and a float holds it.
+static alp_result check_number(alpi_obj_text *t, const char *what, const char *behind, bool fits)
 {
-    if (behind != NULL && (behind == t->end || is_blank(*behind) || *behind == '\n' ||
-                           *behind == '\r' || continuation(behind, t->end) > 0)) {
+    const bool ends = behind != NULL && (behind == t->end || is_blank(*behind) || *behind == '\n' ||
+                                         *behind == '\r' || continuation(behind, t->end) > 0);
+    if (ends && fits) {
         t->at = behind;
         return ALP_OK;
     }
-    alpi_obj_word word = alpi_obj_take_word(t);
+    const alpi_obj_word word = alpi_obj_take_word(t);
+    const int shown = (int)(word.size < SHOWN ? word.size : SHOWN);
     return word.size == 0 ? alpi_obj_fail(t, "%s has too few numbers", what)
-                          : alpi_obj_fail(t, "%s: \"%.*s\" is no finite decimal number", what,
-                                          (int)(word.size < SHOWN ? word.size : SHOWN), word.text);
+           : ends ? alpi_obj_fail(t, "%s: \"%.*s\" is beyond 3.4e38, the largest number read", what,
+                                  shown, word.text)
+                  : alpi_obj_fail(t, "%s: \"%.*s\" is no finite decimal number", what, shown,
+                                  word.text);
 }
 
 alp_result alpi_obj_take_float(alpi_obj_text *t, const char *what, float *value)
 {
     skip_blanks(t);
-    ALP_TRY(check_number(t, what, alpi_decimal_float(t->at, t->end, value)));
-    *value = fmaxf(-FLT_MAX, fminf(*value, FLT_MAX));
-    return ALP_OK;
+    *value = 0.0f;
+    const char *behind = alpi_decimal_float(t->at, t->end, value);
+    return check_number(t, what, behind, fabsf(*value) <= FLT_MAX);
 }
 
 alp_result alpi_obj_take_double(alpi_obj_text *t, const char *what, double *value)
 {
     skip_blanks(t);
-    ALP_TRY(check_number(t, what, alpi_decimal_double(t->at, t->end, value)));
-    *value = fmax(-(double)FLT_MAX, fmin(*value, (double)FLT_MAX));
-    return ALP_OK;
+    *value = 0.0;
+    const char *behind = alpi_decimal_double(t->at, t->end, value);
+    return check_number(t, what, behind, fabs(*value) <= (double)FLT_MAX);
 }

@@ -190,7 +190,7 @@ static void left_out(void **state)
     assert_true(test_log_has("no-triangles"));
     alp_scene_destroy(scene);
     test_log_clear(); // finite, but too far out for a ray
-    scene = test_obj_scene(context, SQUARE "v 1e30 0 0\nv -1e99 1e300 0\nf 1 2 3\nf 1 5 6\n");
+    scene = test_obj_scene(context, SQUARE "v 1e30 0 0\nv -1e38 3e38 0\nf 1 2 3\nf 1 5 6\n");
     assert_int_equal(scene->usable_count, 1);
     assert_true(test_log_has("bad-coordinates"));
     alp_scene_destroy(scene);
@@ -210,6 +210,9 @@ static void refused(void **state)
         {"v 1 2\n", "line 1: v has too few numbers"},
         {"\n\nv 1 nan 2\n", "line 3: v: \"nan\" is no finite decimal number"},
         {"v 1 2 -inf\n", "line 1: v: \"-inf\" is no"},
+        {"v 1e400 1 0\n", "line 1: v: \"1e400\" is beyond 3.4e38"},
+        {"v 0 -1e39 0\n", "line 1: v: \"-1e39\" is beyond 3.4e38"},
+        {SQUARE "vt 0 1e39\n", "line 5: vt: \"1e39\" is beyond"},
         {"v 1,5 2 3\n", "line 1: v: \"1,5\" is no"},
         {"v 0x1 2 3\n", "line 1: v: \"0x1\" is no"},
         {"v 1.#IND 2 3\n", "line 1: v: \"1.#IND\" is no"},
