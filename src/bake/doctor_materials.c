@@ -22,6 +22,14 @@ static float largest(vec3 v)
     return fmaxf(fmaxf(v.x, v.y), v.z);
 }
 
+/// Whether its texture could not be read: white in its place is a guess of the reader's, which the
+/// finding `image` tells of.
+static bool lost_its_texture(const alp_scene *scene, uint32_t material)
+{
+    const uint32_t image = scene->materials[material].base_color_texture.image;
+    return image != ALPI_NONE && (image >= scene->image_count || scene->images[image] == NULL);
+}
+
 /// Materials whose albedo is clamped, by the share of the area they cover so.
 static alp_result look_for_white(alp_diagnosis *d)
 {
@@ -45,7 +53,7 @@ static alp_result look_for_white(alp_diagnosis *d)
     for (uint32_t m = 0; m < scene->material_count && result == ALP_OK; m++) {
         const double share = (double)counts[m] / POINTS;
         const alpi_finding_facts facts = {ALP_FINDING_WHITE, ALP_PLACE_MATERIAL, m, 0, share};
-        if (share >= WHITE_SHARE) {
+        if (share >= WHITE_SHARE && !lost_its_texture(scene, m)) {
             result = alpi_diagnosis_add(d, facts,
                                         "a diffuse colour of 0.95 or more, on %.3g %% of the "
                                         "scene's area",
