@@ -275,6 +275,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     uint32_t count = 0;
     pilot p;
     uint32_t lights;
+    ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
     ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
     const alp_atlas_info atlas = guess_atlas(job, &area);

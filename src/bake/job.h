@@ -127,6 +127,8 @@ uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t pag
 /// Fails before the long work if an output could not be written at its end. Asked for one page
 /// before the atlas is made, and for all of them after.
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
+/// The same of the asset alone: makes no folder, so that an estimate may ask.
+alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 

@@ -93,6 +93,22 @@ static alp_result check_obj_options(const alpi_bake_job *job)
                            "%s: an .obj has no place for %s; write .glb or .gltf", o->output, what);
 }
 
+/// A COLLADA document holds maps of occlusion, and light as emission.
+static alp_result check_dae_options(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    const bool lit_otherwise =
+        o->lightmap_as != ALP_LIGHTMAP_AS_NONE && o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE;
+    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
+                       : o->ao_into == ALP_AO_INTO_ORM   ? "occlusion packed into an image"
+                       : lit_otherwise                   ? "a light map other than emission"
+                                                         : NULL;
+    return what == NULL
+               ? ALP_OK
+               : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                           "%s: a .dae has no place for %s; write .glb or .gltf", o->output, what);
+}
+
 static alp_result check_map(const alpi_bake_job *job, uint32_t page, map_kind kind)
 {
     char *path = map_path(job, page, kind);
@@ -104,33 +120,38 @@ static alp_result check_map(const alpi_bake_job *job, uint32_t page, map_kind ki
     return result;
 }
 
+alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->output == NULL) {
+        return ALP_OK;
+    }
+    if (alpi_bake_is_viewer_file(o)) {
+        return alpi_bake_check_viewer_file(job, pages);
+    }
+    if (alpi_path_has_ending(o->output, ".obj")) {
+        ALP_TRY(check_obj_options(job));
+    } else if (alpi_path_has_ending(o->output, ".dae")) {
+        ALP_TRY(check_dae_options(job));
+    } else if (!is_gltf_path(o->output)) {
+        return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
+                         "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
+    }
+    const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
+    const alpi_gltf_images images = {
+        .occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
+        .packed = job->packing.count,
+        .light = lit ? pages : 0,
+        .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
+        .light_is_beside = o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS,
+    };
+    return alpi_scene_check_outputs(job->scene, &images, o->output, o->overwrite);
+}
+
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
-    if (o->output != NULL && alpi_bake_is_viewer_file(o)) {
-        ALP_TRY(alpi_bake_check_viewer_file(job, pages));
-    } else if (o->output != NULL) {
-        if (alpi_path_has_ending(o->output, ".obj")) {
-            ALP_TRY(check_obj_options(job));
-        } else if (alpi_path_has_ending(o->output, ".dae")) {
-            if (o->atlas.mode == ALP_ATLAS_VERTEX) {
-                return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                                 "%s: values at vertices are not written to a .dae; write .glb",
-                                 o->output);
-            }
-        } else if (!is_gltf_path(o->output)) {
-            return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                             "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
-        }
-        const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
-        const alpi_gltf_images images = {.occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
-                                         .packed = job->packing.count,
-                                         .light = lit ? pages : 0,
-                                         .light_ending = lit ? alpi_bake_light_ending(o) : NULL,
-                                         .light_is_beside =
-                                             o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS};
-        ALP_TRY(alpi_scene_check_outputs(job->scene, &images, o->output, o->overwrite));
-    }
+    ALP_TRY(alpi_bake_check_output(job, pages));
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
         ALP_TRY(alpi_bake_check_layer_files(job, pages));
