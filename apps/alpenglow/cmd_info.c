@@ -7,6 +7,7 @@
 #include "session.h"
 #include "work.h"
 
+#include <ctype.h>
 #include <math.h>
 
 /// So many lamps, and so many emissive surfaces, are told one by one; JSON has them all.
@@ -36,6 +37,45 @@ static void print_scene(const char *path, const alp_scene_info *i)
     if (i->area > 0.0) {
         printf("estimate   --size 1024 gives about %.4g texels per metre\n", estimate_density(i));
     }
+}
+
+/// What the file states, and what else its unit may be where that is in doubt.
+static void print_unit(const alp_scene *scene, const alp_scene_info *i)
+{
+    alp_unit_guess guesses[ALP_UNIT_LIMIT];
+    const uint32_t count = alp_scene_guess_unit(scene, guesses);
+    if (i->unit_stated) {
+        printf("unit       %g m, as the file or its format states", i->unit_metres);
+    } else {
+        printf("unit       none stated: 1 m is taken");
+    }
+    if (i->up_axis != '\0') {
+        printf("; %c is up", tolower((unsigned char)i->up_axis));
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        printf("%s%s (longest side %.3g m)",
+               k == 0          ? "; by its size perhaps "
+               : k + 1 < count ? ", "
+                               : " or ",
+               guesses[k].name, guesses[k].longest_side);
+    }
+    putchar('\n');
+}
+
+static json_t *make_unit(const alp_scene *scene, const alp_scene_info *i)
+{
+    alp_unit_guess guesses[ALP_UNIT_LIMIT];
+    const uint32_t count = alp_scene_guess_unit(scene, guesses);
+    const char axis[2] = {i->up_axis, '\0'};
+    json_t *list = json_array();
+    for (uint32_t k = 0; k < count; k++) {
+        json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "name", guesses[k].name, "metres",
+                                              json_number(guesses[k].metres), "longest_side",
+                                              json_number(guesses[k].longest_side)));
+    }
+    return json_pack("{s:o, s:b, s:o, s:o}", "metres", json_number(i->unit_metres), "stated",
+                     (int)i->unit_stated, "up_axis",
+                     i->up_axis != '\0' ? json_string(axis) : json_null(), "candidates", list);
 }
 
 /// The work of two bakes with defaults: occlusion, and light with a stated error of 1 %.
@@ -181,15 +221,16 @@ static json_t *make_vector(const float v[3])
                      json_number((double)v[2]));
 }
 
-static json_t *make_scene(const alp_scene_info *i)
+static json_t *make_scene(const alp_scene *scene, const alp_scene_info *i)
 {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}, s:o}", "triangles",
-                     (json_int_t)i->triangles, "usable_triangles", (json_int_t)i->usable_triangles,
-                     "vertices", (json_int_t)i->vertices, "surfaces", (json_int_t)i->surfaces,
-                     "materials", (json_int_t)i->materials, "images", (json_int_t)i->images,
-                     "lights", (json_int_t)i->lights, "cameras", (json_int_t)i->cameras, "bounds",
-                     "minimum", make_vector(i->bounds_min), "maximum", make_vector(i->bounds_max),
-                     "area", json_number(i->area));
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}, s:o, s:o}",
+                     "triangles", (json_int_t)i->triangles, "usable_triangles",
+                     (json_int_t)i->usable_triangles, "vertices", (json_int_t)i->vertices,
+                     "surfaces", (json_int_t)i->surfaces, "materials", (json_int_t)i->materials,
+                     "images", (json_int_t)i->images, "lights", (json_int_t)i->lights, "cameras",
+                     (json_int_t)i->cameras, "bounds", "minimum", make_vector(i->bounds_min),
+                     "maximum", make_vector(i->bounds_max), "area", json_number(i->area), "unit",
+                     make_unit(scene, i));
 }
 
 static json_t *make_surfaces(const alp_scene *scene, uint32_t count)
@@ -255,7 +296,7 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
 {
     json_t *document = json_pack(
         "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version", alp_version(),
-        "scene", make_scene(info), "work", "ao", work_json(&work->ao), "light",
+        "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao), "light",
         work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
         make_lights(s->scene, info->lights), "cameras", make_cameras(s->scene, info->cameras),
         "uv_sets", findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis),
@@ -273,6 +314,7 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
                        const default_work *work, const alp_diagnosis *diagnosis)
 {
     print_scene(path, info);
+    print_unit(s->scene, info);
     print_work(work);
     print_surfaces(s->scene, info->surfaces);
     findings_print_uv_sets(diagnosis);

@@ -156,6 +156,25 @@ ALP_API const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, u
 ALP_API ALP_NODISCARD alp_result alp_diagnosis_picture(const alp_diagnosis *diagnosis,
                                                        uint32_t index, alp_image **image);
 
+enum { ALP_UNIT_LIMIT = 9 }; ///< how many units are tried
+
+/// A unit that the scene may have been meant in.
+typedef struct alp_unit_guess {
+    const char *name;    ///< "1 mm", "1 cm", "1 inch", "1 dm", "1 foot", "1 m", "10 m", "100 m",
+                         ///< "1 km"; static
+    double metres;       ///< of the unit
+    double longest_side; ///< of the scene's box in that unit, metres
+} alp_unit_guess;
+
+/// What else the unit of the file may be, by the size that it gives: units, from small to large, in
+/// which the longest side of the scene is between 0.5 and 20 m, as of rooms and of what stands in
+/// them. Asked where the one that was taken is in doubt: the file states none, or the longest side
+/// is above 30 m or below 0.05 m. A valley of 2 km is in doubt too: it is a guess.
+/// @param guesses [ALP_UNIT_LIMIT]; the unit that was taken is not among them
+/// @return how many; 0 where there is no doubt, no other unit gives such a size, or nothing has one
+ALP_API uint32_t alp_scene_guess_unit(const alp_scene *scene,
+                                      alp_unit_guess guesses[ALP_UNIT_LIMIT]);
+
 /// "error", "warning", "note". Static.
 ALP_API const char *alp_severity_name(alp_severity severity);
 /// "scene", "surface", "material", "light", "uv-set", "message". Static.

@@ -61,6 +61,9 @@ typedef struct alp_scene_info {
     uint32_t materials, images, cameras, lights;
     float bounds_min[3], bounds_max[3]; ///< metres, over usable triangles; zeros if there are none
     double area;                        ///< square metres, one side, over usable triangles
+    double unit_metres; ///< of one unit of the file, by which its lengths were multiplied
+    bool unit_stated;   ///< the file or its format says so; else metres were assumed
+    char up_axis; ///< 'X', 'Y' or 'Z' where a COLLADA states it; 0 = not stated. Scenes are y up
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 

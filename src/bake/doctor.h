@@ -61,6 +61,9 @@ alp_result alpi_doctor_look_at_backs(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image);
 alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_image **image);
 
+// doctor_unit.c: metres.
+double alpi_doctor_longest_side(const alp_scene *scene);
+
 /// "s" unless there is one.
 static inline const char *alpi_plural(uint64_t count)
 {

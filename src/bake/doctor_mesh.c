@@ -7,6 +7,7 @@
 #include "base/tasks.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /// Normals against their triangle count from this share of a surface on: less are modelling slips
@@ -15,8 +16,7 @@ static const double REVERSED_SHARE = 0.01;
 /// A scene with a longer side may be in centimetres: few indoor scenes and buildings are longer.
 /// One with a longest side below may be in kilometres or metres that were divided once too often.
 static const double LARGEST_SIDE = 300.0, SMALLEST_SIDE = 0.02;
-/// A room or a thing in centimetres is no larger, so that the guess is said.
-static const double LARGEST_GUESS = 100.0;
+enum { TEXT_SIZE = 256 }; // of all units with their sizes
 
 static const double NO_VALUE = (double)NAN;
 
@@ -265,24 +265,27 @@ static alp_result count_surfaces(alp_diagnosis *d, alp_finding_kind kind, surfac
 
 // --- size ----------------------------------------------------------------------------------------
 
+/// The same sizes as the line `unit` of info.
 static alp_result look_at_size(alp_diagnosis *d)
 {
-    const vec3 size = vec3_sub(d->scene->bounds_max, d->scene->bounds_min);
-    const double side = (double)fmaxf(fmaxf(size.x, size.y), size.z);
+    const double side = alpi_doctor_longest_side(d->scene);
     const alpi_finding_facts facts = {.kind = ALP_FINDING_SIZE, .value = side};
-    if (side > LARGEST_SIDE) {
-        const bool centimetres = 0.01 * side <= LARGEST_GUESS;
-        return alpi_diagnosis_add(
-            d, facts, "the longest side is %.4g m; if its unit is meant to be a %s, %.3g m", side,
-            centimetres ? "centimetre" : "millimetre", (centimetres ? 0.01 : 0.001) * side);
+    if (!(side > LARGEST_SIDE) && !(side > 0.0 && side < SMALLEST_SIDE)) {
+        return ALP_OK;
     }
-    if (side > 0.0 && side < SMALLEST_SIDE) {
-        return alpi_diagnosis_add(d, facts,
-                                  "the longest side is %.3g m; if it is meant to be %.3g m, the "
-                                  "unit was lost",
-                                  side, 100.0 * side);
+    alp_unit_guess guesses[ALP_UNIT_LIMIT];
+    const uint32_t count = alp_scene_guess_unit(d->scene, guesses);
+    char sizes[TEXT_SIZE] = "";
+    size_t used = 0;
+    for (uint32_t i = 0; i < count && used < sizeof sizes; i++) {
+        const int more = snprintf(sizes + used, sizeof sizes - used, "%s%.3g m (a unit of %s)",
+                                  i == 0          ? "; it may be meant for "
+                                  : i + 1 < count ? ", "
+                                                  : " or ",
+                                  guesses[i].longest_side, guesses[i].name);
+        used += more > 0 ? (size_t)more : 0;
     }
-    return ALP_OK;
+    return alpi_diagnosis_add(d, facts, "the longest side is %.4g m%s", side, sizes);
 }
 
 alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis)

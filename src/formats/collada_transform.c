@@ -189,6 +189,9 @@ alp_result alpi_collada_read_asset(alpi_collada_reader *reader)
     const double u = reader->metres_per_unit;
     const char *text = alpi_xml_text(axis);
     text += strspn(text, " \t\r\n");
+    reader->scene->unit_metres = u;
+    reader->scene->unit_assumed = alpi_xml_attribute(unit, "meter") == NULL;
+    reader->scene->up_axis = *text >= 'X' && *text <= 'Z' ? *text : '\0';
     // columns: where the file's x, y and z go
     static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     static const double minus_x[3] = {-1, 0, 0}, minus_z[3] = {0, 0, -1}, zero[3] = {0, 0, 0};

@@ -387,6 +387,7 @@ alp_result alpi_obj_scene_from_bytes(alp_context *context, const char *path, con
         result = alpi_scene_create(context, path, &made);
     }
     if (result == ALP_OK) {
+        made->unit_assumed = true; // an OBJ has nowhere to say it
         result = fill_scene(&obj, made);
     }
     alpi_obj_destroy(&obj);

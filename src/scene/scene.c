@@ -17,6 +17,7 @@ alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene *
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     s->context = context;
+    s->unit_metres = 1.0; // what glTF and arrays are in
     s->name = alpi_copy_string(context, name);
     s->attachments = ALPI_NEW(context, alpi_attachment, ALPI_ATTACHMENT_COUNT);
     if (s->name == NULL || s->attachments == NULL) {
@@ -256,7 +257,7 @@ static void warn_of_precision(const alp_scene *scene)
     vec3 low = scene->bounds_min, high = scene->bounds_max;
     float far = fmaxf(fmaxf(fmaxf(fabsf(low.x), fabsf(low.y)), fmaxf(fabsf(low.z), fabsf(high.x))),
                       fmaxf(fabsf(high.y), fabsf(high.z)));
-    float spacing = far * 0x1p-23f; // of floats at the farthest coordinate
+    float spacing = nextafterf(far, INFINITY) - far; // of floats at the farthest coordinate
     if (scene->usable_count > 0 && spacing > extent * 1e-4f) {
         alpi_warn(scene->context, "precision", scene->name,
                   "coordinates reach %.3g m, where floats are %.2g m apart, in a scene of %.3g m: "
@@ -296,6 +297,9 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .cameras = scene->camera_count,
         .lights = scene->light_count,
         .area = scene->area,
+        .unit_metres = scene->unit_metres,
+        .unit_stated = !scene->unit_assumed,
+        .up_axis = scene->up_axis,
     };
     vec3_store(info.bounds_min, scene->bounds_min);
     vec3_store(info.bounds_max, scene->bounds_max);

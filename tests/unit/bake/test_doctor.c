@@ -211,7 +211,12 @@ static void sizes_that_are_odd(void **state)
         if (cases[i].odd) {
             has_only(scene, ALP_FINDING_SIZE, 0, (double)cases[i].side);
             alp_diagnosis *d = diagnose(scene);
-            assert_non_null(strstr(alp_diagnosis_get_finding(d, 0).what, cases[i].words));
+            const char *what = alp_diagnosis_get_finding(d, 0).what;
+            assert_non_null(strstr(what, cases[i].words));
+            alp_unit_guess guesses[ALP_UNIT_LIMIT]; // all that the line `unit` of info names
+            for (uint32_t k = 0; k < alp_scene_guess_unit(scene, guesses); k++) {
+                assert_non_null(strstr(what, guesses[k].name));
+            }
             alp_diagnosis_destroy(d);
         } else {
             has_none(scene);
@@ -262,6 +267,14 @@ static void colours_that_take_no_light(void **state)
     mesh.base_color[1] = 1.0f;
     alp_scene *scene = make(context, &mesh, 1);
     has_only(scene, ALP_FINDING_WHITE, 0, 1.0);
+    alp_image *lost = NULL; // white in the place of a texture that cannot be read is no paint
+    scene->images = &lost;
+    scene->image_count = 1;
+    scene->materials[0].base_color_texture.image = 0;
+    has_none(scene);
+    scene->materials[0].base_color_texture = alpi_texture_none();
+    scene->images = NULL;
+    scene->image_count = 0;
     scene->materials[0].metallic = 1.0f; // no diffuse colour
     has_none(scene);
     scene->materials[0].metallic = 0.0f;

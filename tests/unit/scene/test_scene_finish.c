@@ -195,6 +195,7 @@ static void far_from_the_origin_is_said(void **state)
     }
     alp_scene *scene = finish(&builder);
     assert_true(test_log_has("precision"));
+    assert_non_null(strstr(test_log_text(), "are 0.002 m apart")); // 2^14 · 2^-23 = 0.00195
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
