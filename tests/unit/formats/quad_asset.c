@@ -299,3 +299,16 @@ int quad_number(const quad_bake *bake, const char *path)
     const char *text = quad_text(bake, path);
     return text[0] == '\0' ? -1 : (int)strtol(text, NULL, 10);
 }
+
+void quad_require_corners(const quad_bake *bake, uint32_t set)
+{
+    const alp_scene *a = bake->scene, *b = bake->result;
+    assert_non_null(b->uvs[set]);
+    for (uint32_t t = 0; t < a->triangle_count; t++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t va = a->triangles[t][k], vb = b->triangles[t][k];
+            assert_memory_equal(a->positions[va], b->positions[vb], sizeof a->positions[va]);
+            assert_memory_equal(b->uvs[set][vb], bake->uvs[t][k], sizeof bake->uvs[t][k]);
+        }
+    }
+}

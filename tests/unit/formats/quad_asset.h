@@ -52,5 +52,12 @@ const alpi_gltf_document *quad_new(const quad_bake *bake);
 const char *quad_text(const quad_bake *bake, const char *path);
 /// The integer there, −1 when absent.
 int quad_number(const quad_bake *bake, const char *path);
+/// A primitive of the quad with every kind of attribute, and a morph target.
+#define RICH_QUAD                                                                                  \
+    "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2,\"JOINTS_0\":3,"                \
+    "\"WEIGHTS_0\":4,\"_MINE\":5,\"_MATRIX\":9},\"indices\":6,\"targets\":[{\"POSITION\":7}]}"
+
+/// The written quad's triangles have the old positions and the wanted coordinates in set `set`.
+void quad_require_corners(const quad_bake *bake, uint32_t set);
 
 #endif

@@ -14,20 +14,6 @@
 #define MESH(primitives) "\"meshes\":[{\"primitives\":[" primitives "]}]"
 #define QUAD "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":6,\"material\":0}"
 
-/// The written quad's triangles have the old positions and the wanted coordinates in set `set`.
-static void require_corners(const quad_bake *bake, uint32_t set)
-{
-    const alp_scene *a = bake->scene, *b = bake->result;
-    assert_non_null(b->uvs[set]);
-    for (uint32_t t = 0; t < a->triangle_count; t++) {
-        for (int k = 0; k < 3; k++) {
-            uint32_t va = a->triangles[t][k], vb = b->triangles[t][k];
-            assert_memory_equal(a->positions[va], b->positions[vb], sizeof a->positions[va]);
-            assert_memory_equal(b->uvs[set][vb], bake->uvs[t][k], sizeof bake->uvs[t][k]);
-        }
-    }
-}
-
 /// Reads an accessor of the written file named at a path.
 static alpi_gltf_values read_values(const quad_bake *bake, const char *path)
 {
@@ -57,7 +43,7 @@ static void strange_text_survives(void **state)
     assert_string_equal(quad_text(&bake, "asset/extras/x"), "[1.0e0, 1E2,-0.0,1e-5 ]");
     assert_string_equal(quad_text(&bake, "asset/extras/alpenglow"), "{\"version\":\"test\"}");
     assert_string_equal(quad_text(&bake, "scenes/0/name"), "\"\\u0041\\\"\\\\\xc3\xa9\"");
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -127,17 +113,13 @@ static void the_first_free_set_is_taken(void **state)
     quad_close(&bake);
 }
 
-#define RICH_QUAD                                                                                  \
-    "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2,\"JOINTS_0\":3,"                \
-    "\"WEIGHTS_0\":4,\"_MINE\":5,\"_MATRIX\":9},\"indices\":6,\"targets\":[{\"POSITION\":7}]}"
-
 static void splits_carry_every_attribute(void **state)
 {
     (void)state;
     quad_bake bake = quad_open(quad_write_glb(ASSET, ONE_NODE MESH(RICH_QUAD)), 1);
     quad_part_triangles(&bake);
     quad_write(&bake, ".glb");
-    require_corners(&bake, 1);
+    quad_require_corners(&bake, 1);
     alpi_gltf_values indices = read_values(&bake, "meshes/0/primitives/0/indices");
     assert_int_equal(indices.count, 6);
     static const char *const names[] = {
@@ -181,13 +163,13 @@ static void strips_stay_until_they_must_split(void **state)
     quad_write(&bake, ".glb");
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/mode"), 5);
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), 8);
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
     bake = quad_open(quad_write_glb(ASSET, primitive), 1);
     quad_part_triangles(&bake);
     quad_write(&bake, ".glb");
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/mode"), 4);
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
     // Not indexed: a fan 0 1 2, 0 2 3.
     bake = quad_open(
@@ -195,7 +177,7 @@ static void strips_stay_until_they_must_split(void **state)
     quad_part_triangles(&bake);
     quad_write(&bake, ".glb");
     assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/indices"), -1);
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -213,7 +195,7 @@ static void mirrored_nodes_keep_their_winding(void **state)
         bake.uvs[0][k][0] = 0.3f + 0.1f * (float)k; // each corner its own
     }
     quad_write(&bake, ".glb");
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -248,7 +230,7 @@ static void pages_split_primitives_and_materials(void **state)
                         "{\"name\":\"red\",\"extras\":1.50,\"occlusionTexture\":{\"index\":1}}");
     assert_int_equal(quad_number(&bake, "textures/1/source"), 1);
     assert_string_equal(quad_text(&bake, "textures/2"), ""); // page 1 is not used
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -298,7 +280,7 @@ static void meshes_of_several_nodes_are_copied(void **state)
     assert_int_equal(quad_number(&bake, "meshes/1/primitives/0/indices"), 6);
     assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/TEXCOORD_0"),
                          quad_number(&bake, "meshes/1/primitives/0/attributes/TEXCOORD_0"));
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
     // With splits, equal attributes are still stored once.
     bake = quad_open(quad_write_glb(ASSET, rest), 1);
@@ -307,7 +289,7 @@ static void meshes_of_several_nodes_are_copied(void **state)
     assert_int_not_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"), 0);
     assert_int_equal(quad_number(&bake, "meshes/0/primitives/0/attributes/POSITION"),
                      quad_number(&bake, "meshes/1/primitives/0/attributes/POSITION"));
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -324,7 +306,7 @@ static void nodes_of_other_scenes_keep_their_mesh(void **state)
     assert_int_equal(quad_number(&bake, "nodes/1/mesh"), 0);
     assert_string_equal(quad_text(&bake, "meshes/0/primitives/0"), QUAD);
     assert_string_equal(quad_text(&bake, "materials/0"), "{}");
-    require_corners(&bake, 0);
+    quad_require_corners(&bake, 0);
     quad_close(&bake);
 }
 
@@ -375,266 +357,6 @@ static void existing_maps_are_replaced_or_kept(void **state)
     quad_close(&bake);
 }
 
-// --- containers and files ------------------------------------------------------------------------
-
-static const char plain[] = ONE_NODE "\"materials\":[{}]," MESH(QUAD);
-
-static void files_beside_a_gltf(void **state)
-{
-    (void)state;
-    quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 2);
-    bake.pages[1] = 1;
-    quad_write(&bake, ".gltf");
-    assert_string_equal(quad_text(&bake, "buffers/1/uri"), "\"quad%20baked.ao.bin\"");
-    assert_string_equal(quad_text(&bake, "images/0/uri"), "\"quad%20baked.ao.png\"");
-    assert_string_equal(quad_text(&bake, "images/1/uri"), "\"quad%20baked.ao.1.png\"");
-    require_corners(&bake, 0);
-    quad_close(&bake);
-    bake = quad_open(quad_write_glb(ASSET, plain), 1);
-    quad_write(&bake, ".gltf");
-    assert_string_equal(quad_text(&bake, "buffers/0/uri"), "\"quad%20baked.bin\"");
-    require_corners(&bake, 0);
-    quad_close(&bake);
-    bake = quad_open(quad_write_gltf(ASSET, plain), 1);
-    quad_write(&bake, ".glb");
-    assert_string_equal(quad_text(&bake, "buffers/0/uri"), "");
-    assert_string_equal(quad_text(&bake, "buffers/1"), "");
-    require_corners(&bake, 0);
-    quad_close(&bake);
-}
-
-/// A .gltf of two buffers and a picture, all of which a .glb holds in itself.
-static void many_files_become_one_glb(void **state)
-{
-    (void)state;
-    quad_bake first = quad_open(quad_write_gltf(ASSET, plain), 1);
-    quad_write(&first, ".gltf");
-    quad_bake second = quad_open(first.path, 1);
-    quad_write(&second, ".glb");
-    assert_string_equal(quad_text(&second, "buffers/0/uri"), "");
-    assert_string_equal(quad_text(&second, "buffers/1"), "");
-    assert_string_equal(quad_text(&second, "images/0/uri"), "");
-    assert_string_equal(quad_text(&second, "images/0/mimeType"), "\"image/png\"");
-    assert_int_not_equal(quad_number(&second, "images/0/bufferView"), -1);
-    require_corners(&second, 1);
-    for (uint32_t t = 0; t < 2; t++) { // the set of the first bake, from the second buffer
-        for (int k = 0; k < 3; k++) {
-            assert_memory_equal(second.result->uvs[0][second.result->triangles[t][k]],
-                                first.uvs[t][k], sizeof first.uvs[t][k]);
-        }
-    }
-    quad_close(&second);
-    quad_close(&first);
-}
-
-static void a_file_is_baked_over_itself(void **state)
-{
-    (void)state;
-    quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 1);
-    const char *path = bake.path;
-    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, path, false), ALP_ERROR_IO);
-    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
-    for (int round = 0; round < 3; round++) { // each adds a set, and none loses its file
-        for (int i = 0; i < 6; i++) {
-            bake.uvs[i / 3][i % 3][1] = 0.25f * (float)(round + 1);
-        }
-        ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, path, true));
-        ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, path, true));
-        alp_scene_destroy(bake.scene);
-        ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, path, &bake.scene));
-        assert_int_equal(bake.scene->surfaces[0].uv_sets, round + 1);
-        for (int set = 0; set <= round; set++) {
-            ASSERT_NEAR(bake.scene->uvs[set][0][1], 0.25 * (set + 1), 0.0);
-        }
-    }
-    quad_close(&bake);
-}
-
-static void references_follow_into_another_folder(void **state)
-{
-    (void)state;
-    quad_bake bake = quad_open(
-        quad_write_gltf(ASSET, ONE_NODE
-                        "\"images\":[{\"uri\":\"gone.png\"}],\"materials\":[{}]," MESH(QUAD)),
-        1);
-    const char *folder = test_folder();
-    snprintf(bake.path, sizeof bake.path, "%s/out.gltf", folder);
-    test_log_clear();
-    ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false));
-    assert_true(test_log_has("missing-file"));
-    ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, bake.path, &bake.result));
-    require_corners(&bake, 0);
-    // The copied buffer is there already with the same bytes: that is no overwriting.
-    snprintf(bake.path, sizeof bake.path, "%s/second.gltf", folder);
-    ASSERT_OK(bake.context, alpi_gltf_check_output(bake.scene, 1, bake.path, false));
-    ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false));
-    // With other bytes it is.
-    FILE *file = fopen(test_path(folder, "quad data.bin"), "wb");
-    assert_non_null(file);
-    fclose(file);
-    snprintf(bake.path, sizeof bake.path, "%s/third.gltf", folder);
-    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, bake.path, false), ALP_ERROR_IO);
-    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, bake.path, false),
-                     ALP_ERROR_IO);
-    file = fopen(bake.path, "rb"); // all or nothing
-    assert_null(file);
-    quad_close(&bake);
-}
-
-/// A GLB without BIN chunk whose only buffer is a data: URI.
-static void a_glb_without_a_chunk_of_its_own(void **state)
-{
-    (void)state;
-    const char *json =
-        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
-        "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
-        "\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{"
-        "\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
-        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
-    size_t length = strlen(json), padded = (length + 3) / 4 * 4;
-    const char *path = test_path(quad_folder(), "data.glb");
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    uint32_t header[5] = {0x46546C67, 2, (uint32_t)(20 + padded), (uint32_t)padded, 0x4E4F534A};
-    fwrite(header, 4, 5, file);
-    fprintf(file, "%-*s", (int)padded, json);
-    fclose(file);
-    quad_bake bake = quad_open(path, 1);
-    quad_write(&bake, ".glb");
-    assert_int_equal(strncmp(quad_text(&bake, "buffers/1/uri"), "\"data:", 6), 0);
-    require_corners(&bake, 0);
-    quad_close(&bake);
-}
-
-// --- scenes from no file -------------------------------------------------------------------------
-
-static void scenes_from_arrays_become_files(void **state)
-{
-    (void)state;
-    static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-    static const float uvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    alp_mesh mesh = {.name = "a \"quad\"",
-                     .vertex_count = 4,
-                     .positions = positions,
-                     .uvs = uvs,
-                     .triangle_count = 2,
-                     .indices = indices,
-                     .base_color = {0.5f, 0.25f, 0.125f},
-                     .double_sided = true};
-    alp_mesh meshes[2] = {mesh, mesh};
-    alp_context *context = test_context(1);
-    quad_bake bake = quad_open(quad_write_glb(ASSET, plain), 1); // for its pages
-    alp_scene *scene = NULL, *again = NULL;
-    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
-    float corners[4][3][2];
-    for (int i = 0; i < 24; i++) {
-        corners[i / 6][i / 2 % 3][i % 2] = (float)i / 24.0f;
-    }
-    bake.patch.corner_uvs = (void *)corners;
-    bake.patch.triangle_pages = NULL;
-    const char *path = test_path(quad_folder(), "arrays.gltf");
-    ASSERT_OK(context, alpi_gltf_check_output(scene, 1, path, false));
-    ASSERT_OK(context, alpi_scene_write_patched(scene, &bake.patch, path, false));
-    quad_list(bake.path, path); // the quad has no error, so this must have none
-    ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
-    assert_int_equal(again->triangle_count, 4);
-    assert_string_equal(again->surfaces[1].name, "a \"quad\"");
-    const alpi_material *m = &again->materials[again->surfaces[0].material];
-    assert_true(m->double_sided);
-    ASSERT_NEAR(m->base_color[1], 0.25, 0.0);
-    uint32_t set = again->surfaces[0].uv_sets - 1;
-    assert_int_equal(m->occlusion_texture.uv_set, set);
-    for (uint32_t t = 0; t < 4; t++) {
-        for (int k = 0; k < 3; k++) {
-            uint32_t vertex = again->triangles[t][k];
-            assert_memory_equal(again->positions[vertex],
-                                &positions[3 * indices[3 * (t % 2) + (uint32_t)k]], 12);
-            assert_memory_equal(again->uvs[set][vertex], corners[t][k], 8);
-        }
-    }
-    alp_scene_destroy(again);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-    quad_close(&bake);
-}
-
-// --- memory --------------------------------------------------------------------------------------
-
-typedef struct failing_allocator {
-    long left; // allocations until one fails
-} failing_allocator;
-
-static void *allocate_or_fail(void *user, size_t size)
-{
-    failing_allocator *allocator = user;
-    return allocator->left-- == 0 ? NULL : malloc(size);
-}
-
-static void release(void *user, void *pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
-/// Patches with every allocation failing in turn: OUT_OF_MEMORY, no leak, and no file left behind.
-static void every_allocation_may_fail(void **state)
-{
-    (void)state;
-    quad_bake bake =
-        quad_open(quad_write_gltf(
-                      ASSET, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0}],"
-                             "\"images\":[{\"uri\":\"quad%20data.bin\"}],"
-                             "\"meshes\":[{\"primitives\":[" RICH_QUAD "]}]"),
-                  2);
-    quad_part_triangles(&bake);
-    bake.pages[1] = 1;
-    failing_allocator allocator = {.left = -1};
-    alp_context_options options = alp_context_options_default();
-    options.allocate = allocate_or_fail;
-    options.release = release;
-    options.allocator_user = &allocator;
-    options.worker_count = 1;
-    alp_context *context = NULL;
-    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alpi_gltf_read_scene(context, bake.path, &scene));
-    for (int glb = 0; glb < 2; glb++) {
-        const char *path = test_path(test_folder(), glb ? "out.glb" : "out.gltf");
-        alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-        for (long i = 0; result != ALP_OK; i++) {
-            allocator.left = i;
-            result = alpi_scene_write_patched(scene, &bake.patch, path, false);
-            // cppcheck-suppress redundantAssignment ; the allocator reads it
-            allocator.left = -1;
-            if (result != ALP_OK) {
-                assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
-                assert_null(fopen(path, "rb"));
-            }
-        }
-        alp_scene *again = NULL;
-        ASSERT_OK(context, alpi_gltf_read_scene(context, path, &again));
-        alp_scene_destroy(again);
-    }
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-    quad_close(&bake);
-}
-
-static void other_endings_are_refused(void **state)
-{
-    (void)state;
-    quad_bake bake = quad_open(quad_write_glb(ASSET, plain), 1);
-    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, "x.stl", false),
-                     ALP_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(alpi_gltf_check_output(bake.scene, 1, "x", false), ALP_ERROR_INVALID_ARGUMENT);
-    bake.pages[0] = 1;
-    assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, "x.glb", false),
-                     ALP_ERROR_INVALID_ARGUMENT);
-    quad_close(&bake);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -652,14 +374,6 @@ int main(void)
         cmocka_unit_test(nodes_of_other_scenes_keep_their_mesh),
         cmocka_unit_test(kept_coordinates_change_materials_only),
         cmocka_unit_test(existing_maps_are_replaced_or_kept),
-        cmocka_unit_test(files_beside_a_gltf),
-        cmocka_unit_test(many_files_become_one_glb),
-        cmocka_unit_test(a_file_is_baked_over_itself),
-        cmocka_unit_test(references_follow_into_another_folder),
-        cmocka_unit_test(a_glb_without_a_chunk_of_its_own),
-        cmocka_unit_test(scenes_from_arrays_become_files),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(other_endings_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,15 +69,36 @@ static void check(const char *name, uint32_t count, double area, double toleranc
     }
 }
 
+typedef struct small_shape {
+    const char *name;
+    uint32_t count;
+    double xy[16][2], area; // 0: its edges touch
+} small_shape;
+
+/// Cuts it, beginning at a corner.
+static void check_shape(const small_shape *s, uint32_t first)
+{
+    double shoelace = 0.0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        const double *p = s->xy[(first + i) % s->count];
+        const double *q = s->xy[(first + i + 1) % s->count];
+        put(i, p[0], p[1]);
+        shoelace += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    if (s->area != 0.0) {
+        ASSERT_NEAR(shoelace, s->area, 0.0);
+        check(s->name, s->count, s->area, 0.0);
+    } else { // its edges touch: nothing but the sum is promised
+        outcome o = cut(s->count, up);
+        ASSERT_NEAR(o.area + o.turned, shoelace, 0.0);
+    }
+}
+
 /// Exact in floats: sums of halves of whole numbers.
 static void small_shapes(void **state)
 {
     (void)state;
-    static const struct {
-        const char *name;
-        uint32_t count;
-        double xy[16][2], area;
-    } shapes[] = {
+    static const small_shape shapes[] = {
         {"triangle", 3, {{0, 0}, {2, 0}, {0, 2}}, 2},
         {"square", 4, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1},
         {"arrow", 4, {{0, 0}, {4, -4}, {1, 0}, {4, 4}}, 4},
@@ -121,24 +142,8 @@ static void small_shapes(void **state)
          0},
     };
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
-        double area = shapes[s].area;
         for (uint32_t first = 0; first < shapes[s].count; first++) { // from any corner
-            double shoelace = 0.0;
-            for (uint32_t i = 0; i < shapes[s].count; i++) {
-                const double *p = shapes[s].xy[(first + i) % shapes[s].count];
-                const double *q = shapes[s].xy[(first + i + 1) % shapes[s].count];
-                put(i, p[0], p[1]);
-                shoelace += 0.5 * (p[0] * q[1] - p[1] * q[0]);
-            }
-            if (area != 0.0) {
-                ASSERT_NEAR(shoelace, area, 0.0);
-            }
-            if (s + 1 < sizeof shapes / sizeof *shapes) {
-                check(shapes[s].name, shapes[s].count, area, 0.0);
-            } else { // its edges touch: nothing but the sum is promised
-                outcome o = cut(shapes[s].count, up);
-                ASSERT_NEAR(o.area + o.turned, shoelace, 0.0);
-            }
+            check_shape(&shapes[s], first);
         }
     }
 }
