@@ -40,6 +40,7 @@ TEXT
     section 'Error per second' maps
     section 'Atlases' atlas
     section 'Acceleration structure' trace
+    section 'Reading files' formats
 }
 
 closed_forms() {

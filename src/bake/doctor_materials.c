@@ -26,8 +26,10 @@ static float largest(vec3 v)
 /// finding `image` tells of.
 static bool lost_its_texture(const alp_scene *scene, uint32_t material)
 {
-    const uint32_t image = scene->materials[material].base_color_texture.image;
-    return image != ALPI_NONE && (image >= scene->image_count || scene->images[image] == NULL);
+    const alpi_texture *texture = &scene->materials[material].base_color_texture;
+    return texture->lost ||
+           (texture->image != ALPI_NONE &&
+            (texture->image >= scene->image_count || scene->images[texture->image] == NULL));
 }
 
 /// Materials whose albedo is clamped, by the share of the area they cover so.

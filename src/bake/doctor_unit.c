@@ -22,7 +22,10 @@ uint32_t alp_scene_guess_unit(const alp_scene *scene, alp_unit_guess guesses[ALP
         {"1 mm", 0.001, 0.0}, {"1 cm", 0.01, 0.0},     {"1 inch", 0.0254, 0.0},
         {"1 dm", 0.1, 0.0},   {"1 foot", 0.3048, 0.0}, {"1 m", 1.0, 0.0},
         {"10 m", 10.0, 0.0},  {"100 m", 100.0, 0.0},   {"1 km", 1000.0, 0.0}};
-    const double side = scene != NULL ? alpi_doctor_longest_side(scene) : 0.0;
+    if (scene == NULL) {
+        return 0;
+    }
+    const double side = alpi_doctor_longest_side(scene);
     uint32_t count = 0;
     if (!(side > 0.0) ||
         (!scene->unit_assumed && side >= SMALLEST_BELIEVED && side <= LARGEST_BELIEVED)) {

@@ -84,6 +84,7 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
     snprintf(owner, sizeof owner, "texture %zu", index);
     ALP_TRY(alpi_gltf_index(document, entry, "sampler", "samplers", owner, &sampler));
     ALP_TRY(find_image(from, entry, owner, &image));
+    texture->lost = image == ALPI_GLTF_NONE || uv_set >= ALPI_UV_SET_LIMIT;
     if (image == ALPI_GLTF_NONE) {
         return ALP_OK;
     }

@@ -201,6 +201,7 @@ static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, al
                   "%s: line %llu: \"%s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT ": "
                   "the colour of %s is used alone",
                   t->path, (unsigned long long)t->line, shown, what + 4);
+        texture->lost = true;
         return ALP_OK;
     }
     alp_result result = alpi_obj_names_add(r->images, path, strlen(path), &texture->image, &added);

@@ -19,6 +19,7 @@ typedef struct alpi_texture {
     uint32_t uv_set;
     alpi_wrap wrap_u, wrap_v;
     float offset[2], scale[2], rotation; // radians, counter-clockwise as KHR_texture_transform
+    bool lost; // without an image because that could not be used: the factor stands for it
 } alpi_texture;
 
 typedef enum alpi_alpha_mode {

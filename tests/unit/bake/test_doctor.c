@@ -275,6 +275,9 @@ static void colours_that_take_no_light(void **state)
     scene->materials[0].base_color_texture = alpi_texture_none();
     scene->images = NULL;
     scene->image_count = 0;
+    scene->materials[0].base_color_texture.lost = true;
+    has_none(scene);
+    scene->materials[0].base_color_texture.lost = false;
     scene->materials[0].metallic = 1.0f; // no diffuse colour
     has_none(scene);
     scene->materials[0].metallic = 0.0f;
