@@ -246,7 +246,7 @@ static void refused(void **state)
         test_message_has(context, cases[i].words);
     }
     // before the first newmtl, and values out of range
-    alp_scene *scene = read_with(context, folder, "Kd 1 nan 1\nnewmtl a\nKd 7 -1 1e300\nd 2\n",
+    alp_scene *scene = read_with(context, folder, "Kd 1 nan 1\nnewmtl a\nKd 7 -1 1e38\nd 2\n",
                                  "mtllib a.mtl\nusemtl a\n" TRIANGLE);
     check_color(material_of(scene, 0)->base_color, 1, 0, 1);
     assert_true(test_log_has("material-range"));
