@@ -32,6 +32,8 @@ static alp_result find_archived(alpi_collada_document *d, char **name)
             from += strspn(from, " \t\r\n");
             from += strncmp(from, "./", 2) == 0 ? 2 : 0;
             size_t length = to > from ? (size_t)(to - from) : 0;
+            const char *part = memchr(from, '#', length); // an element may be named: all is read
+            length = part != NULL ? (size_t)(part - from) : length;
             while (length > 0 && strchr(" \t\r\n", from[length - 1]) != NULL) {
                 length--;
             }

@@ -72,6 +72,7 @@ typedef struct alpi_collada_patcher {
     char *const *light_names; // the same of light
     bool *page_used;          // [page_count]
     uint64_t foreign_sets;    // bit n: something else than our maps reads coordinate set n
+    uint32_t foreign_set_end; // one past the highest of them
     bool foreign_sets_known;
     alpi_bytes images, effects, materials; // what the libraries gain
 } alpi_collada_patcher;
@@ -100,6 +101,9 @@ void alpi_collada_print_geometry_id(const alpi_collada_patcher *patcher, uint32_
 /// needs it; else NULL.
 bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada_class *class_of,
                                uint32_t *number, const xmlNode **source);
+/// The first set from `number` on that nothing else than our maps reads anywhere: a texture bound
+/// to a set that is not there must not come to read ours.
+uint32_t alpi_collada_free_set(alpi_collada_patcher *patcher, uint32_t number);
 /// The <input> of a primitive's highest TEXCOORD where an earlier bake wrote it and its indices are
 /// read by no other; NULL else.
 const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,

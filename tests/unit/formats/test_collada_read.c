@@ -304,6 +304,52 @@ static void coordinate_sets(void **state)
     alp_context_destroy(context);
 }
 
+#define BOUND_TO_SET(sources, inputs, set)                                                         \
+    "<library_images><image id='i'><init_from>i.png</init_from></image></library_images>"          \
+    "<library_effects><effect id='e'><profile_COMMON><newparam sid='u'><surface type='2D'>"        \
+    "<init_from>i</init_from></surface></newparam><newparam sid='w'><sampler2D><source>u</source>" \
+    "</sampler2D></newparam><technique sid='t'><lambert><diffuse><texture texture='w' texcoord"    \
+    "='C'/></diffuse></lambert></technique></profile_COMMON></effect></library_effects>"           \
+    "<library_materials><material id='m'><instance_effect url='#e'/></material>"                   \
+    "</library_materials>" TEST_COLLADA_SQUARE(                                                    \
+        sources "<triangles material='S' count='1'>" TEST_COLLADA_INPUT inputs                     \
+                "<p>0 0 1 1 2 2</p>"                                                               \
+                "</triangles>") "<library_visual_scenes><visual_scene "                            \
+                                "id='s'><node><instance_geometry url='#g'>"                        \
+                                "<bind_material><technique_common><instance_material symbol='S' "  \
+                                "target='#m'>"                                                     \
+                                "<bind_vertex_input semantic='C' input_semantic='TEXCOORD' "       \
+                                "input_set='" set "'/>"                                            \
+                                "</instance_material></technique_common></bind_material></"        \
+                                "instance_geometry></node>"                                        \
+                                "</visual_scene></library_visual_scenes>" TEST_COLLADA_SCENE
+
+/// A texture bound to a set that is not there reads the only one, as of exporters that count from
+/// 1; of two nothing says which, so it is left out and told.
+static void sets_that_are_not_there(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_log_clear();
+    alp_scene *scene = read_good(
+        context,
+        BOUND_TO_SET(UV_SOURCE("a"), "<input semantic='TEXCOORD' source='#a' offset='1'/>", "1"));
+    assert_int_equal(scene->materials[0].base_color_texture.image, 0);
+    assert_int_equal(scene->materials[0].base_color_texture.uv_set, 0);
+    assert_int_equal(test_log_has("uv-set"), 0);
+    alp_scene_destroy(scene);
+    scene = read_good(context,
+                      BOUND_TO_SET(UV_SOURCE("a"),
+                                   "<input semantic='TEXCOORD' source='#a' offset='1' set='0'/>"
+                                   "<input semantic='TEXCOORD' source='#a' offset='1' set='1'/>",
+                                   "2"));
+    assert_int_equal(scene->materials[0].base_color_texture.image, ALPI_NONE);
+    assert_int_equal(test_log_has("uv-set"), 1);
+    assert_non_null(strstr(test_log_text(), "<bind_vertex_input>"));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 #define PLACED(thing)                                                                              \
     "<library_visual_scenes><visual_scene id='s'><node><translate>0 0 2</translate>" thing         \
     "</node><node><instance_geometry "                                                             \
@@ -399,11 +445,17 @@ static void utf16(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(primitives),     cmocka_unit_test(strips_keep_their_side),
-        cmocka_unit_test(axes_and_units), cmocka_unit_test(transforms),
-        cmocka_unit_test(mirrored),       cmocka_unit_test(numbers),
-        cmocka_unit_test(materials),      cmocka_unit_test(coordinate_sets),
-        cmocka_unit_test(lights),         cmocka_unit_test(cameras),
+        cmocka_unit_test(primitives),
+        cmocka_unit_test(strips_keep_their_side),
+        cmocka_unit_test(axes_and_units),
+        cmocka_unit_test(transforms),
+        cmocka_unit_test(mirrored),
+        cmocka_unit_test(numbers),
+        cmocka_unit_test(materials),
+        cmocka_unit_test(coordinate_sets),
+        cmocka_unit_test(sets_that_are_not_there),
+        cmocka_unit_test(lights),
+        cmocka_unit_test(cameras),
         cmocka_unit_test(utf16),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
