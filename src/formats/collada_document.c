@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada_ids.h"
+#include "formats/outside.h"
 
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
@@ -38,6 +39,7 @@ static alp_result find_archived(alpi_collada_document *d, char **name)
                 length--;
             }
             *name = alpi_format(d->context, "%.*s", (int)length, from);
+            (void)(*name != NULL && alpi_uri_decode(*name)); // else there is none of that name
         }
         alpi_release(d->context, manifest);
     }

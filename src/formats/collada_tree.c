@@ -207,34 +207,16 @@ alp_result alpi_collada_fail(const alpi_collada_document *d, const xmlNode *node
 
 // --- files ---------------------------------------------------------------------------------------
 
-static int hex_value(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
-/// %XX and the other slash, in place; a leading "./" goes. False for an escaped zero byte.
+/// Escapes and the other slash, in place; a leading "./" goes. False for an escaped zero byte.
 static bool decode_path(char *text)
 {
-    char *out = text;
-    const char *in = strncmp(text, "./", 2) == 0 ? text + 2 : text;
-    for (; *in != '\0'; in++) {
-        const int high = *in == '%' ? hex_value(in[1]) : -1;
-        const int low = high >= 0 ? hex_value(in[2]) : -1;
-        if (low < 0) {
-            *out++ = (char)(*in == '\\' ? '/' : *in);
-            continue;
-        }
-        if (high == 0 && low == 0) {
-            return false;
-        }
-        *out++ = (char)(high * 16 + low);
-        in += 2;
+    if (strncmp(text, "./", 2) == 0) {
+        memmove(text, text + 2, strlen(text + 2) + 1);
     }
-    *out = '\0';
-    return true;
+    for (char *c = text; (c = strchr(c, '\\')) != NULL;) {
+        *c = '/';
+    }
+    return alpi_uri_decode(text);
 }
 
 /// Names of drives and schemes stay out; inside an archive there is nothing outside.

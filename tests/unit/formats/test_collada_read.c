@@ -4,6 +4,7 @@
 #include "test_collada.h"
 #include "test_gltf.h"
 
+#include "base/memory.h"
 #include "formats/collada_numbers.h"
 #include "formats/collada_read.h"
 
@@ -442,6 +443,47 @@ static void utf16(void **state)
     alp_context_destroy(context);
 }
 
+/// The same warning as of other formats, which the doctor knows.
+static void crossed_faces(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    test_log_clear();
+    alp_scene_destroy(read_good(context,
+                                TEST_COLLADA_MESH("0 0 0 4 0 0 0 1 0 3 3 0", "12", "4",
+                                                  "<polylist count='1'>" TEST_COLLADA_INPUT
+                                                  "<vcount>4</vcount><p>0 1 2 3</p></polylist>")
+                                    TEST_COLLADA_SHOWN));
+    assert_int_equal(test_log_has("crossed-faces"), 1);
+    alp_context_destroy(context);
+}
+
+/// A manifest names the document that counts, perhaps an element in it, as an address has it.
+static void manifests(void **state)
+{
+    (void)state;
+    static const char *const roots[] = {"./sub/b.dae", "./sub/b.dae#x", " sub/b.dae#x ",
+                                        "sub/%62.dae"};
+    alp_context *context = test_context(1);
+    size_t size;
+    char *text = test_collada_text(TRIANGLE TEST_COLLADA_SHOWN, &size);
+    for (size_t i = 0; i < sizeof roots / sizeof *roots; i++) {
+        char *manifest =
+            alpi_format(context, "<?xml version=\"1.0\"?>\n<dae_root>%s</dae_root>", roots[i]);
+        const char *const files[][2] = {
+            {"a.dae", "another document"}, {"manifest.xml", manifest}, {"sub/b.dae", text}};
+        uint8_t *zip = test_collada_zip(files, 3, &size);
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, test_collada_bytes(context, zip, size, &scene));
+        assert_int_equal(scene->triangle_count, 1);
+        alp_scene_destroy(scene);
+        free(zip);
+        alpi_release(context, manifest);
+    }
+    free(text);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -457,6 +499,8 @@ int main(void)
         cmocka_unit_test(lights),
         cmocka_unit_test(cameras),
         cmocka_unit_test(utf16),
+        cmocka_unit_test(manifests),
+        cmocka_unit_test(crossed_faces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
