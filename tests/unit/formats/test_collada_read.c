@@ -346,7 +346,7 @@ static void sets_that_are_not_there(void **state)
                                    "2"));
     assert_int_equal(scene->materials[0].base_color_texture.image, ALPI_NONE);
     assert_int_equal(test_log_has("uv-set"), 1);
-    assert_non_null(strstr(test_log_text(), "<bind_vertex_input>"));
+    assert_non_null(strstr(test_log_text(), "test.dae: line 2, <bind_vertex_input>"));
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
