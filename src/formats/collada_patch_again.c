@@ -126,7 +126,7 @@ const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *p, const xmlNo
     return found;
 }
 
-static bool was_baked(const alpi_collada_document *d)
+bool alpi_collada_was_baked(const alpi_collada_document *d)
 {
     const xmlNode *extra = alpi_xml_child(d->root, "extra");
     for (; extra != NULL; extra = alpi_xml_next(extra, "extra")) {
@@ -181,7 +181,7 @@ bool alpi_collada_find_own_set(alpi_collada_patcher *p, const alpi_collada_class
 {
     const xmlNode *mesh = alpi_xml_child(class_of->geometry, "mesh");
     *source = NULL;
-    if (p->patch->corner_uvs == NULL || !was_baked(p->document)) {
+    if (p->patch->corner_uvs == NULL || !alpi_collada_was_baked(p->document)) {
         return false;
     }
     uint32_t count = 0;

@@ -266,6 +266,16 @@ static void light_comes_first(void **state)
             assert_true(ours != NULL && theirs != NULL && vertex != NULL);
             assert_true(as_light == 1 ? ours < theirs : ours > theirs && ours > vertex);
             assert_null(strstr(ours + 1, wanted)); // not one for each round
+            const char *image = strstr(text, "<image id=\"alpenglow");
+            const char *param = strstr(text, "<newparam sid=\"alpenglow");
+            param = param != NULL ? strstr(param + 1, "<newparam sid=\"alpenglow") : NULL;
+            assert_true(image != NULL && param != NULL); // a surface and a sampler
+            assert_null(strstr(image + 1, "<image id=\"alpenglow"));
+            assert_null(strstr(param + 1, "<newparam sid=\"alpenglow"));
+            const char *strength = strstr(text, "<emission_strength>");
+            assert_int_equal(strength != NULL, as_light);
+            assert_true(strength == NULL || strstr(strength + 1, "<emission_strength>") == NULL);
+            assert_non_null(strstr(text, "<image id=\"i\">"));
             free(text);
         }
     }
