@@ -249,7 +249,7 @@ static void set_that_nothing_names(void **state)
 }
 
 /// Of a material that shows light our coordinates are a primitive's first, also baked again;
-/// without light they come last.
+/// without light they come last. What else the earlier bake left is gone.
 static void light_comes_first(void **state)
 {
     (void)state;
@@ -279,6 +279,11 @@ static void light_comes_first(void **state)
             free(text);
         }
     }
+    char *text = bake_square(context, NULL, path, false); // light stays beside occlusion
+    assert_true(strstr(text, "-light-0\">") != NULL && strstr(text, "-ao-0\">") != NULL);
+    assert_true(strstr(text, "-light-sampler\">") != NULL &&
+                strstr(text, "-ao-sampler\">") != NULL);
+    free(text);
     alpi_release(context, path);
     alp_context_destroy(context);
 }
