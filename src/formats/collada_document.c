@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada_ids.h"
+#include "formats/outside.h"
 
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
@@ -32,10 +33,13 @@ static alp_result find_archived(alpi_collada_document *d, char **name)
             from += strspn(from, " \t\r\n");
             from += strncmp(from, "./", 2) == 0 ? 2 : 0;
             size_t length = to > from ? (size_t)(to - from) : 0;
+            const char *part = memchr(from, '#', length); // an element may be named: all is read
+            length = part != NULL ? (size_t)(part - from) : length;
             while (length > 0 && strchr(" \t\r\n", from[length - 1]) != NULL) {
                 length--;
             }
             *name = alpi_format(d->context, "%.*s", (int)length, from);
+            (void)(*name != NULL && alpi_uri_decode(*name)); // else there is none of that name
         }
         alpi_release(d->context, manifest);
     }

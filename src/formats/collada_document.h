@@ -121,8 +121,8 @@ alp_result alpi_collada_fail(const alpi_collada_document *document, const xmlNod
                              const char *format, ...) ALP_PRINTF(3, 4);
 uint32_t alpi_collada_line(const alpi_collada_document *document, const xmlNode *node);
 uint32_t alpi_collada_line_at(const alpi_collada_document *document, size_t place);
-/// "line 12, geometry "box"" for warnings.
-enum { ALPI_COLLADA_OWNER_SIZE = 160 };
+/// "box.dae: line 12, <geometry> "box"" for warnings.
+enum { ALPI_COLLADA_OWNER_SIZE = 512 };
 void alpi_collada_owner(const alpi_collada_document *document, const xmlNode *node,
                         char owner[ALPI_COLLADA_OWNER_SIZE]);
 

@@ -335,8 +335,33 @@ static void fill_material(alpi_collada_reader *reader, const alpi_collada_effect
     material->double_sided = effect->double_sided;
 }
 
+static bool bound_number(const xmlNode *bind, double *number)
+{
+    const char *set = alpi_xml_attribute(bind, "input_set");
+    *number = 0.0;
+    return set != NULL && alpi_text_number(&set, number);
+}
+
+/// Of a texture bound to a set that is not there, as an exporter writes that counts from 1: the
+/// only set besides that of our own map. ALPI_NONE with none or several.
+static uint32_t only_set(const alpi_collada_reader *reader, const xmlNode *binding,
+                         const alpi_collada_part *part)
+{
+    double ours = -1.0;
+    const xmlNode *bind = alpi_collada_bound_to(reader->document, binding, ALPI_COLLADA_BAKED_UV);
+    const bool baked = bind != NULL && bound_number(bind, &ours);
+    uint32_t found = ALPI_NONE, count = 0;
+    for (uint32_t k = 0; k < part->inputs.uv_count; k++) {
+        if (!baked || (double)part->inputs.uv_numbers[k] != ours) {
+            found = k;
+            count++;
+        }
+    }
+    return count == 1 && part->inputs.uv_left_out == 0 ? found : ALPI_NONE;
+}
+
 /// Our set of the coordinates that an effect calls `texcoord`; the first where nothing is bound.
-static uint32_t find_set(const alpi_collada_reader *reader, const xmlNode *binding,
+static uint32_t find_set(alpi_collada_reader *reader, const xmlNode *binding,
                          const alpi_collada_part *part, const alpi_collada_slot *slot)
 {
     if (slot->image == ALPI_NONE) {
@@ -346,9 +371,8 @@ static uint32_t find_set(const alpi_collada_reader *reader, const xmlNode *bindi
     if (bind == NULL) {
         return part->inputs.uv_count > 0 ? 0 : ALPI_NONE;
     }
-    const char *set = alpi_xml_attribute(bind, "input_set");
     double number = 0.0;
-    if (set != NULL && !alpi_text_number(&set, &number)) {
+    if (!bound_number(bind, &number)) {
         number = 0.0;
     }
     for (uint32_t k = 0; k < part->inputs.uv_count; k++) {
@@ -356,7 +380,11 @@ static uint32_t find_set(const alpi_collada_reader *reader, const xmlNode *bindi
             return k;
         }
     }
-    return ALPI_NONE; // bound to a set that is not there, or is left out
+    const uint32_t only = only_set(reader, binding, part);
+    if (only == ALPI_NONE) {
+        reader->lost_set = reader->lost_sets++ == 0 ? bind : reader->lost_set;
+    }
+    return only;
 }
 
 /// A scene material of that element and those sets: found again, or made.

@@ -304,7 +304,7 @@ static void tell_oddities(const alpi_collada_reader *reader, const alpi_collada_
     }
     alpi_collada_owner(reader->document, part->element, owner);
     if (faces->untidy > 0) {
-        alpi_note(reader->context, "polygon", owner,
+        alpi_warn(reader->context, "crossed-faces", owner,
                   "%u polygons cross themselves or have holes outside: their triangles overlap",
                   faces->untidy);
     }

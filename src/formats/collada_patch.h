@@ -4,6 +4,8 @@
 //   collada_plan.c            which geometries get which coordinates and pages; what must be copied
 //   collada_patch_mesh.c      the new source, inputs, and indices of primitives
 //   collada_patch_material.c  images, effects and materials
+//   collada_patch_again.c     coordinates of an earlier bake, and sets that others read
+//   collada_patch_tidy.c      what else an earlier bake left
 //   collada_patch_instance.c  instances: geometry shown, materials bound, sets bound
 //   collada_patch_text.c      pieces of XML text
 //   collada_write.c           the whole sequence, files
@@ -72,7 +74,11 @@ typedef struct alpi_collada_patcher {
     char *const *light_names; // the same of light
     bool *page_used;          // [page_count]
     uint64_t foreign_sets;    // bit n: something else than our maps reads coordinate set n
+    uint32_t foreign_set_end; // one past the highest of them
     bool foreign_sets_known;
+    bool tidy_known, may_tidy; // whether what an earlier bake left may be taken out
+    bool *removed;             // [elements] taken out
+    bool *image_read;          // [elements] an <image> with an id of ours that something reads
     alpi_bytes images, effects, materials; // what the libraries gain
 } alpi_collada_patcher;
 
@@ -100,6 +106,11 @@ void alpi_collada_print_geometry_id(const alpi_collada_patcher *patcher, uint32_
 /// needs it; else NULL.
 bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada_class *class_of,
                                uint32_t *number, const xmlNode **source);
+/// Whether the document says that we wrote it.
+bool alpi_collada_was_baked(const alpi_collada_document *document);
+/// The first set from `number` on that nothing else than our maps reads anywhere: a texture bound
+/// to a set that is not there must not come to read ours.
+uint32_t alpi_collada_free_set(alpi_collada_patcher *patcher, uint32_t number);
 /// The <input> of a primitive's highest TEXCOORD where an earlier bake wrote it and its indices are
 /// read by no other; NULL else.
 const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,
@@ -113,6 +124,14 @@ const xmlNode *alpi_collada_next_input(const alpi_collada_patcher *patcher,
 /// Puts the text of the new one in its place.
 void alpi_collada_place_input(const alpi_collada_patcher *patcher, alpi_edits *edits,
                               const xmlNode *primitive, const xmlNode *own, const char *text);
+
+// --- collada_patch_tidy.c ------------------------------------------------------------------------
+
+/// Takes parameters of our earlier maps out of an effect whose maps are about to be replaced, and
+/// what their numbers stood for.
+void alpi_collada_tidy_effect(alpi_collada_patcher *patcher, const xmlNode *effect);
+/// Takes our earlier images out that nothing names; last of all.
+void alpi_collada_tidy_images(alpi_collada_patcher *patcher);
 
 // --- collada_patch_material.c --------------------------------------------------------------------
 

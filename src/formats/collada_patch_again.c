@@ -59,8 +59,8 @@ static bool read_number(const alpi_collada_document *document, const xmlNode *no
     return alpi_collada_count(document, node, attribute, 0, 1 << 20, number) == ALP_OK;
 }
 
-/// Whether something else than our maps reads a set; looked up once for all geometries.
-static bool others_read(alpi_collada_patcher *p, uint32_t number)
+/// Which sets something else than our maps reads; looked up once for all geometries.
+static void find_foreign_sets(alpi_collada_patcher *p)
 {
     const alpi_collada_document *d = p->document;
     for (uint32_t i = 0; !p->foreign_sets_known && i < d->element_count; i++) {
@@ -68,12 +68,27 @@ static bool others_read(alpi_collada_patcher *p, uint32_t number)
         uint32_t set = 0;
         if (alpi_xml_is(d->elements[i], "bind_vertex_input") && semantic != NULL &&
             strcmp(semantic, ALPI_COLLADA_BAKED_UV) != 0 &&
-            read_number(d, d->elements[i], "input_set", &set) && set < SET_LIMIT) {
-            p->foreign_sets |= (uint64_t)1 << set;
+            read_number(d, d->elements[i], "input_set", &set)) {
+            p->foreign_sets |= set < SET_LIMIT ? (uint64_t)1 << set : 0;
+            p->foreign_set_end = set >= p->foreign_set_end ? set + 1 : p->foreign_set_end;
         }
     }
     p->foreign_sets_known = true;
+}
+
+static bool others_read(alpi_collada_patcher *p, uint32_t number)
+{
+    find_foreign_sets(p);
     return number >= SET_LIMIT || (p->foreign_sets >> number & 1) != 0;
+}
+
+uint32_t alpi_collada_free_set(alpi_collada_patcher *p, uint32_t number)
+{
+    find_foreign_sets(p);
+    while (number < SET_LIMIT && (p->foreign_sets >> number & 1) != 0) {
+        number++;
+    }
+    return number >= SET_LIMIT && number < p->foreign_set_end ? p->foreign_set_end : number;
 }
 
 const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *p, const xmlNode *primitive,
@@ -111,7 +126,7 @@ const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *p, const xmlNo
     return found;
 }
 
-static bool was_baked(const alpi_collada_document *d)
+bool alpi_collada_was_baked(const alpi_collada_document *d)
 {
     const xmlNode *extra = alpi_xml_child(d->root, "extra");
     for (; extra != NULL; extra = alpi_xml_next(extra, "extra")) {
@@ -166,7 +181,7 @@ bool alpi_collada_find_own_set(alpi_collada_patcher *p, const alpi_collada_class
 {
     const xmlNode *mesh = alpi_xml_child(class_of->geometry, "mesh");
     *source = NULL;
-    if (p->patch->corner_uvs == NULL || !was_baked(p->document)) {
+    if (p->patch->corner_uvs == NULL || !alpi_collada_was_baked(p->document)) {
         return false;
     }
     uint32_t count = 0;

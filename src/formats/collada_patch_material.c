@@ -263,6 +263,7 @@ alp_result alpi_collada_get_material(alpi_collada_patcher *p, uint32_t surface, 
         (p->patch->light == NULL || p->effect_users[alpi_xml_index(effect)] == index + 1)) {
         bool *done = &p->effect_done[alpi_xml_index(effect)];
         if (!*done) {
+            alpi_collada_tidy_effect(p, effect);
             edit_effect(p, effect, index, page, &p->edits);
             *done = true;
         }

@@ -486,7 +486,7 @@ static void part_destroy(alp_context *context, part *a)
     alpi_release(context, a->uv_of_corner);
 }
 
-/// Inputs of all primitives first: the new set is one past theirs.
+/// Inputs of all primitives first: the new set is one past theirs, or a later one.
 static alp_result find_number(work *w)
 {
     alpi_collada_patcher *p = w->patcher;
@@ -506,7 +506,7 @@ static alp_result find_number(work *w)
         corners += 3 * (uint64_t)p->scene->surfaces[s].triangle_count;
     }
     w->again = alpi_collada_find_own_set(p, w->class_of, &w->again_number, &w->old_source);
-    w->uv_number = w->again ? w->again_number : w->uv_number;
+    w->uv_number = w->again ? w->again_number : alpi_collada_free_set(p, w->uv_number);
     return p->patch->corner_uvs != NULL ? make_pool(w, corners) : ALP_OK;
 }
 

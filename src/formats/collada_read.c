@@ -359,6 +359,14 @@ static void tell_oddities(const alpi_collada_reader *r)
                   "%u; taken as opaque",
                   r->odd_alpha);
     }
+    if (r->lost_sets > 0) {
+        char owner[ALPI_COLLADA_OWNER_SIZE];
+        alpi_collada_owner(r->document, r->lost_set, owner);
+        alpi_warn(context, "uv-set", owner,
+                  "textures left out because they are bound to a coordinate set that their "
+                  "primitive does not have, this one first: %u; correct the input_set",
+                  r->lost_sets);
+    }
 }
 
 static alp_result fill_scene(alpi_collada_reader *reader, alpi_collada_origin *origin)

@@ -167,7 +167,9 @@ typedef struct alpi_collada_reader {
     mat4 root; // file → metres, +Y up
     double metres_per_unit;
     // for one note a file each
-    uint32_t skinned, morphed, not_triangles, not_meshes, without_material, odd_alpha, outside;
+    uint32_t skinned, morphed, not_triangles, not_meshes, without_material, odd_alpha, outside,
+        lost_sets;
+    const xmlNode *lost_set; // the first <bind_vertex_input> of a set that is not there
 } alpi_collada_reader;
 
 /// Makes room for one more item; the arrays of the reader grow so.

@@ -182,13 +182,26 @@ static void clean(char *text)
     }
 }
 
+/// Bytes of a text that fit into `most`, none of its characters cut.
+static int fitting(const char *text, size_t most)
+{
+    size_t length = strnlen(text, most);
+    while (length == most && length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80) {
+        length--;
+        most--;
+    }
+    return (int)length;
+}
+
 void alpi_collada_owner(const alpi_collada_document *d, const xmlNode *node,
                         char owner[ALPI_COLLADA_OWNER_SIZE])
 {
     const char *id = alpi_xml_attribute(node, "id");
-    snprintf(owner, ALPI_COLLADA_OWNER_SIZE, "line %u, <%.40s>%s%.60s%s",
-             alpi_collada_line(d, node), (const char *)node->name, id != NULL ? " \"" : "",
-             id != NULL ? id : "", id != NULL ? "\"" : "");
+    const char *name = (const char *)node->name, *shown = id != NULL ? id : "";
+    const char *quote = id != NULL ? "\"" : "";
+    snprintf(owner, ALPI_COLLADA_OWNER_SIZE, "%.*s: line %u, <%.*s>%s%s%.*s%s",
+             fitting(d->path, 360), d->path, alpi_collada_line(d, node), fitting(name, 40), name,
+             id != NULL ? " " : "", quote, fitting(shown, 60), shown, quote);
     clean(owner);
 }
 
@@ -202,39 +215,21 @@ alp_result alpi_collada_fail(const alpi_collada_document *d, const xmlNode *node
     vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
     clean(reason);
-    return alpi_fail(d->context, ALP_ERROR_INVALID_DATA, "%s: %s: %s", d->path, owner, reason);
+    return alpi_fail(d->context, ALP_ERROR_INVALID_DATA, "%s: %s", owner, reason);
 }
 
 // --- files ---------------------------------------------------------------------------------------
 
-static int hex_value(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
-/// %XX and the other slash, in place; a leading "./" goes. False for an escaped zero byte.
+/// Escapes and the other slash, in place; a leading "./" goes. False for an escaped zero byte.
 static bool decode_path(char *text)
 {
-    char *out = text;
-    const char *in = strncmp(text, "./", 2) == 0 ? text + 2 : text;
-    for (; *in != '\0'; in++) {
-        const int high = *in == '%' ? hex_value(in[1]) : -1;
-        const int low = high >= 0 ? hex_value(in[2]) : -1;
-        if (low < 0) {
-            *out++ = (char)(*in == '\\' ? '/' : *in);
-            continue;
-        }
-        if (high == 0 && low == 0) {
-            return false;
-        }
-        *out++ = (char)(high * 16 + low);
-        in += 2;
+    if (strncmp(text, "./", 2) == 0) {
+        memmove(text, text + 2, strlen(text + 2) + 1);
     }
-    *out = '\0';
-    return true;
+    for (char *c = text; (c = strchr(c, '\\')) != NULL;) {
+        *c = '/';
+    }
+    return alpi_uri_decode(text);
 }
 
 /// Names of drives and schemes stay out; inside an archive there is nothing outside.

@@ -108,7 +108,7 @@ static void patcher_destroy(alpi_collada_patcher *p)
     }
     void *const owned[] = {p->pages,     p->baked,        p->first_surfaces, p->placement_class,
                            p->classes,   p->effect_pages, p->effect_done,    p->made,
-                           p->page_used, p->effect_users};
+                           p->page_used, p->effect_users, p->removed,        p->image_read};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(p->context, owned[i]);
     }
@@ -172,12 +172,15 @@ static void state_origin(alpi_collada_patcher *p)
 static alp_result run_patcher(alpi_collada_patcher *p)
 {
     ALPI_TRY_NEW(p->context, p->page_used, p->patch->page_count);
+    ALPI_TRY_NEW(p->context, p->removed, p->document->element_count);
+    ALPI_TRY_NEW(p->context, p->image_read, p->document->element_count);
     ALP_TRY(alpi_collada_plan(p));
     ALP_TRY(alpi_collada_plan_effects(p));
     for (uint32_t c = 0; c < p->class_count; c++) {
         ALP_TRY(alpi_collada_patch_geometry(p, c));
     }
     ALP_TRY(alpi_collada_patch_instances(p));
+    alpi_collada_tidy_images(p);
     alpi_collada_add_images(p);
     add_to_library(p, "library_images", &p->images);
     add_to_library(p, "library_effects", &p->effects);
@@ -277,8 +280,9 @@ static alp_result add_image_copy(writing *w, const alpi_collada_document *d, con
 
 /// Images that the document names by relative paths go with it to another folder, as a .gltf's do;
 /// those of an archive come out of it.
-static alp_result add_image_copies(writing *w, const alpi_collada_document *d)
+static alp_result add_image_copies(writing *w, const alpi_collada_patcher *p)
 {
+    const alpi_collada_document *d = p->document;
     char *folder = alpi_path_folder(w->context, w->path);
     if (folder == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -286,7 +290,7 @@ static alp_result add_image_copies(writing *w, const alpi_collada_document *d)
     const bool moved = d->archive != NULL || !alpi_gltf_same_folder(folder, d->folder);
     alp_result result = ALP_OK;
     for (uint32_t i = 0; moved && result == ALP_OK && i < d->element_count; i++) {
-        if (!alpi_xml_is(d->elements[i], "image")) {
+        if (!alpi_xml_is(d->elements[i], "image") || p->removed[i]) {
             continue;
         }
         const xmlNode *from = alpi_xml_child(d->elements[i], "init_from");
@@ -304,7 +308,7 @@ static alp_result add_image_copies(writing *w, const alpi_collada_document *d)
 static alp_result write_files(writing *w, const alpi_collada_patcher *p, const alpi_bytes *text)
 {
     ALP_TRY(add_maps(w, p));
-    ALP_TRY(add_image_copies(w, p->document));
+    ALP_TRY(add_image_copies(w, p));
     ALP_TRY(add_file(w, w->path, text->bytes, text->size));
     ALP_TRY(alpi_gltf_files_make_folders(&w->files));
     return alpi_gltf_files_add_to(&w->files, w->set);

@@ -76,35 +76,6 @@ static alp_result read_data_uri(const alpi_gltf_document *document, const char *
 
 // --- files beside the asset ---------------------------------------------------------------------
 
-static int hex_value(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
-/// Decodes %XX in place; a sign that is no escape stays. False for an escaped zero byte.
-static bool percent_decode(char *text)
-{
-    char *out = text;
-    for (const char *in = text; *in != '\0'; in++) {
-        int high = *in == '%' ? hex_value(in[1]) : -1;
-        int low = high >= 0 ? hex_value(in[2]) : -1;
-        if (low < 0) {
-            *out++ = *in;
-            continue;
-        }
-        if (high == 0 && low == 0) {
-            return false;
-        }
-        *out++ = (char)(high * 16 + low);
-        in += 2;
-    }
-    *out = '\0';
-    return true;
-}
-
 /// "http:", "file:", "C:" … : letters before the first colon and before any slash.
 static bool has_scheme(const char *uri)
 {
@@ -130,7 +101,7 @@ alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *ur
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
-    if (percent_decode(name)) {
+    if (alpi_uri_decode(name)) {
         result = alpi_outside_path(document->context, document->folder, name, path);
     }
     if (result == ALP_OK && *path == NULL) {

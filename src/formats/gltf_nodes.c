@@ -148,7 +148,7 @@ static alp_result refuse_choice(const alpi_gltf_reader *reader, size_t count)
 {
     enum { TOLD = 8 };
     const alpi_gltf_document *document = reader->document;
-    char list[400] = "", choice[100];
+    char list[400] = "", choice[100], numbers[80] = "it has none";
     size_t used = 0;
     for (size_t i = 0; i < count && i < TOLD && used < sizeof list; i++) {
         const char *name = alpi_gltf_text(alpi_gltf_item(document, "scenes", i), "name");
@@ -156,12 +156,16 @@ static alp_result refuse_choice(const alpi_gltf_reader *reader, size_t count)
                                  i > 0 ? ", " : "", i, name != NULL ? " \"" : "",
                                  name != NULL ? name : "", name != NULL ? "\"" : "");
     }
+    if (count == 1) {
+        snprintf(numbers, sizeof numbers, "its only one is ");
+    } else if (count > 1) {
+        snprintf(numbers, sizeof numbers, "its scenes are numbered 0 to %zu: ", count - 1);
+    }
     snprintf(choice, sizeof choice, "%s", reader->choice);
     alpi_gltf_clean(choice);
     alpi_gltf_clean(list);
-    return alpi_fail(reader->context, ALP_ERROR_INVALID_ARGUMENT,
-                     "%s: has no scene \"%s\"; it has %s%s", document->path, choice,
-                     count == 0 ? "none" : list, count > TOLD ? " and more" : "");
+    return alpi_fail(reader->context, ALP_ERROR_INVALID_ARGUMENT, "%s: has no scene \"%s\"; %s%s%s",
+                     document->path, choice, numbers, list, count > TOLD ? " and more" : "");
 }
 
 /// The scene that was asked for, else the default one, else the first.

@@ -7,6 +7,34 @@
 #include <string.h>
 #include <strings.h>
 
+static int hex_value(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+bool alpi_uri_decode(char *text)
+{
+    char *out = text;
+    for (const char *in = text; *in != '\0'; in++) {
+        const int high = *in == '%' ? hex_value(in[1]) : -1;
+        const int low = high >= 0 ? hex_value(in[2]) : -1;
+        if (low < 0) {
+            *out++ = *in;
+            continue;
+        }
+        if (high == 0 && low == 0) {
+            return false;
+        }
+        *out++ = (char)(high * 16 + low);
+        in += 2;
+    }
+    *out = '\0';
+    return true;
+}
+
 bool alpi_path_stays_below(const char *path)
 {
     if (path[0] == '\0' || path[0] == '/' || path[0] == '\\') {

@@ -9,6 +9,9 @@
 /// Ends messages about a file that lies outside.
 #define ALPI_OUTSIDE_HINT "only files below it are read, unless --allow-outside"
 
+/// Decodes %XX in place; a sign that is no escape stays. False for an escaped zero byte.
+bool alpi_uri_decode(char *text);
+
 /// Whether a relative path never climbs: no empty name, no "/…", no ".." part (either slash).
 bool alpi_path_stays_below(const char *path);
 

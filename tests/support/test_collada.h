@@ -28,6 +28,8 @@
 
 /// The whole document with this inside <COLLADA>; released with free.
 char *test_collada_text(const char *inside, size_t *size);
+/// A zip archive of stored files, names and texts in turn; released with free.
+uint8_t *test_collada_zip(const char *const (*files)[2], size_t count, size_t *size);
 /// Reads bytes as "test.dae".
 alp_result test_collada_bytes(alp_context *context, const void *bytes, size_t size,
                               alp_scene **scene);

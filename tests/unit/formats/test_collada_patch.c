@@ -155,6 +155,139 @@ static void baked_again(void **state)
     alp_context_destroy(context);
 }
 
+#define TEXTURED_SET(input_set, set)                                                               \
+    "<library_images><image id='i'><init_from>i.png</init_from></image></library_images>"          \
+    "<library_effects><effect id='e'><profile_COMMON><newparam sid='u'><surface type='2D'>"        \
+    "<init_from>i</init_from></surface></newparam><newparam sid='w'><sampler2D><source>u</source>" \
+    "</sampler2D></newparam><technique sid='t'><lambert><diffuse><texture texture='w' texcoord"    \
+    "='C'/></diffuse></lambert></technique></profile_COMMON></effect></library_effects>"           \
+    "<library_materials><material id='m'><instance_effect url='#e'/></material>"                   \
+    "</library_materials>" TEST_COLLADA_SQUARE(                                                    \
+        "<source id='t'><float_array id='ta' count='4'>0 0 1 1</float_array><technique_common>"    \
+        "<accessor source='#ta' count='2' stride='2'><param name='S'/><param name='T'/>"           \
+        "</accessor></technique_common></source><polylist material='S' count='1'>"                 \
+        "<input semantic='TEXCOORD' source='#t' offset='1'" set "/>" TEST_COLLADA_INPUT            \
+        "<vcount>4</vcount><p>0 0 1 1 2 0 3 1</p></polylist>") "<library_visual_scenes><visual_"   \
+                                                               "scene "                            \
+                                                               "id='s'><node><instance_geometry "  \
+                                                               "url='#g'>"                         \
+                                                               "<bind_material><technique_common>" \
+                                                               "<instance_material symbol='S' "    \
+                                                               "target='#m'>"                      \
+                                                               "<bind_vertex_input semantic='C' "  \
+                                                               "input_semantic='TEXCOORD' "        \
+                                                               "input_set='" input_set "'/>"       \
+                                                               "</instance_material></"            \
+                                                               "technique_common></"               \
+                                                               "bind_material></"                  \
+                                                               "instance_geometry></node>"         \
+                                                               "</visual_scene></"                 \
+                                                               "library_visual_"                   \
+                                                               "scenes>" TEST_COLLADA_SCENE
+
+/// Bakes occlusion or light into `from` or, without it, into what stands there; the new text.
+static char *bake_square(alp_context *context, const char *from, const char *path, bool as_light)
+{
+    static const float uvs[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+    static const float scales[] = {1, 1};
+    const uint8_t *const pngs[] = {(const uint8_t *)"x"};
+    const size_t sizes[] = {1};
+    const alpi_light_patch light = {
+        .pages = pngs, .page_sizes = sizes, .ending = ".png", .scales = scales, .units = "nit"};
+    const alpi_mesh_patch patch = {.page_count = 1,
+                                   .corner_uvs = uvs,
+                                   .page_pngs = as_light ? NULL : pngs,
+                                   .page_png_sizes = as_light ? NULL : sizes,
+                                   .light = as_light ? &light : NULL,
+                                   .extras_json = "{}"};
+    size_t size;
+    if (from != NULL) {
+        char *text = test_collada_text(from, &size);
+        ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
+        free(text);
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    assert_int_equal(scene->triangle_count, 2);
+    ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, path, true));
+    alp_scene_destroy(scene);
+    return (char *)test_read_file(path, &size);
+}
+
+/// A texture bound to a set that is not there must not come to read our coordinates: they get a
+/// number that nothing else names. Read again, it has its own set still.
+static void set_that_nothing_names(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {TEXTURED_SET("1", ""), TEXTURED_SET("70", " set='69'")};
+    static const char *const sets[] = {"2", "71"}; // 1 is free of inputs, but not of readers
+    alp_context *context = test_context(1);
+    char *path = alpi_format(context, "%s/named.dae", test_folder());
+    for (int i = 0; i < 2; i++) {
+        char *text = bake_square(context, texts[i], path, false);
+        char *input =
+            alpi_format(context, "source=\"#alpenglow-uv-0\" offset=\"2\" set=\"%s\"/>", sets[i]);
+        char *bind = alpi_format(context,
+                                 "semantic=\"ALPENGLOW\" input_semantic=\"TEXCOORD\" "
+                                 "input_set=\"%s\"/>",
+                                 sets[i]);
+        assert_non_null(strstr(text, input));
+        assert_non_null(strstr(text, bind));
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alp_scene_load(context, path, &scene));
+        const alpi_material *material = &scene->materials[scene->surfaces[0].material];
+        assert_int_not_equal(material->base_color_texture.image, ALPI_NONE);
+        assert_int_equal(material->base_color_texture.uv_set, 0);
+        assert_int_equal(material->occlusion_texture.uv_set, 1);
+        alp_scene_destroy(scene);
+        alpi_release(context, input);
+        alpi_release(context, bind);
+        free(text);
+    }
+    alpi_release(context, path);
+    alp_context_destroy(context);
+}
+
+/// Of a material that shows light our coordinates are a primitive's first, also baked again;
+/// without light they come last. What else the earlier bake left is gone.
+static void light_comes_first(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    char *path = alpi_format(context, "%s/first.dae", test_folder());
+    for (int as_light = 0; as_light < 2; as_light++) {
+        for (int round = 0; round < 2; round++) {
+            const char *from = round == 0 ? TEXTURED_SET("0", " set='0'") : NULL;
+            char *text = bake_square(context, from, path, as_light == 1);
+            static const char wanted[] = "<input semantic=\"TEXCOORD\" source=\"#alpenglow";
+            const char *ours = strstr(text, wanted);
+            const char *theirs = strstr(text, "<input semantic=\"TEXCOORD\" source=\"#t\"");
+            const char *vertex = strstr(text, "<input semantic=\"VERTEX\"");
+            assert_true(ours != NULL && theirs != NULL && vertex != NULL);
+            assert_true(as_light == 1 ? ours < theirs : ours > theirs && ours > vertex);
+            assert_null(strstr(ours + 1, wanted)); // not one for each round
+            const char *image = strstr(text, "<image id=\"alpenglow");
+            const char *param = strstr(text, "<newparam sid=\"alpenglow");
+            param = param != NULL ? strstr(param + 1, "<newparam sid=\"alpenglow") : NULL;
+            assert_true(image != NULL && param != NULL); // a surface and a sampler
+            assert_null(strstr(image + 1, "<image id=\"alpenglow"));
+            assert_null(strstr(param + 1, "<newparam sid=\"alpenglow"));
+            const char *strength = strstr(text, "<emission_strength>");
+            assert_int_equal(strength != NULL, as_light);
+            assert_true(strength == NULL || strstr(strength + 1, "<emission_strength>") == NULL);
+            assert_non_null(strstr(text, "<image id=\"i\">"));
+            free(text);
+        }
+    }
+    char *text = bake_square(context, NULL, path, false); // light stays beside occlusion
+    assert_true(strstr(text, "-light-0\">") != NULL && strstr(text, "-ao-0\">") != NULL);
+    assert_true(strstr(text, "-light-sampler\">") != NULL &&
+                strstr(text, "-ao-sampler\">") != NULL);
+    free(text);
+    alpi_release(context, path);
+    alp_context_destroy(context);
+}
+
 /// Images that the document names below its folder go with it to another one; those that are there
 /// already are kept, and what cannot be copied stays a reference.
 static void images_go_along(void **state)
@@ -219,7 +352,8 @@ static void other_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mirrored_twice), cmocka_unit_test(images_go_along),
-        cmocka_unit_test(baked_again), cmocka_unit_test(other_scenes)};
+        cmocka_unit_test(mirrored_twice),    cmocka_unit_test(images_go_along),
+        cmocka_unit_test(baked_again),       cmocka_unit_test(set_that_nothing_names),
+        cmocka_unit_test(light_comes_first), cmocka_unit_test(other_scenes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
