@@ -171,7 +171,7 @@ static const xmlNode *find_source(const alpi_collada_patcher *p, const xmlNode *
         }
     }
     const xmlNode *found = url != NULL ? alpi_collada_find(p->document, url + 1) : NULL;
-    const bool removable = alpi_xml_is(found, "source") && found->parent == mesh &&
+    const bool removable = found != NULL && alpi_xml_is(found, "source") && found->parent == mesh &&
                            !others_name_it(alpi_xml_child(mesh, "vertices"), NULL, url);
     return removable ? found : NULL;
 }

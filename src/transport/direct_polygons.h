@@ -48,13 +48,13 @@ typedef struct alpi_polygon_gather {
     uint64_t rays; // sent: added to
     /// Out: form factor × visibility, summed over the samples of each replicate.
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
+    bool above;        // its own: rays go to what is above the horizon alone
     bool by_direction; // then this too:
     alpi_polygon_directional directional[ALPI_PACKET][ALPI_POLYGON_LIMIT];
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint32_t mixed[ALPI_POLYGON_LIMIT];                       // bit i: scouts of lane i disagreed
     uint32_t missed[ALPI_POLYGON_LIMIT]; // bit i: no ray of lane i went to what it sees
-    bool above;                          // rays go to what is above the horizon alone
     uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;

@@ -360,9 +360,9 @@ static void counts_that_differ(void **state)
         at++;
     }
     const unsigned char digit = bytes[at - 1]; // the last of its count
-    for (unsigned char other = '0'; other <= '9'; other++) {
+    for (int other = '0'; other <= '9'; other++) {
         if (other != digit) {
-            bytes[at - 1] = other;
+            bytes[at - 1] = (unsigned char)other;
             assert_int_equal(read_bytes(context, bytes, size), ALP_ERROR_INVALID_DATA);
             test_message_has(context, "TEXCOORD_0 (accessor 2) has");
         }
