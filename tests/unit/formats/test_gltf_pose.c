@@ -195,7 +195,8 @@ static void choice_of_a_scene(void **state)
         alp_result result = alp_scene_load_choice(context, path, cases[i].choice, &scene);
         if (cases[i].x < 0) {
             assert_int_equal(result, ALP_ERROR_INVALID_ARGUMENT);
-            test_message_has(context, "it has 0 \"kitchen\", 1, 2 \"bath\"");
+            test_message_has(context,
+                             "its scenes are numbered 0 to 2: 0 \"kitchen\", 1, 2 \"bath\"");
             continue;
         }
         assert_int_equal(result, ALP_OK);
