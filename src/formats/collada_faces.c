@@ -153,7 +153,7 @@ static alp_result check_indices(const work *w)
 {
     static const char *const names[] = {"vertex", "normal", "colour", "texture coordinate"};
     for (uint32_t k = 0; k < ALPI_COLLADA_KEY_COUNT; k++) {
-        if (w->inputs->source[k] == ALPI_NONE) {
+        if (w->inputs->source[k] == ALPI_NONE || w->faces->corner_count == 0) {
             continue;
         }
         const uint32_t count = w->reader->sources[w->inputs->source[k]].count;
