@@ -215,24 +215,34 @@ static int bench_texts(const bench_options *options)
 
 // --- ready to trace ------------------------------------------------------------------------------
 
-/// A field of hills as a GLB in a temporary file. @return its path, NULL after a message
-static const char *write_hills(const char *name)
+enum { PATH_SIZE = 512 };
+
+/// A field of hills as a GLB in a temporary file below $TMPDIR. @param path out; the caller removes
+/// it @return false after a message: nothing is left
+static bool write_hills(const char *name, char path[PATH_SIZE])
 {
-    static char path[] = "/tmp/alpenglow-bench-XXXXXX.glb";
+    const char *folder = getenv("TMPDIR");
     bench_scene hills;
     uint8_t *bytes = NULL;
     size_t size = 0;
+    snprintf(path, PATH_SIZE, "%s/alpenglow-bench-XXXXXX.glb", folder != NULL ? folder : "/tmp");
     if (!bench_scene_open(name, 2, &hills)) {
-        return NULL;
+        return false;
     }
     const int file = mkstemps(path, 4);
-    bool good = file >= 0 && alpi_gltf_export_scene(hills.scene, &bytes, &size) == ALP_OK;
-    FILE *stream = good ? fdopen(file, "wb") : NULL;
-    good = stream != NULL && fwrite(bytes, 1, size, stream) == size;
+    FILE *stream = file >= 0 ? fdopen(file, "wb") : NULL;
+    bool good = stream != NULL && alpi_gltf_export_scene(hills.scene, &bytes, &size) == ALP_OK;
+    good = good && fwrite(bytes, 1, size, stream) == size;
     good = stream != NULL && fclose(stream) == 0 && good;
+    if (!good) {
+        fprintf(stderr, "alpenglow bench: %s: cannot be written\n", path);
+    }
+    if (!good && file >= 0) {
+        (void)remove(path);
+    }
     alpi_release(hills.scene->context, bytes);
     bench_scene_close(&hills);
-    return good ? path : NULL;
+    return good;
 }
 
 /// Seconds from the start of reading a file to a structure that rays can be asked of.
@@ -275,10 +285,10 @@ static int bench_ready(const bench_options *options)
                       "Seconds on two workers from a file to a structure that rays can be asked "
                       "of. Limit: what Embree takes to build it.",
                       "file|M triangles|its bytes|read|build|whole|limit / whole");
-    const char *hills = write_hills(options->quick ? "hills:5000" : "hills:1000000");
-    int code = hills == NULL ||
-               !add_ready(&table, "hills.glb, made", hills, options->quick ? 1 : ROUNDS);
-    if (hills != NULL) {
+    char hills[PATH_SIZE];
+    int code = 1;
+    if (write_hills(options->quick ? "hills:5000" : "hills:1000000", hills)) {
+        code = !add_ready(&table, "hills.glb, made", hills, options->quick ? 1 : ROUNDS);
         (void)remove(hills);
     }
     if (code == 0 && salle != NULL && !options->quick) {

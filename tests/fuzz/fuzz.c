@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/formats.h"
+#include "formats/gltf_read.h"
 
 #include <jansson.h>
 #include <libxml/parser.h>
@@ -297,6 +298,21 @@ const char *fuzz_folder(void)
         atexit(remove_folder);
     }
     return folder_path;
+}
+
+alp_scene *fuzz_gltf_scene(fuzz_run *run, const char *path, uint8_t *bytes, size_t size)
+{
+    alpi_gltf_document *document = NULL;
+    alp_scene *scene = NULL;
+    alp_result result = alpi_gltf_document_parse(run->context, path, bytes, size, &document);
+    fuzz_result(run, result, document);
+    if (document != NULL) {
+        fuzz_decoded(run, document->decoded_size);
+        result = alpi_gltf_scene_from_document(document, &scene);
+        fuzz_scene(run, result, scene);
+        fuzz_peak(run);
+    }
+    return scene;
 }
 
 void fuzz_write_back(fuzz_run *run, const alp_scene *scene, const char *name)

@@ -49,6 +49,9 @@ void fuzz_decoded(fuzz_run *run, uint64_t bytes);
 void fuzz_result(const fuzz_run *run, alp_result result, const void *object);
 /// The same, and the scene; its geometry and images count as decoded.
 void fuzz_scene(fuzz_run *run, alp_result result, const alp_scene *scene);
+/// Reads a glTF asset, whose bytes are taken over, and checks what came of it and the memory until
+/// now. @return its scene, NULL where it was refused
+alp_scene *fuzz_gltf_scene(fuzz_run *run, const char *path, uint8_t *bytes, size_t size);
 /// The same of an image, which is destroyed.
 void fuzz_image(fuzz_run *run, alp_result result, alp_image *image);
 

@@ -5,7 +5,6 @@
 #include "fuzz.h"
 
 #include "base/memory.h"
-#include "formats/gltf_read.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -185,17 +184,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_run run = fuzz_begin(size + json.size);
     size_t glb_size;
     uint8_t *glb = make_glb(&run, &json, size > head ? data + head : NULL, size - head, &glb_size);
-    alpi_gltf_document *document = NULL;
-    alp_scene *scene = NULL;
-    alp_result result =
-        alpi_gltf_document_parse(run.context, "absent/fuzz.glb", glb, glb_size, &document);
-    fuzz_result(&run, result, document);
-    if (document != NULL) {
-        fuzz_decoded(&run, document->decoded_size);
-        result = alpi_gltf_scene_from_document(document, &scene);
-        fuzz_scene(&run, result, scene);
-        fuzz_peak(&run);
-    }
+    alp_scene *scene = fuzz_gltf_scene(&run, "absent/fuzz.glb", glb, glb_size);
     if (scene != NULL && scene->triangle_count < 10000) {
         fuzz_write_back(&run, scene, "out.glb");
     }
