@@ -156,8 +156,9 @@ static void look_between(const alp_atlas *layout, const nearest *n, size_t here,
         q->free = between;
         q->near[0] = a;
         q->near[1] = b;
-        q->gap[0] = ((float)(here % n->width) + 0.5f) / (float)n->width;
-        q->gap[1] = ((float)(here / n->width) + 0.5f) / (float)n->height;
+        const size_t x = here % n->width, y = here / n->width;
+        q->gap[0] = ((float)x + 0.5f) / (float)n->width;
+        q->gap[1] = ((float)y + 0.5f) / (float)n->height;
     }
 }
 
