@@ -191,6 +191,29 @@ static void space_between_islands(void **state)
     }
 }
 
+/// A line of texels below the corner of an island, to its left or right: three columns between
+/// them.
+static void space_to_lines(void **state)
+{
+    (void)state;
+    static const float unit = 1.0f / 1024.0f;
+    for (int i = 0; i < 2; i++) {
+        rectangles r = {{{515 * unit, 0, 1, 512 * unit}, {0, 512 * unit, 512 * unit, 513 * unit}}};
+        for (int k = 0; k < 2 && i == 1; k++) { // mirrored
+            const float low = r.of[k][0];
+            r.of[k][0] = 1.0f - r.of[k][2];
+            r.of[k][2] = 1.0f - low;
+        }
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, &r);
+        alp_diagnosis *d = diagnose(scene, 1024);
+        assert_int_equal(alp_diagnosis_get_uv_set(d, 1).free_texels, 3);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 /// Squares of 2 m as rectangles of the set with sides of 1 : r have √((r + 1/r) / 2).
 static void islands_that_are_stretched(void **state)
 {
@@ -301,6 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_judged),
         cmocka_unit_test(space_between_islands),
+        cmocka_unit_test(space_to_lines),
         cmocka_unit_test(islands_that_are_stretched),
         cmocka_unit_test(islands_below_a_texel),
         cmocka_unit_test(nodes_of_one_mesh_share),
