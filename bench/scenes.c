@@ -61,7 +61,7 @@ bool bench_good(const bench_scene *scene, alp_result result)
     return result == ALP_OK;
 }
 
-bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
+bool bench_scene_load(const char *name, uint32_t workers, bench_scene *scene)
 {
     static const char hills[] = "hills:";
     *scene = (bench_scene){.name = name};
@@ -74,11 +74,20 @@ bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
     } else if (result == ALP_OK) {
         result = alp_scene_load(scene->context, name, &scene->scene);
     }
-    if (result == ALP_OK) {
-        result =
-            alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer, &scene->build_seconds);
-    }
     if (!bench_good(scene, result)) {
+        bench_scene_close(scene);
+        return false;
+    }
+    return true;
+}
+
+bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
+{
+    if (!bench_scene_load(name, workers, scene)) {
+        return false;
+    }
+    if (!bench_good(scene, alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer,
+                                                 &scene->build_seconds))) {
         bench_scene_close(scene);
         return false;
     }

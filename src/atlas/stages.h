@@ -110,8 +110,8 @@ typedef struct alpi_overlaps {
     alpi_overlap *pairs; // [count] texel by texel
 } alpi_overlaps;
 
-/// Rasters the atlas: fills info.texels, utilisation, texels_per_metre and shared_triangles, and
-/// keeps the texels in atlas->texels for alpi_texels_create unless they are very many.
+/// Rasters the atlas: fills info but for mode, pages, sides and charts, and keeps the texels in
+/// atlas->texels for alpi_texels_create unless they are very many.
 /// @param overlaps NULL, or out: released by the caller
 alp_result alpi_measure(alp_atlas *atlas, alpi_overlaps *overlaps);
 
