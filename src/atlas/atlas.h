@@ -159,15 +159,28 @@ alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbo
                                 float max_angle, alpi_atlas_clock *clock, alpi_clusters *clusters);
 void alpi_clusters_destroy(alp_context *context, alpi_clusters *clusters);
 
-/// A rectangle to be packed and where it went, in texels.
+/// Something to be packed and where it went, in texels.
 typedef struct alpi_pack_item {
-    uint32_t width, height; // ≥ 1
-    uint32_t x, y, page;    // out
-    bool turned;            // out: width and height were exchanged
+    uint32_t width, height; // ≥ 1, of its box
+    const uint64_t *mask;   // [height][(width + 63) / 64] the texels of the box that it covers, the
+                            // first in the lowest bit, none behind the last; at least one of all;
+                            // NULL = all
+    uint32_t x, y, page;    // out: of the box after turning
+    uint32_t turns;         // out: quarters; one takes texel (x, y) to (height − 1 − y, x)
 } alpi_pack_item;
-/// Skyline packing into pages of side `size` with `padding` free texels between neighbours (none at
-/// the page border). Items larger than a page fail with LIMIT. Deterministic.
-alp_result alpi_pack(alp_context *context, alpi_pack_item *items, uint32_t count, uint32_t size,
-                     uint32_t padding, uint32_t page_limit, uint32_t *page_count);
+/// What must be free between two items.
+typedef struct alpi_pack_rules {
+    uint32_t size;    // side of a page
+    uint32_t padding; // texels between covered ones of two items, rows and columns alike
+    uint32_t block; // no block of block × block texels, counted from the page's corner, has texels
+                    // of two items; 0 and 1: no matter
+    uint32_t mips;  // two cells of 2^(mips − 1) texels are free between those with texels of two
+                    // items; 0: no matter. See alp_atlas_options.mips
+} alpi_pack_rules;
+/// Packs shapes into pages: the large first, each turned by quarters, to where its upper side ends
+/// lowest on the first page that has room for it; holes are used. The page's border needs no gap.
+/// Items larger than a page fail with LIMIT. Deterministic.
+alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pack_item *items,
+                     uint32_t count, uint32_t page_limit, uint32_t *page_count);
 
 #endif

@@ -59,8 +59,8 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
 
 /// Packs into one page, or says that it cannot; that is no failure and leaves no message.
-alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint32_t count,
-                              uint32_t size, uint32_t padding, bool *fits);
+alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,
+                              alpi_pack_item *items, uint32_t count, bool *fits);
 
 // --- the second UV set ---------------------------------------------------------------------------
 
