@@ -50,7 +50,7 @@ double bench_seconds(uint32_t workers);
 // --- scenes --------------------------------------------------------------------------------------
 
 /// A scene on a context of its own. Names: those of alp_scene_load, or "hills:N", a field of hills
-/// with overhangs of about N triangles.
+/// with overhangs of about N triangles, or "pieces:N", N meshes of one triangle each.
 typedef struct bench_scene {
     const char *name;
     alp_context *context;
