@@ -11,7 +11,8 @@ ALP_BEGIN_DECLS
 typedef struct alp_atlas alp_atlas;
 
 typedef enum alp_atlas_mode {
-    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else charts
+    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else (and where block, mips or densities
+                        ///< ask for them) charts
     ALP_ATLAS_KEEP =
         1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
     ALP_ATLAS_CHARTS = 2, ///< new charts, packed into pages
@@ -29,12 +30,30 @@ typedef struct alp_atlas_options {
     float max_angle; ///< radians between a triangle and its chart's plane, (0, 1.2]; default π/4
     alp_progress_fn *progress;
     void *progress_user;
+    /// Side of the blocks of a texture compression, [1, 64]; default 1: none. No block of
+    /// block × block texels, counted from the corner of a page, holds texels of two charts: their
+    /// colours never share a block's palette. 4 for BC and ETC, 4 to 12 for ASTC.
+    uint32_t block;
+    /// Mip levels (means of 2 × 2) that must stay clean, [0, 8]; default 0. At levels 1 … mips no
+    /// bilinear look-up at a point of a chart, held at the page's border, reads a mip texel that
+    /// texels of another chart went into. With cells of 2^(mips − 1) texels, halves of that level's
+    /// texels, two free cells between the cells of two charts are what that takes: a look-up reads
+    /// its own texel and the next one on the side of its own half, so two halves beyond its half,
+    /// and each lower level reads less. `size` must be a multiple of 2^mips.
+    uint32_t mips;
+    /// Factors by which surfaces have more texels per metre: "PATTERN=FACTOR" with commas between,
+    /// patterns as in alp_bake_options.only, "material:PATTERN" for names of materials; where
+    /// several match, their product. Factors in [0.001, 1000]; each pattern must match something.
+    /// Charts hold surfaces of one factor. NULL (default): all alike. Instances that share a map
+    /// have the factor of the one that is baked.
+    const char *densities;
 } alp_atlas_options;
 ALP_API alp_atlas_options alp_atlas_options_default(void);
 
 /// Makes an atlas: adjacency by position → clusters grown breadth-first while the normal stays
 /// within max_angle of the cluster's plane → planar projection, turned to its tightest box → packed
-/// pages. The same scene and options give the same atlas on any number of workers.
+/// pages. Charts are packed by their shapes, turned by quarters and never mirrored, into holes too.
+/// The same scene and options give the same atlas on any number of workers.
 /// @param scene must outlive the atlas
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
 ///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than

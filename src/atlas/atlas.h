@@ -20,8 +20,18 @@ struct alp_atlas {
     uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for triangles without
                                 // texels of their own: unusable, not chosen, or of an instance.
                                 // KEEP: chart = connected island in uv
+    float *factors;             // [surface_count] of options.densities; NULL: all 1
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
+
+/// Whether the scene's own coordinates will do: not where something is asked for that only new
+/// charts can have.
+static inline bool alpi_atlas_may_keep(const alp_atlas_options *options)
+{
+    return options->mode == ALP_ATLAS_KEEP ||
+           (options->mode == ALP_ATLAS_AUTO && options->block <= 1 && options->mips == 0 &&
+            options->densities == NULL);
+}
 
 /// What is special about a texel.
 enum {

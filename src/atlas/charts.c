@@ -2,6 +2,7 @@
 // Clusters become charts: projected on their plane and turned to the tightest box; and charts that
 // are larger than a page are cut into pieces that fit.
 #include "atlas/box.h"
+#include "atlas/factors.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -184,12 +185,14 @@ static alp_result fail_too_large(const alp_atlas *atlas, const alpi_chart *chart
                                  double density)
 {
     const alpi_surface *surface = &atlas->scene->surfaces[atlas->scene->triangle_surface[triangle]];
-    double longest = fmax(chart->width, chart->height);
+    const double factor = alpi_factor_of(atlas, triangle);
+    const double longest = fmax(chart->width, chart->height) / factor;
     return alpi_fail(atlas->context, ALP_ERROR_LIMIT,
                      "%s: %s: triangle %u is %.4g m long: at %.4g texels per metre it is larger "
                      "than a page of %u texels; use at most %.4g texels per metre or a larger size",
                      atlas->scene->name, surface->name, triangle - surface->first_triangle, longest,
-                     density, atlas->options.size, 0.999 * atlas->options.size / longest);
+                     density * factor, atlas->options.size,
+                     0.999 * atlas->options.size / (longest * factor));
 }
 
 /// Cuts chart c in two; the second piece goes to the end of the list.

@@ -269,7 +269,10 @@ alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *
     layout l = {.atlas = atlas,
                 .charts = charts,
                 .clock = clock,
-                .rules = {.size = options->size, .padding = options->padding}};
+                .rules = {.size = options->size,
+                          .padding = options->padding,
+                          .block = options->block,
+                          .mips = options->mips}};
     alp_result result = choose_and_place(&l);
     alpi_release(atlas->context, l.items);
     alpi_release(atlas->context, l.best);

@@ -5,7 +5,13 @@
 
 #include "atlas/raster.h"
 
-enum { ALPI_ATLAS_PAGE_LIMIT = 4096, ALPI_ATLAS_SIZE_LIMIT = 16384, ALPI_ATLAS_PADDING_LIMIT = 64 };
+enum {
+    ALPI_ATLAS_PAGE_LIMIT = 4096,
+    ALPI_ATLAS_SIZE_LIMIT = 16384,
+    ALPI_ATLAS_PADDING_LIMIT = 64,
+    ALPI_ATLAS_BLOCK_LIMIT = 64,
+    ALPI_ATLAS_MIPS_LIMIT = 8
+};
 
 /// When to ask the caller whether to go on.
 struct alpi_atlas_clock {

@@ -2,10 +2,9 @@
 // Packing: no texel of two shapes, what must be free is free, shapes are turned and never mirrored,
 // and pages are as few as they can be where that is known.
 #include "atlas_scenes.h"
+#include "page_owners.h"
 
 #include <stdlib.h>
-
-enum { FREE = 0xffff };
 
 static bool covers(const alpi_pack_item *item, uint32_t x, uint32_t y)
 {
@@ -47,93 +46,13 @@ static uint16_t *owners(const alpi_pack_item *items, uint32_t count, uint32_t si
     return taken;
 }
 
-/// What is within `padding` of a texel is its owner's, or free.
-static void check_padding(const uint16_t *page, uint32_t size, uint32_t padding)
-{
-    for (uint32_t y = 0; y < size; y++) {
-        for (uint32_t x = 0; x < size; x++) {
-            const uint16_t owner = page[y * size + x];
-            for (uint32_t v = y > padding ? y - padding : 0; v <= y + padding && v < size; v++) {
-                for (uint32_t u = x; owner != FREE && u <= x + padding && u < size; u++) {
-                    assert_true(page[v * size + u] == owner || page[v * size + u] == FREE);
-                }
-            }
-        }
-    }
-}
-
-static void check_blocks(const uint16_t *page, uint32_t size, uint32_t block)
-{
-    for (uint32_t y = 0; y < size; y++) {
-        for (uint32_t x = 0; x < size; x++) {
-            // The first texel with an owner has the block.
-            uint16_t first = FREE;
-            for (uint32_t v = y / block * block; v < y / block * block + block && v < size; v++) {
-                for (uint32_t u = x / block * block; u < x / block * block + block && u < size;
-                     u++) {
-                    first = first == FREE ? page[v * size + u] : first;
-                }
-            }
-            assert_true(page[y * size + x] == FREE || page[y * size + x] == first);
-        }
-    }
-}
-
-/// The two texels of a level that a linear look-up at `at` (in texels of that level) reads, held at
-/// the border; the same twice where one of them has no weight.
-static void looked_up(double at, uint32_t size, uint32_t read[2])
-{
-    const double low = floor(at - 0.5);
-    const double high = at - 0.5 > low ? low + 1.0 : low;
-    read[0] = (uint32_t)fmin(fmax(low, 0.0), size - 1.0);
-    read[1] = (uint32_t)fmin(fmax(high, 0.0), size - 1.0);
-}
-
-enum { SEVERAL = 0xfffe };
-
-/// Builds the mip chain of owners and looks up at points of each texel: their owner's values alone
-/// are read.
-static void check_mips(const uint16_t *page, uint32_t size, uint32_t mips)
-{
-    static const double inside[4] = {0.0, 0.01, 0.5, 0.99};
-    uint16_t *level = malloc((size_t)size * size * sizeof *level);
-    assert_non_null(level);
-    memcpy(level, page, (size_t)size * size * sizeof *level);
-    for (uint32_t k = 1; k <= mips; k++) {
-        const uint32_t side = size >> k;
-        for (uint32_t y = 0; y < side; y++) {
-            for (uint32_t x = 0; x < side; x++) {
-                uint16_t mean = FREE;
-                for (uint32_t i = 0; i < 4; i++) {
-                    const uint16_t part = level[(2 * y + i / 2) * (2 * side) + 2 * x + i % 2];
-                    mean = part == FREE || part == mean ? mean : mean == FREE ? part : SEVERAL;
-                }
-                level[y * side + x] = mean; // before all that is still read
-            }
-        }
-        for (uint32_t i = 0; i < size * size * 16; i++) {
-            const uint32_t x = i / 16 % size, y = i / 16 / size;
-            uint32_t u[2], v[2];
-            looked_up((x + inside[i % 4]) / (1u << k), side, u);
-            looked_up((y + inside[i / 4 % 4]) / (1u << k), side, v);
-            for (int j = 0; page[y * size + x] != FREE && j < 4; j++) {
-                const uint16_t read = level[v[j / 2] * side + u[j % 2]];
-                assert_true(read == FREE || read == page[y * size + x]);
-            }
-        }
-    }
-    free(level);
-}
-
 static void check_places(const alpi_pack_rules *rules, const alpi_pack_item *items, uint32_t count,
                          uint32_t pages)
 {
     const size_t room = (size_t)rules->size * rules->size;
     uint16_t *taken = owners(items, count, rules->size, pages);
     for (uint32_t page = 0; page < pages; page++) {
-        check_padding(taken + page * room, rules->size, rules->padding);
-        check_blocks(taken + page * room, rules->size, rules->block > 0 ? rules->block : 1);
-        check_mips(taken + page * room, rules->size, rules->mips);
+        check_page(taken + page * room, rules);
     }
     free(taken);
 }
