@@ -95,6 +95,24 @@ typedef struct alpi_uv_set_facts {
 alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
                               alpi_uv_set_facts *facts, alp_atlas **layout);
 
+/// What will be seen of a bake in a set that can hold one.
+typedef struct alpi_uv_quality {
+    uint32_t tiny;       // islands whose area is below a texel
+    double tiny_share;   // of the surface, that they hold
+    uint32_t tiny_worst; // triangle of the one of them with most surface, ALPI_NONE = none
+    double tiny_texels;  // its area
+    uint32_t free;       // texels between the two islands that are nearest; the page's side where
+                         // there is but one island
+    uint32_t near[2];    // a triangle of each, ALPI_NONE = there is but one island
+    float gap[2];        // u, v between them
+    double stretch;      // L2 stretch of the surface with most, of those of 1 % of the area
+    uint32_t stretched;  // that surface, ALPI_NONE = none
+    uint32_t stretched_worst; // its triangle that is stretched most
+    double own_stretch;       // of that triangle
+} alpi_uv_quality;
+/// Measures a layout of alpi_uv_set_survey.
+alp_result alpi_uv_set_quality(const alp_atlas *layout, alpi_uv_quality *quality);
+
 // --- the layout of a texture that is there already -----------------------------------------------
 
 /// An atlas of one page, width × height, on which each surface s with textures[s] ≠ NULL lies where
