@@ -115,8 +115,7 @@ static alp_result begin(gatherer *g)
 /// The smallest cone that holds two.
 static void join_cones(const region *a, const region *b, double axis[3], double *angle)
 {
-    const double dot =
-        a->axis[0] * b->axis[0] + a->axis[1] * b->axis[1] + a->axis[2] * b->axis[2];
+    const double dot = a->axis[0] * b->axis[0] + a->axis[1] * b->axis[1] + a->axis[2] * b->axis[2];
     const double apart = acos(fmin(fmax(dot, -1.0), 1.0));
     const region *wide = a->angle >= b->angle ? a : b, *other = wide == a ? b : a;
     for (int k = 0; k < 3; k++) {
