@@ -179,9 +179,9 @@ typedef struct alpi_clusters {
     float (*planes)[3];    // [count] unit normal of the plane of each
 } alpi_clusters;
 typedef struct alpi_atlas_clock alpi_atlas_clock; // see stages.h
-/// Clusters of all usable triangles. Grown breadth-first from the largest free triangle while the
-/// normal stays within max_angle of the cluster's plane and the projection does not fold over
-/// itself. Triangles of one cluster belong to one mesh instance (node).
+/// Clusters of all usable triangles: regions whose normals stay within max_angle of their plane,
+/// in parts whose projection does not fold over itself. Triangles of one cluster belong to one mesh
+/// instance (node).
 /// @param clock NULL = runs to its end; else may end the call with CANCELLED
 alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
                                 float max_angle, alpi_atlas_clock *clock, alpi_clusters *clusters);

@@ -51,10 +51,14 @@ typedef struct alpi_charts {
     uint32_t *triangles; // [usable triangles] grouped by chart
 } alpi_charts;
 
-/// Projects every cluster on its plane, turns it to its tightest box and writes corner_uvs (metres)
-/// and triangle_charts. On failure the caller destroys what was made.
+/// Projects every cluster on its plane, merges those that unwrap well together, turns each to its
+/// tightest box and writes corner_uvs (metres) and triangle_charts. A chart has the area of its
+/// triangles in the world. On failure the caller destroys what was made.
 alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                               const alpi_clusters *clusters, alpi_charts *charts);
+/// Merges charts that meet, where both have one good unwrapping; corner_uvs are in metres already.
+alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                             alpi_charts *charts);
 /// Cuts every chart that is larger than a page at `density` texels per metre into pieces that fit.
 /// @return ALP_OK; LIMIT: one triangle alone is larger than a page
 alp_result alpi_charts_split(alp_atlas *atlas, double density, alpi_charts *charts);
