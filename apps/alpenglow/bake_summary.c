@@ -10,8 +10,10 @@ static void print_atlas(const alp_atlas_info *atlas)
 {
     printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
            "%.4g texels per metre\n",
-           atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
-           atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           atlas->mode == ALP_ATLAS_KEEP    ? "kept"
+           : atlas->mode == ALP_ATLAS_BLEND ? "blend"
+                                            : "charts",
+           atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
     printf(
         "stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, %llu texels "

@@ -45,15 +45,16 @@ static const option rows[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
-     .value = "auto|keep|charts|vertex",
-     .choices = "auto|keep|charts|vertex",
-     .later_choices = "blend",
+     .value = "auto|keep|charts|vertex|blend",
+     .choices = "auto|keep|charts|vertex|blend",
      .initial = "auto",
      .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
              "charts: unwrap anew. auto: keep where it is valid, else charts. vertex: no map, but "
              "a value at each vertex, the best for linear interpolation over its triangles; "
              "options of maps, of their error and of stopping have no meaning then and are "
-             "refused. Warns where triangles are too large for it."},
+             "refused. Warns where triangles are too large for it. blend: charts that overlap "
+             "and three coordinate sets, for a shader that blends them by the normal and shows no "
+             "seams (docs/blend.md)."},
     {.id = OPTION_VERTEX_ATTRIBUTE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,

@@ -17,8 +17,28 @@ typedef enum alp_atlas_mode {
         1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
     ALP_ATLAS_CHARTS = 2, ///< new charts, packed into pages
     /// No pages: values at the vertices. alp_bake only; the other atlas options have no meaning.
-    ALP_ATLAS_VERTEX = 3
+    ALP_ATLAS_VERTEX = 3,
+    /// Overlapping charts and three coordinate sets, one for each axis of the object (of the world,
+    /// where the scene or what is written has no objects): set k has the triangles whose normals
+    /// have a part of axis k, up to 80° from it, projected along it. A shader reads all three and
+    /// adds them up weighted by the squares of the unit normal's components, which sum to 1
+    ///
+    ///     value = Σ_k n_k² · L(uv_k),   n = the interpolated normal in the object's frame, unit
+    ///
+    /// so that a chart is seen least where it ends. Where a triangle is none of set k it has there
+    /// the coordinates of its strongest axis: each set alone is a map of everything, with seams.
+    /// Texels: up to three halves of those of CHARTS. KEEP's and CHARTS' max_angle is not read.
+    /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
+    /// 2007, chapters 5.4, 7.3 and 7.5.
+    ALP_ATLAS_BLEND = 4
 } alp_atlas_mode;
+
+/// How the three values of ALP_ATLAS_BLEND become one.
+typedef enum alp_blend {
+    ALP_BLEND_NORMAL = 0, ///< by the squares of the normal's components (default)
+    ALP_BLEND_AVERAGE = 1 ///< each chart that the triangle is in counts alike: for comparison, it
+                          ///< shows steps where charts end
+} alp_blend;
 
 typedef struct alp_atlas_options {
     size_t struct_size;
@@ -66,7 +86,7 @@ ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
 ALP_API void alp_atlas_destroy(alp_atlas *atlas); ///< NULL does nothing
 
 typedef struct alp_atlas_info {
-    alp_atlas_mode mode; ///< what was done: KEEP or CHARTS; VERTEX: all else is 0
+    alp_atlas_mode mode; ///< what was done: KEEP, CHARTS or BLEND; VERTEX: all else is 0
     uint32_t pages, width, height;
     uint32_t charts;
     uint64_t texels; ///< covered: with area of a chart inside
@@ -96,6 +116,10 @@ ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 /// a bake of some surfaces only, triangles of the others have page UINT32_MAX. Owned by the atlas.
 ALP_API const float *alp_atlas_corner_uvs(const alp_atlas *atlas);
 ALP_API const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas);
+/// The three sets of ALP_ATLAS_BLEND, [triangles][set][corner][2], all three of a triangle on its
+/// page; else NULL. alp_atlas_corner_uvs are then those of each triangle's strongest axis. Owned by
+/// the atlas.
+ALP_API const float *alp_atlas_blend_uvs(const alp_atlas *atlas);
 
 /// A picture of one page: every chart in a colour of its own on black.
 ALP_API ALP_NODISCARD alp_result alp_atlas_picture(const alp_atlas *atlas, uint32_t page,

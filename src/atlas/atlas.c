@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Making an atlas: the stages in a row, and the questions one can ask it.
+#include "atlas/blend.h"
 #include "atlas/choice.h"
 #include "atlas/factors.h"
 #include "atlas/stages.h"
@@ -65,7 +66,9 @@ static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
 static alp_result check_options(const alp_scene *scene, const alp_atlas_options *o)
 {
     alp_context *context = scene->context;
-    if (o->struct_size != sizeof *o || o->mode < ALP_ATLAS_AUTO || o->mode > ALP_ATLAS_CHARTS) {
+    const bool known = o->mode == ALP_ATLAS_AUTO || o->mode == ALP_ATLAS_KEEP ||
+                       o->mode == ALP_ATLAS_CHARTS || o->mode == ALP_ATLAS_BLEND;
+    if (o->struct_size != sizeof *o || !known) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "atlas options must come from alp_atlas_options_default()");
     }
@@ -169,6 +172,9 @@ static void drop_texels(alp_atlas *atlas)
 static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_atlas_clock *clock)
 {
     alp_atlas_mode mode = atlas->options.mode;
+    if (mode == ALP_ATLAS_BLEND) {
+        return alpi_blend_build(atlas, neighbours, clock);
+    }
     if (alpi_atlas_may_keep(&atlas->options) &&
         (mode == ALP_ATLAS_KEEP || atlas->scene->uvs[1] != NULL)) {
         char *reason = NULL;
@@ -206,6 +212,9 @@ static alp_result build(alp_atlas *atlas)
     alpi_release(atlas->context, neighbours);
     ALP_TRY(result);
     place_unusable(atlas);
+    if (atlas->set_uvs != NULL) {
+        alpi_blend_fill_sets(atlas);
+    }
     if (atlas->info.shared_triangles > 0) {
         alpi_note(atlas->context, "tiny-triangles", scene->name,
                   "%u of %u triangles are smaller than a texel: they share the texels of their "
@@ -217,7 +226,8 @@ static alp_result build(alp_atlas *atlas)
 
 /// Builds an atlas of what is usable in `view`, and makes it one of `scene`.
 static alp_result create_from_view(const alp_scene *scene, const alp_scene *view,
-                                   const alp_atlas_options *options, alp_atlas **atlas)
+                                   const alp_atlas_options *options, bool world_axes,
+                                   alp_atlas **atlas)
 {
     if (view->usable_count == 0) {
         return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
@@ -231,6 +241,7 @@ static alp_result create_from_view(const alp_scene *scene, const alp_scene *view
     made->scene = view;
     made->context = scene->context;
     made->options = *options;
+    made->world_axes = world_axes;
     made->info.width = made->info.height = options->size;
     alpi_watch former = alpi_set_watch(
         made->context, (alpi_watch){.callback = options->progress, .user = options->progress_user});
@@ -252,11 +263,11 @@ alp_result alpi_atlas_create(const alp_scene *scene, const alp_atlas_options *op
     alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
     ALP_TRY(check_options(scene, &chosen));
     if (choice == NULL) {
-        return create_from_view(scene, scene, &chosen, atlas);
+        return create_from_view(scene, scene, &chosen, false, atlas);
     }
     alp_scene view;
     ALP_TRY(alpi_choice_view(scene, choice, &view));
-    alp_result result = create_from_view(scene, &view, &chosen, atlas);
+    alp_result result = create_from_view(scene, &view, &chosen, choice->world_axes, atlas);
     alpi_choice_end(&view);
     if (result == ALP_OK) {
         alpi_choice_share(*atlas, choice);
@@ -284,6 +295,9 @@ void alp_atlas_destroy(alp_atlas *atlas)
         alpi_release(context, atlas->triangle_pages);
         alpi_release(context, atlas->triangle_charts);
         alpi_release(context, atlas->factors);
+        alpi_release(context, atlas->face_triangles);
+        alpi_release(context, atlas->set_uvs);
+        alpi_release(context, atlas->set_members);
         alpi_release(context, atlas);
     }
 }
@@ -301,4 +315,9 @@ const float *alp_atlas_corner_uvs(const alp_atlas *atlas)
 const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas)
 {
     return atlas == NULL ? NULL : atlas->triangle_pages;
+}
+
+const float *alp_atlas_blend_uvs(const alp_atlas *atlas)
+{
+    return atlas == NULL || atlas->set_uvs == NULL ? NULL : &atlas->set_uvs[0][0][0][0];
 }

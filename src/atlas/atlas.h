@@ -15,14 +15,31 @@ struct alp_atlas {
     alp_context *context;
     alp_atlas_options options;
     alp_atlas_info info;
-    float (*corner_uvs)[3][2];  // [triangle_count]
-    uint32_t *triangle_pages;   // [triangle_count]; ALPI_NONE: of a surface that was not chosen
-    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for triangles without
-                                // texels of their own: unusable, not chosen, or of an instance.
-                                // KEEP: chart = connected island in uv
+    float (*corner_uvs)[3][2]; // [faces]
+    uint32_t *triangle_pages;  // [faces]; ALPI_NONE: of a surface that was not chosen
+    uint32_t *triangle_charts; // [faces] chart of each; ALPI_NONE for triangles without
+                               // texels of their own: unusable, not chosen, or of an instance.
+                               // KEEP: chart = connected island in uv
+    // Faces: the triangles in their order, and behind them, BLEND alone, those that lie in further
+    // charts once more. NULL, 0: as many faces as triangles.
+    uint32_t *face_triangles; // [face_count]
+    uint32_t face_count;
+    float (*set_uvs)[3][3][2];  // BLEND: [triangle_count][set][corner], else NULL
+    uint8_t *set_members;       // BLEND: [triangle_count] bit k: it is in a chart of axis k, else
+                                // set k repeats the chart of its strongest axis
+    bool world_axes;            // BLEND: the axes are those of the world
     float *factors;             // [surface_count] of options.densities; NULL: all 1
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
+
+static inline uint32_t alpi_atlas_face_count(const alp_atlas *atlas)
+{
+    return atlas->face_triangles != NULL ? atlas->face_count : atlas->scene->triangle_count;
+}
+static inline uint32_t alpi_atlas_triangle(const alp_atlas *atlas, uint32_t face)
+{
+    return atlas->face_triangles != NULL ? atlas->face_triangles[face] : face;
+}
 
 /// Whether the scene's own coordinates will do: not where something is asked for that only new
 /// charts can have.
@@ -46,6 +63,7 @@ typedef struct alpi_texels {
     uint32_t *pages;          // [count]
     uint16_t (*pixels)[2];    // [count] x, y
     uint32_t *triangles;      // [count] the triangle its representative point lies on
+    uint32_t *faces;          // [count] the face it is of; BLEND: else the array of triangles
     float (*barycentrics)[2]; // [count] of that point: weights of corners 1 and 2
     float (*normals)[3];      // [count] shading normal there, unit
     float *areas;             // [count] world area of the chart inside the texel, m²
@@ -56,10 +74,10 @@ typedef struct alpi_texels {
     uint16_t *valid; // [count] or NULL (as made): which strata of its unit square hold points. Bit
                      // 4·floor(4·sy) + floor(4·sx); all bits or none: all of it
 
-    // Pieces: the triangles with area in the texel, neighbours after each other. A texel without
+    // Pieces: the faces with area in the texel, neighbours after each other. A texel without
     // any lies wholly inside triangles[i].
     uint32_t *piece_first;     // [count + 1]
-    uint32_t *piece_triangles; // [piece_first[count]]
+    uint32_t *piece_triangles; // [piece_first[count]] faces
     float *piece_ends; // [piece_first[count]] share of the texel's area up to the end of the piece:
                        // ascending, the last is 1
 
