@@ -98,6 +98,12 @@ static bool is_sliver(const measured *m, double texels_per_metre)
     return !(2.0 * m->area * texels_per_metre >= SLIVER_HEIGHT * m->edge);
 }
 
+bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double texels_per_metre)
+{
+    const measured m = measure_triangle(atlas, triangle);
+    return is_sliver(&m, texels_per_metre);
+}
+
 /// A sliver may be turned over by its coordinates' rounding, which moves a corner in [½, 1) by half
 /// of 2⁻²⁴ of the page, on both axes.
 static bool is_flipped(const alp_atlas *atlas, const measured *m, bool sliver)

@@ -33,4 +33,8 @@ typedef struct alpi_stretch_facts {
 /// density as what they take.
 alp_result alpi_stretch_measure(const alp_atlas *atlas, alpi_stretch_facts *facts);
 
+/// Whether a triangle is one of these.
+/// @param texels_per_metre the mean density, as in the facts
+bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double texels_per_metre);
+
 #endif
