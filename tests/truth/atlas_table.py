@@ -9,7 +9,7 @@ fails is named: exit status 1. Scenes lie below --shared or $ALPENGLOW_SHARED; t
 there are skipped, and so are unwrappers that are not installed: three.js is looked for in --three,
 else in tests/browser (scripts/setup.sh browser), Blender at /usr/bin/blender. With --document the
 tables are written between the markers `<!-- table NAME -->` and `<!-- end NAME -->` of that file,
-and the plot of growth beside it as atlas-growth.svg.
+and the plot of growth and pictures of pages beside it, as atlas-growth.svg and atlas-pages.png.
 """
 import argparse
 import json
@@ -21,6 +21,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent.parent / "scripts"))
+from png_rows import read_png, write_png  # noqa: E402
 # (name, file below scenes/ or built-in scene, side of a page, least utilisation)
 # The hull of the ship and the building are thousands of separate pieces.
 SCENES = [
@@ -250,6 +252,22 @@ def table_of_peers(bench, shared, three):
                      "overlaps", "seconds"], rows)
 
 
+# --- pictures ------------------------------------------------------------------------------------
+
+def draw_pages(bench, shared, target):
+    """The first pages of some scenes at 512, side by side."""
+    wanted = ["teapot in its room", "torus on its plane", "dutch_ship"]
+    sheet = None
+    with tempfile.TemporaryDirectory() as folder:
+        picture = pathlib.Path(folder, "page.png")
+        for name, path, _, _ in find_scenes(shared):
+            if name in wanted:
+                measure(bench, path, 512, picture=picture)
+                rows = [row + b"\xff" * 24 for row in read_png(picture)]
+                sheet = rows if sheet is None else [a + b for a, b in zip(sheet, rows)]
+    write_png(target, [row[:-24] for row in sheet])
+
+
 # --- text ----------------------------------------------------------------------------------------
 
 def markdown(header, rows):
@@ -285,6 +303,8 @@ def main():
     tables, failed = {}, 0
     if asked.only in (None, "figures"):
         tables["figures"], failed = table_of_figures(asked.bench, shared)
+        if asked.document is not None:
+            draw_pages(asked.bench, shared, asked.document.parent / "atlas-pages.png")
     if asked.only in (None, "growth"):
         tables["growth"], more, picture = table_of_growth(asked.bench)
         failed += more
