@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tables of atlases: figures, growth with triangles, other unwrappers on the same meshes.
 
-    atlas_table.py BENCH [--shared DIR] [--three DIR] [--only figures|growth|peers] [--document FILE]
+    atlas_table.py BENCH [--shared DIR] [--three DIR] [--only figures|growth|peers]
+                   [--document FILE]
 
 BENCH is alpenglow-bench of a release build. Figures are held to what is asked of an atlas, and what
 fails is named: exit status 1. Scenes lie below --shared or $ALPENGLOW_SHARED; those that are not
@@ -83,7 +84,7 @@ def faults_of(figures, hashes, least):
         faults.append(f"worst stretch {figures['stretch_worst']:.3g} > {MOST_STRETCH:g}")
     if len(hashes) != 1:
         faults.append("another atlas with other --threads")
-    # Others on the machine lengthen the one and not the other; alone, two cores need less wall time.
+    # Others on the machine lengthen the one and not the other; alone, two cores need less time.
     seconds = min(figures["seconds"], figures["cpu_seconds"])
     if seconds > MOST_SECONDS * max(1.0, figures["triangles"] / 1e6):
         faults.append(f"{seconds:.1f} s")
@@ -101,11 +102,11 @@ def table_of_figures(bench, shared):
         faults = faults_of(f, hashes, least)
         failed += bool(faults)
         rows.append([name, size, f"{f['triangles']:,}", f"{f['charts']:,}", f["pages"],
-                     f"{f['utilisation']:.3f}", f["uncovered"], f["lines"], f["flipped"], f["overlapping"],
-                     f"{f['stretch_mean']:.3f}", f"{f['stretch_worst']:.3f}",
-                     f"{f['density_spread']:.3f}", f"{f['slivers']:,}", f"{f['seconds']:.2f}", f"{f['cpu_seconds']:.2f}",
-                     f"{f['peak_bytes'] / 2**20:.0f}", f"`{f['hash'][:8]}`",
-                     "; ".join(faults) if faults else "good"])
+                     f"{f['utilisation']:.3f}", f["uncovered"], f["lines"], f["flipped"],
+                     f["overlapping"], f"{f['stretch_mean']:.3f}", f"{f['stretch_worst']:.3f}",
+                     f"{f['density_spread']:.3f}", f"{f['slivers']:,}", f"{f['seconds']:.2f}",
+                     f"{f['cpu_seconds']:.2f}", f"{f['peak_bytes'] / 2**20:.0f}",
+                     f"`{f['hash'][:8]}`", "; ".join(faults) if faults else "good"])
         say(f"{name}: {rows[-1][-1]}")
     header = ["scene", "page", "triangles", "charts", "pages", "utilisation", "not covered",
               "lines", "flipped", "overlaps", "mean stretch", "worst", "density spread", "slivers",
