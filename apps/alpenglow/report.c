@@ -177,6 +177,30 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
+static void add_seam_error(json_t *maps, const char *map, const alp_seam_error *e)
+{
+    json_object_set_new(
+        maps, map,
+        json_pack("{s:o, s:o}", "mean", json_number(e->mean), "p99", json_number(e->p99)));
+}
+
+/// How far the sides of seams are apart, over the mean of each map.
+static json_t *make_seams(const alp_bake_report *r)
+{
+    json_t *maps = json_object();
+    if ((r->maps & ALP_MAP_AO) != 0) {
+        add_seam_error(maps, "ao", &r->seams.ao);
+    }
+    if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
+        add_seam_error(maps, "obscurance", &r->seams.obscurance);
+    }
+    if ((r->maps & ALP_MAP_LIGHT) != 0) {
+        add_seam_error(maps, "irradiance", &r->seams.light);
+    }
+    return json_pack("{s:I, s:o, s:o}", "edges", (json_int_t)r->seams.count, "length",
+                     json_number(r->seams.length), "maps", maps);
+}
+
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                     const alp_diagnosis *diagnosis)
 {
@@ -209,6 +233,9 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     }
     if ((r->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) == 0) {
         json_object_del(error, "ao");
+    }
+    if (r->atlas.mode != ALP_ATLAS_VERTEX) {
+        json_object_set_new(document, "seams", make_seams(r));
     }
     json_object_set_new(document, "sampling", make_sampling(r));
     json_object_set_new(document, "uv_sets", findings_uv_sets_json(diagnosis));

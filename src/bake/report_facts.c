@@ -109,6 +109,35 @@ static void put_energy(alpi_page *page, const alp_light_energy *e)
                      alpi_significant(e->unshot, 2).text);
 }
 
+static void put_seam_error(alpi_page *page, const char *name, const alp_seam_error *e)
+{
+    if (isfinite(e->mean)) {
+        alpi_page_format(
+            page, "<dt>%s</dt><dd>%s of the mean; 99\u00A0%% of their length within %s</dd>\n",
+            name, alpi_percent(e->mean).text, alpi_percent(e->p99).text);
+    }
+}
+
+/// How far the sides of seams are apart.
+static void put_seams(alpi_page *page, const alp_bake_report *r)
+{
+    const alp_seam_report *s = &r->seams;
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return;
+    }
+    alpi_page_format(page, "<dt>Seams</dt><dd>%s m, along %s edges</dd>\n",
+                     alpi_significant(s->length, 4).text, alpi_grouped(s->count).text);
+    if (s->count > 0 && (r->maps & ALP_MAP_AO) != 0) {
+        put_seam_error(page, "Steps of occlusion at seams", &s->ao);
+    }
+    if (s->count > 0 && (r->maps & ALP_MAP_OBSCURANCE) != 0) {
+        put_seam_error(page, "Steps of obscurance at seams", &s->obscurance);
+    }
+    if (s->count > 0 && (r->maps & ALP_MAP_LIGHT) != 0) {
+        put_seam_error(page, "Steps of irradiance at seams", &s->light);
+    }
+}
+
 /// What happened to texels that are not like the others, as far as there are any.
 static void put_odd_texels(alpi_page *page, const alp_bake_report *r)
 {
@@ -137,6 +166,7 @@ void alpi_report_put_facts(alpi_page *page, const alp_scene *scene, const alp_ba
         put_light(page, r);
         put_energy(page, &r->light_energy);
     }
+    put_seams(page, r);
     put_odd_texels(page, r);
     put_count(page,
               r->light_samples > 0 && !r->light_direct && r->light_passes == 0 ? "Rays and paths"
