@@ -2,6 +2,7 @@
 // Making an atlas: the stages in a row, and the questions one can ask it.
 #include "atlas/blend.h"
 #include "atlas/choice.h"
+#include "atlas/factors.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -15,6 +16,7 @@ alp_atlas_options alp_atlas_options_default(void)
                                .mode = ALP_ATLAS_AUTO,
                                .size = 1024,
                                .padding = 2,
+                               .block = 1,
                                .max_angle = (float)(ALPI_PI / 4.0)};
 }
 
@@ -33,6 +35,32 @@ alp_result alpi_atlas_tick(alpi_atlas_clock *clock, const char *stage, uint64_t 
     return clock->callback(clock->user, &report)
                ? ALP_OK
                : alpi_fail(clock->context, ALP_ERROR_CANCELLED, "cancelled");
+}
+
+static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
+{
+    if (o->block < 1 || o->block > ALPI_ATLAS_BLOCK_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "blocks of %u texels: must be in [1, %d]", o->block,
+                         ALPI_ATLAS_BLOCK_LIMIT);
+    }
+    if (o->mips > ALPI_ATLAS_MIPS_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT, "%u mip levels: must be in [0, %d]",
+                         o->mips, ALPI_ATLAS_MIPS_LIMIT);
+    }
+    if (o->size % (1u << o->mips) != 0) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "%u mip levels of a page of %u texels: the size must be a multiple of %u",
+                         o->mips, o->size, 1u << o->mips);
+    }
+    if (o->mode == ALP_ATLAS_KEEP && (o->block > 1 || o->mips > 0 || o->densities != NULL)) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "coordinates that are kept cannot have %s: make new charts",
+                         o->densities != NULL ? "other densities"
+                         : o->mips > 0        ? "gaps for mip levels"
+                                              : "gaps for blocks");
+    }
+    return ALP_OK;
 }
 
 static alp_result check_options(const alp_scene *scene, const alp_atlas_options *o)
@@ -59,6 +87,7 @@ static alp_result check_options(const alp_scene *scene, const alp_atlas_options 
                          "padding of %u texels: must be in [0, %d]", o->padding,
                          ALPI_ATLAS_PADDING_LIMIT);
     }
+    ALP_TRY(check_gaps(context, o));
     if (!(o->max_angle > 0.0f && o->max_angle <= 1.2f)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "a chart angle of %g radians: must be in (0, 1.2]", (double)o->max_angle);
@@ -120,6 +149,7 @@ static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     alp_result result = alpi_charts_create(atlas, neighbours, &clusters, &charts);
     alpi_clusters_destroy(atlas->context, &clusters);
     if (result == ALP_OK) {
+        alpi_factors_apply(atlas, &charts);
         result = alpi_layout(atlas, &charts, clock);
     }
     atlas->info.mode = ALP_ATLAS_CHARTS;
@@ -145,7 +175,8 @@ static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi
     if (mode == ALP_ATLAS_BLEND) {
         return alpi_blend_build(atlas, neighbours, clock);
     }
-    if (mode == ALP_ATLAS_KEEP || (mode == ALP_ATLAS_AUTO && atlas->scene->uvs[1] != NULL)) {
+    if (alpi_atlas_may_keep(&atlas->options) &&
+        (mode == ALP_ATLAS_KEEP || atlas->scene->uvs[1] != NULL)) {
         char *reason = NULL;
         alp_result result = alpi_keep(atlas, neighbours, &reason);
         if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {
@@ -172,9 +203,11 @@ static alp_result build(alp_atlas *atlas)
     ALPI_TRY_NEW(atlas->context, atlas->corner_uvs, scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_pages, scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_charts, scene->triangle_count);
+    ALP_TRY(alpi_factors_create(scene, atlas->options.densities, &atlas->factors));
     ALP_TRY(alpi_atlas_tick(&clock, "atlas", 0, scene->triangle_count));
     uint32_t(*neighbours)[3] = NULL;
     ALP_TRY(alpi_adjacency_create(scene, &neighbours));
+    alpi_factors_part(scene, atlas->factors, neighbours);
     alp_result result = choose(atlas, (const uint32_t(*)[3])neighbours, &clock);
     alpi_release(atlas->context, neighbours);
     ALP_TRY(result);
@@ -261,6 +294,7 @@ void alp_atlas_destroy(alp_atlas *atlas)
         alpi_release(context, atlas->corner_uvs);
         alpi_release(context, atlas->triangle_pages);
         alpi_release(context, atlas->triangle_charts);
+        alpi_release(context, atlas->factors);
         alpi_release(context, atlas->face_triangles);
         alpi_release(context, atlas->set_uvs);
         alpi_release(context, atlas->set_members);

@@ -28,6 +28,7 @@ struct alp_atlas {
     uint8_t *set_members;       // BLEND: [triangle_count] bit k: it is in a chart of axis k, else
                                 // set k repeats the chart of its strongest axis
     bool world_axes;            // BLEND: the axes are those of the world
+    float *factors;             // [surface_count] of options.densities; NULL: all 1
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
 
@@ -38,6 +39,15 @@ static inline uint32_t alpi_atlas_face_count(const alp_atlas *atlas)
 static inline uint32_t alpi_atlas_triangle(const alp_atlas *atlas, uint32_t face)
 {
     return atlas->face_triangles != NULL ? atlas->face_triangles[face] : face;
+}
+
+/// Whether the scene's own coordinates will do: not where something is asked for that only new
+/// charts can have.
+static inline bool alpi_atlas_may_keep(const alp_atlas_options *options)
+{
+    return options->mode == ALP_ATLAS_KEEP ||
+           (options->mode == ALP_ATLAS_AUTO && options->block <= 1 && options->mips == 0 &&
+            options->densities == NULL);
 }
 
 /// What is special about a texel.
@@ -102,6 +112,24 @@ typedef struct alpi_uv_set_facts {
 ///               ALPI_NONE; charts are islands
 alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
                               alpi_uv_set_facts *facts, alp_atlas **layout);
+
+/// What will be seen of a bake in a set that can hold one.
+typedef struct alpi_uv_quality {
+    uint32_t tiny;       // islands whose area is below a texel
+    double tiny_share;   // of the surface, that they hold
+    uint32_t tiny_worst; // triangle of the one of them with most surface, ALPI_NONE = none
+    double tiny_texels;  // its area
+    uint32_t free;       // texels between the two islands that are nearest; the page's side where
+                         // there is but one island
+    uint32_t near[2];    // a triangle of each, ALPI_NONE = there is but one island
+    float gap[2];        // u, v between them
+    double stretch;      // L2 stretch of the surface with most, of those of 1 % of the area
+    uint32_t stretched;  // that surface, ALPI_NONE = none
+    uint32_t stretched_worst; // its triangle that is stretched most
+    double own_stretch;       // of that triangle
+} alpi_uv_quality;
+/// Measures a layout of alpi_uv_set_survey.
+alp_result alpi_uv_set_quality(const alp_atlas *layout, alpi_uv_quality *quality);
 
 // --- the layout of a texture that is there already -----------------------------------------------
 
@@ -169,23 +197,36 @@ typedef struct alpi_clusters {
     float (*planes)[3];    // [count] unit normal of the plane of each
 } alpi_clusters;
 typedef struct alpi_atlas_clock alpi_atlas_clock; // see stages.h
-/// Clusters of all usable triangles. Grown breadth-first from the largest free triangle while the
-/// normal stays within max_angle of the cluster's plane and the projection does not fold over
-/// itself. Triangles of one cluster belong to one mesh instance (node).
+/// Clusters of all usable triangles: regions whose normals stay within max_angle of their plane,
+/// in parts whose projection does not fold over itself. Triangles of one cluster belong to one mesh
+/// instance (node).
 /// @param clock NULL = runs to its end; else may end the call with CANCELLED
 alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
                                 float max_angle, alpi_atlas_clock *clock, alpi_clusters *clusters);
 void alpi_clusters_destroy(alp_context *context, alpi_clusters *clusters);
 
-/// A rectangle to be packed and where it went, in texels.
+/// Something to be packed and where it went, in texels.
 typedef struct alpi_pack_item {
-    uint32_t width, height; // ≥ 1
-    uint32_t x, y, page;    // out
-    bool turned;            // out: width and height were exchanged
+    uint32_t width, height; // ≥ 1, of its box
+    const uint64_t *mask;   // [height][(width + 63) / 64] the texels of the box that it covers, the
+                            // first in the lowest bit, none behind the last; at least one of all;
+                            // NULL = all
+    uint32_t x, y, page;    // out: of the box after turning
+    uint32_t turns;         // out: quarters; one takes texel (x, y) to (height − 1 − y, x)
 } alpi_pack_item;
-/// Skyline packing into pages of side `size` with `padding` free texels between neighbours (none at
-/// the page border). Items larger than a page fail with LIMIT. Deterministic.
-alp_result alpi_pack(alp_context *context, alpi_pack_item *items, uint32_t count, uint32_t size,
-                     uint32_t padding, uint32_t page_limit, uint32_t *page_count);
+/// What must be free between two items.
+typedef struct alpi_pack_rules {
+    uint32_t size;    // side of a page
+    uint32_t padding; // texels between covered ones of two items, rows and columns alike
+    uint32_t block; // no block of block × block texels, counted from the page's corner, has texels
+                    // of two items; 0 and 1: no matter
+    uint32_t mips;  // two cells of 2^(mips − 1) texels are free between those with texels of two
+                    // items; 0: no matter. See alp_atlas_options.mips
+} alpi_pack_rules;
+/// Packs shapes into pages: the large first, each turned by quarters, to where its upper side ends
+/// lowest on the first page that has room for it; holes are used. The page's border needs no gap.
+/// Items larger than a page fail with LIMIT. Deterministic.
+alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pack_item *items,
+                     uint32_t count, uint32_t page_limit, uint32_t *page_count);
 
 #endif

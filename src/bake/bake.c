@@ -123,6 +123,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     ALP_TRY(alpi_bake_occlusion(job));
+    ALP_TRY(alpi_bake_seams(job));
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_pack_images(job));

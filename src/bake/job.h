@@ -98,6 +98,9 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
+/// Measures the seams of the stored maps; fills the report.
+alp_result alpi_bake_seams(alpi_bake_job *job);
+
 /// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
