@@ -76,6 +76,19 @@ void alpi_blend_weights(const alp_atlas *atlas, uint32_t triangle, float b1, flo
     weights[2] = n.z * n.z;
 }
 
+float alpi_blend_share(const alp_atlas *atlas, uint32_t face, const float barycentrics[2])
+{
+    const uint32_t triangle = atlas->face_triangles[face];
+    const uint8_t members = atlas->set_members[triangle];
+    float weights[3], share = 0.0f;
+    alpi_blend_weights(atlas, triangle, barycentrics[0], barycentrics[1], weights);
+    for (int k = 0; k < 3; k++) { // sets that it is not in are read from its first face
+        const bool is_in = (members >> k & 1u) != 0;
+        share += (is_in ? atlas->face_axes[face] == k : face == triangle) ? weights[k] : 0.0f;
+    }
+    return share;
+}
+
 // --- faces ---------------------------------------------------------------------------------------
 
 typedef struct builder {
@@ -243,6 +256,7 @@ static alp_result make_room(builder *b)
     ALPI_TRY_NEW(atlas->context, atlas->set_uvs, b->scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->set_members, b->scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->face_triangles, b->faces.count);
+    ALPI_TRY_NEW(atlas->context, atlas->face_axes, b->faces.count);
     return ALP_OK;
 }
 
@@ -324,6 +338,7 @@ static alp_result build(builder *b, alpi_atlas_clock *clock)
     b->atlas->face_count = b->faces.count;
     for (uint32_t f = 0; f < b->faces.count; f++) {
         triangles[f] = b->faces.faces[f].triangle;
+        b->atlas->face_axes[f] = b->faces.faces[f].axis;
     }
     ALP_TRY(result);
     name_members(b);

@@ -17,6 +17,9 @@ void alpi_blend_axes(const alpi_surface *surface, bool world, vec3 axes[ALPI_BLE
 void alpi_blend_weights(const alp_atlas *atlas, uint32_t triangle, float b1, float b2,
                         float weights[ALPI_BLEND_SETS]);
 
+/// How much of what is read at a point of a triangle comes from the chart of one of its faces.
+float alpi_blend_share(const alp_atlas *atlas, uint32_t face, const float barycentrics[2]);
+
 /// A triangle's place in a chart of an axis.
 typedef struct alpi_blend_face {
     uint32_t triangle;

@@ -112,11 +112,10 @@ static alp_result check_dae_options(const alpi_bake_job *job)
     const alp_bake_options *o = &job->options;
     const bool lit_otherwise =
         o->lightmap_as != ALP_LIGHTMAP_AS_NONE && o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE;
-    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX  ? "values at vertices"
-                       : o->atlas.mode == ALP_ATLAS_BLEND ? "three coordinate sets"
-                       : o->ao_into == ALP_AO_INTO_ORM    ? "occlusion packed into an image"
-                       : lit_otherwise                    ? "a light map other than emission"
-                                                          : NULL;
+    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
+                       : o->ao_into == ALP_AO_INTO_ORM   ? "occlusion packed into an image"
+                       : lit_otherwise                   ? "a light map other than emission"
+                                                         : NULL;
     return what == NULL
                ? ALP_OK
                : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
@@ -332,6 +331,11 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
     }
     if (job->options.lightmap_as != ALP_LIGHTMAP_AS_NONE) {
         json_object_set_new(object, "light", describe_light(job));
+    }
+    if (job->report.atlas.mode == ALP_ATLAS_BLEND) { // which sets: said where they are
+        json_object_set_new(
+            object, "blend",
+            json_pack("{s:i, s:s, s:s}", "sets", 3, "weights", "n*n", "frame", "object"));
     }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
