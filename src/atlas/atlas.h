@@ -51,6 +51,18 @@ static inline bool alpi_atlas_may_keep(const alp_atlas_options *options)
             options->densities == NULL);
 }
 
+/// Coordinate sets that a look-up reads, and those of a triangle's corners in one of them.
+static inline int alpi_atlas_set_count(const alp_atlas *atlas)
+{
+    return atlas->set_uvs != NULL ? 3 : 1;
+}
+static inline const float *alpi_atlas_set_uv(const alp_atlas *atlas, uint32_t triangle, int set,
+                                             int corner)
+{
+    return atlas->set_uvs != NULL ? atlas->set_uvs[triangle][set][corner]
+                                  : atlas->corner_uvs[triangle][corner];
+}
+
 /// What is special about a texel.
 enum {
     ALPI_TEXEL_NO_LIFT = 1 // its points stay on their triangles: the lift to the smooth surface
