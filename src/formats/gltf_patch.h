@@ -206,7 +206,6 @@ alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 // --- sets that are blended -----------------------------------------------------------------------
 
-#define ALPI_GLTF_BLEND "alpenglow_blend" // in the extras of materials
 enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
 /// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
 /// viewers know, else _ALPENGLOW_UV_k.

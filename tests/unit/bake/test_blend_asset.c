@@ -6,7 +6,6 @@
 #include "atlas/atlas.h"
 #include "maps/lightmap.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -51,6 +50,17 @@ static void check_sets(const alp_scene *written, const alp_lightmap *lightmap, u
     }
 }
 
+/// What a written scene reads of its own map is what the map gave, to half a step of eight bits.
+static void check_blend(const alp_scene *written, const alp_lightmap *lightmap)
+{
+    for (uint32_t t = 0; t < written->triangle_count; t++) {
+        float value = -1.0f, rgb[3];
+        assert_true(alpi_surface_occlusion(written, t, 0.3f, 0.5f, &value));
+        alpi_lightmap_sample(lightmap, t, 0.3f, 0.5f, rgb);
+        ASSERT_NEAR(value, rgb[0], 0.5 / 255.0 + 1e-5); // and rounding
+    }
+}
+
 static bool file_has(const char *path, const char *words)
 {
     size_t size;
@@ -78,6 +88,7 @@ static void three_sets_come_back(void **state)
     assert_true(file_has(once, "\"alpenglow_blend\":{\"sets\":[\"TEXCOORD_0\",\"TEXCOORD_1\","
                                "\"TEXCOORD_2\"],\"weights\":\"n*n\",\"frame\":\"object\","
                                "\"maps\":[\"occlusionTexture\"]}"));
+    check_blend(written, lightmap);
     alp_lightmap_destroy(lightmap);
     // Once more: one set is free still.
     lightmap = bake(written, twice);
