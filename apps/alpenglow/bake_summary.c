@@ -10,9 +10,16 @@ static void print_atlas(const alp_atlas_info *atlas)
 {
     printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
            "%.4g texels per metre\n",
-           atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
-           atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           atlas->mode == ALP_ATLAS_KEEP    ? "kept"
+           : atlas->mode == ALP_ATLAS_BLEND ? "blend"
+                                            : "charts",
+           atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+    printf(
+        "stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, %llu texels "
+        "overlap\n",
+        atlas->stretch_mean, atlas->stretch_worst, atlas->density_spread, atlas->flipped_triangles,
+        (unsigned long long)atlas->overlapping_texels);
 }
 
 /// Names of files, .exr as the format of the maps has it.

@@ -112,10 +112,16 @@ json_t *report_warnings(const message_log *messages)
 
 static json_t *make_atlas(const alp_atlas_info *atlas)
 {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o}", "pages", (json_int_t)atlas->pages, "width",
-                     (json_int_t)atlas->width, "height", (json_int_t)atlas->height, "charts",
-                     (json_int_t)atlas->charts, "texels", (json_int_t)atlas->texels, "utilisation",
-                     json_number(atlas->utilisation));
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:I, s:I, s:I}", "pages",
+                     (json_int_t)atlas->pages, "width", (json_int_t)atlas->width, "height",
+                     (json_int_t)atlas->height, "charts", (json_int_t)atlas->charts, "texels",
+                     (json_int_t)atlas->texels, "utilisation", json_number(atlas->utilisation),
+                     "stretch_mean", json_number(atlas->stretch_mean), "stretch_worst",
+                     json_number(atlas->stretch_worst), "density_spread",
+                     json_number(atlas->density_spread), "flipped_triangles",
+                     (json_int_t)atlas->flipped_triangles, "sliver_triangles",
+                     (json_int_t)atlas->sliver_triangles, "overlapping_texels",
+                     (json_int_t)atlas->overlapping_texels);
 }
 
 static json_t *make_seconds(const alp_bake_report *r, double load)

@@ -2,6 +2,7 @@
 // Clusters become charts: projected on their plane and turned to the tightest box; and charts that
 // are larger than a page are cut into pieces that fit.
 #include "atlas/box.h"
+#include "atlas/factors.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -35,6 +36,29 @@ static void project_chart(alp_atlas *atlas, const alpi_chart *chart, const uint3
             alpi_plane_project(&plane, corner[k], &x, &y);
             atlas->corner_uvs[triangles[i]][k][0] = (float)x;
             atlas->corner_uvs[triangles[i]][k][1] = (float)y;
+        }
+    }
+}
+
+/// Gives a chart the area in its plane that its triangles have in the world: so the density that is
+/// asked for is that of the curved charts too, in the mean.
+static void scale_chart(alp_atlas *atlas, const alpi_chart *chart, const uint32_t *triangles)
+{
+    double world = 0.0, laid = 0.0;
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        const float(*p)[2] = (const float(*)[2])atlas->corner_uvs[triangles[i]];
+        const double ax = (double)p[1][0] - (double)p[0][0], ay = (double)p[1][1] - (double)p[0][1];
+        const double bx = (double)p[2][0] - (double)p[0][0], by = (double)p[2][1] - (double)p[0][1];
+        vec3 c[3];
+        alpi_triangle_corners(atlas->scene, triangles[i], c);
+        world += vec3_triangle_area(c[0], c[1], c[2]);
+        laid += 0.5 * (ax * by - ay * bx);
+    }
+    const double scale = laid > 0.0 ? sqrt(world / laid) : 1.0;
+    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        for (int k = 0; k < 6; k++) {
+            float *value = &atlas->corner_uvs[triangles[i]][k / 2][k % 2];
+            *value = (float)((double)*value * scale);
         }
     }
 }
@@ -119,15 +143,14 @@ static alp_result group_triangles(alp_atlas *atlas, const alpi_clusters *cluster
     return ALP_OK;
 }
 
-alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
-                              const alpi_clusters *clusters, alpi_charts *charts)
+/// Turns all charts to their tightest boxes, at the size that they have in the world.
+static alp_result turn_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                              alpi_charts *charts)
 {
-    *charts = (alpi_charts){0};
-    ALP_TRY(group_triangles(atlas, clusters, charts));
     turner turn = {.context = atlas->context};
     alp_result result = ALP_OK;
     for (uint32_t c = 0; c < charts->count && result == ALP_OK; c++) {
-        project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
+        scale_chart(atlas, &charts->charts[c], charts->triangles);
         result = turn_chart(atlas, neighbours, &charts->charts[c], charts->triangles, &turn);
         if (result == ALP_OK) {
             result = alpi_tick(atlas->context, "charts", c, charts->count);
@@ -135,6 +158,19 @@ alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     }
     turner_destroy(&turn);
     return result;
+}
+
+alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                              const alpi_clusters *clusters, alpi_charts *charts)
+{
+    *charts = (alpi_charts){0};
+    ALP_TRY(group_triangles(atlas, clusters, charts));
+    for (uint32_t c = 0; c < charts->count; c++) {
+        project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
+    }
+    ALP_TRY(turn_charts(atlas, neighbours, charts));
+    ALP_TRY(alpi_charts_merge(atlas, neighbours, charts));
+    return turn_charts(atlas, neighbours, charts);
 }
 
 void alpi_charts_destroy(alp_context *context, alpi_charts *charts)
@@ -184,12 +220,14 @@ static alp_result fail_too_large(const alp_atlas *atlas, const alpi_chart *chart
                                  double density)
 {
     const alpi_surface *surface = &atlas->scene->surfaces[atlas->scene->triangle_surface[triangle]];
-    double longest = fmax(chart->width, chart->height);
+    const double factor = alpi_factor_of(atlas, triangle);
+    const double longest = fmax(chart->width, chart->height) / factor;
     return alpi_fail(atlas->context, ALP_ERROR_LIMIT,
                      "%s: %s: triangle %u is %.4g m long: at %.4g texels per metre it is larger "
                      "than a page of %u texels; use at most %.4g texels per metre or a larger size",
                      atlas->scene->name, surface->name, triangle - surface->first_triangle, longest,
-                     density, atlas->options.size, 0.999 * atlas->options.size / longest);
+                     density * factor, atlas->options.size,
+                     0.999 * atlas->options.size / (longest * factor));
 }
 
 /// Cuts chart c in two; the second piece goes to the end of the list.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Triangles that can share a chart: grown breadth-first from a seed while their normals stay near
-// the seed's, as long as the projection on its plane does not fold over itself.
+// Triangles that can share a chart: the parts of a region, grown breadth-first from its largest
+// triangle as long as the projection on its plane does not fold over itself.
 // Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU, 2007,
 // chapter 7.3. There the planes are those of the axes and a folded cluster is not noticed.
 #include "atlas/fold.h"
+#include "atlas/regions.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 // A cluster is checked for folds each time it has doubled, so that a long spiral costs no more than
@@ -23,10 +23,9 @@ typedef struct seed {
 typedef struct grower {
     const alp_scene *scene;
     const uint32_t (*neighbours)[3];
-    float min_cosine;
+    alpi_regions regions;
     alpi_clusters *clusters;
     size_t plane_capacity;
-    vec3 *normals;     // [triangle_count]
     seed *seeds;       // [usable_count], largest first
     uint32_t *visited; // [triangle_count] cluster + 1 that last reached the triangle
     uint32_t *members; // [usable_count] of the cluster that grows, breadth-first
@@ -52,7 +51,6 @@ static alp_result grower_create(grower *g)
     const alp_scene *scene = g->scene;
     alp_context *context = scene->context;
     ALPI_TRY_NEW(context, g->clusters->of_triangle, scene->triangle_count);
-    ALPI_TRY_NEW(context, g->normals, scene->triangle_count);
     ALPI_TRY_NEW(context, g->seeds, scene->usable_count);
     ALPI_TRY_NEW(context, g->visited, scene->triangle_count);
     ALPI_TRY_NEW(context, g->members, scene->usable_count);
@@ -62,7 +60,6 @@ static alp_result grower_create(grower *g)
         if (scene->triangle_usable[t]) {
             vec3 c[3];
             alpi_triangle_corners(scene, t, c);
-            g->normals[t] = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
             g->seeds[count++] = (seed){vec3_triangle_area(c[0], c[1], c[2]), t};
         }
     }
@@ -73,7 +70,7 @@ static alp_result grower_create(grower *g)
 static void grower_destroy(grower *g)
 {
     alp_context *context = g->scene->context;
-    alpi_release(context, g->normals);
+    alpi_regions_destroy(context, &g->regions);
     alpi_release(context, g->seeds);
     alpi_release(context, g->visited);
     alpi_release(context, g->members);
@@ -82,20 +79,11 @@ static void grower_destroy(grower *g)
     alpi_fold_destroy(&g->fold);
 }
 
-/// Whether one node shows both triangles, in one instance of its mesh.
-static bool share_node(const alp_scene *scene, uint32_t a, uint32_t b)
-{
-    const alpi_surface *first = &scene->surfaces[scene->triangle_surface[a]];
-    const alpi_surface *second = &scene->surfaces[scene->triangle_surface[b]];
-    return first->node == second->node && first->instance == second->instance;
-}
-
 static bool may_join(const grower *g, uint32_t triangle, uint32_t seed_triangle)
 {
     return triangle != ALPI_NONE && g->clusters->of_triangle[triangle] == ALPI_NONE &&
            g->visited[triangle] != g->clusters->count + 1 &&
-           vec3_dot(g->normals[triangle], g->normals[seed_triangle]) >= g->min_cosine &&
-           share_node(g->scene, triangle, seed_triangle);
+           g->regions.of_triangle[triangle] == g->regions.of_triangle[seed_triangle];
 }
 
 /// Appends what can be reached from the members, up to `limit` of them.
@@ -171,7 +159,8 @@ static alp_result grow_cluster(grower *g, uint32_t seed_triangle)
 {
     vec3 corner[3];
     alpi_triangle_corners(g->scene, seed_triangle, corner);
-    alpi_plane plane = alpi_plane_make(g->normals[seed_triangle], corner[0]);
+    const float *normal = g->regions.planes[g->regions.of_triangle[seed_triangle]];
+    alpi_plane plane = alpi_plane_make(vec3_load(normal), corner[0]);
     g->members[0] = seed_triangle;
     g->visited[seed_triangle] = g->clusters->count + 1;
     uint32_t count = 1, kept = 0, scanned = 0;
@@ -188,12 +177,13 @@ static alp_result grow_cluster(grower *g, uint32_t seed_triangle)
     }
     ALP_TRY(alpi_grow(g->scene->context, (void **)&g->clusters->planes, &g->plane_capacity,
                       (size_t)g->clusters->count + 1, sizeof *g->clusters->planes));
-    vec3_store(g->clusters->planes[g->clusters->count++], g->normals[seed_triangle]);
+    vec3_store(g->clusters->planes[g->clusters->count++], vec3_load(normal));
     return ALP_OK;
 }
 
-static alp_result grow_all(grower *g, alpi_atlas_clock *clock)
+static alp_result grow_all(grower *g, float max_angle, alpi_atlas_clock *clock)
 {
+    ALP_TRY(alpi_regions_create(g->scene, g->neighbours, max_angle, &g->regions));
     ALP_TRY(grower_create(g));
     uint32_t usable = g->scene->usable_count;
     for (uint32_t i = 0; i < usable; i++) {
@@ -213,10 +203,9 @@ alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbo
     *clusters = (alpi_clusters){0};
     grower g = {.scene = scene,
                 .neighbours = neighbours,
-                .min_cosine = cosf(max_angle),
                 .clusters = clusters,
                 .fold.context = scene->context};
-    alp_result result = grow_all(&g, clock);
+    alp_result result = grow_all(&g, max_angle, clock);
     grower_destroy(&g);
     if (result != ALP_OK) {
         alpi_clusters_destroy(scene->context, clusters);

@@ -93,7 +93,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    const alpi_atlas_choice choice = {job->only, job->originals};
+    const alpi_atlas_choice choice = {job->only, job->originals, alpi_bake_exports(job)};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
     if (result != ALP_OK) {

@@ -55,6 +55,13 @@ static void put_atlas(alpi_page *page, const alp_bake_report *r)
     alpi_page_format(page, "<dt>Texels</dt><dd>%s, %s of the pages used</dd>\n",
                      alpi_grouped(a->texels).text, alpi_percent(a->utilisation).text);
     put_fact(page, "Texels per metre", alpi_significant(a->texels_per_metre, 4).text);
+    alpi_page_format(page, "<dt>Stretch</dt><dd>mean %s, worst %s; density spread %s</dd>\n",
+                     alpi_significant(a->stretch_mean, 3).text,
+                     alpi_significant(a->stretch_worst, 3).text,
+                     alpi_significant(a->density_spread, 3).text);
+    alpi_page_format(page, "<dt>Flipped triangles</dt><dd>%s; overlapping texels: %s</dd>\n",
+                     alpi_grouped(a->flipped_triangles).text,
+                     alpi_grouped(a->overlapping_texels).text);
 }
 
 static void put_occlusion(alpi_page *page, const alp_bake_report *r)

@@ -96,31 +96,28 @@ static void nothing_overlaps(void **state)
     alp_context_destroy(context);
 }
 
-static void areas_are_those_of_the_projection(void **state)
+static void charts_have_the_area_of_their_triangles(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 10, 20);
     alp_atlas *atlas = atlas_of(context, scene, 512, 64.0, 2);
-    uint32_t(*neighbours)[3] = NULL;
-    alpi_clusters clusters;
-    ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
-    ASSERT_OK(context, alpi_clusters_create(scene, (const uint32_t(*)[3])neighbours,
-                                            atlas->options.max_angle, NULL, &clusters));
+    double *areas = ALPI_NEW(context, double, 2 * (size_t)atlas->info.charts);
+    assert_non_null(areas);
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
-        if (!scene->triangle_usable[t]) {
-            continue;
+        if (scene->triangle_usable[t]) {
+            vec3 c[3];
+            alpi_triangle_corners(scene, t, c);
+            areas[2 * atlas->triangle_charts[t]] += texel_area(atlas, t);
+            areas[2 * atlas->triangle_charts[t] + 1] +=
+                64.0 * 64.0 * vec3_triangle_area(c[0], c[1], c[2]);
         }
-        vec3 c[3];
-        alpi_triangle_corners(scene, t, c);
-        vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 0, 0});
-        double cosine =
-            (double)vec3_dot(normal, vec3_load(clusters.planes[clusters.of_triangle[t]]));
-        double expected = vec3_triangle_area(c[0], c[1], c[2]) * cosine * 64.0 * 64.0;
-        ASSERT_NEAR(texel_area(atlas, t), expected, 1e-3 * expected);
     }
-    alpi_release(context, neighbours);
-    alpi_clusters_destroy(context, &clusters);
+    for (uint32_t i = 0; i < atlas->info.charts; i++) {
+        // Coordinates are floats of a page: 1e-7 of 512 texels, in charts of some hundred across.
+        ASSERT_NEAR(areas[2 * i], areas[2 * i + 1], 1e-5 * areas[2 * i + 1]);
+    }
+    alpi_release(context, areas);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
@@ -194,9 +191,11 @@ static void sizes_at_their_ends(void **state)
     assert_int_equal(alp_atlas_get_info(atlas).texels, 1);
     check_triangles(atlas);
     alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    scene = scene_confetti(context, 6);
     atlas = atlas_of(context, scene, 2, 0.0, 0); // 6 charts, 4 texels: two pages
     assert_int_equal(alp_atlas_get_info(atlas).pages, 2);
-    assert_int_equal(alp_atlas_get_info(atlas).texels, 6);
+    assert_in_range(alp_atlas_get_info(atlas).texels, 6, 8);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
@@ -333,7 +332,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_overlaps),
-        cmocka_unit_test(areas_are_those_of_the_projection),
+        cmocka_unit_test(charts_have_the_area_of_their_triangles),
         cmocka_unit_test(a_turned_square_gets_a_tight_box),
         cmocka_unit_test(one_page_is_well_used),
         cmocka_unit_test(a_chart_larger_than_a_page_is_cut),

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Triangles that lean little from one axis, gathered bottom-up; and how sharp an edge is.
+#ifndef ALPI_ATLAS_REGIONS_H
+#define ALPI_ATLAS_REGIONS_H
+
+#include "scene/scene.h"
+
+/// Connected triangles of one node whose normals lie in a cone. They may fold over themselves.
+typedef struct alpi_regions {
+    uint32_t *of_triangle; // [triangle_count] a triangle of the region, the same for all of it
+    float (*planes)[3];    // [triangle_count] unit normal of the plane of the region that has this
+                           // triangle in of_triangle
+} alpi_regions;
+
+/// Regions of all usable triangles: neighbours are merged, those first that add least to the cone,
+/// the outline and the creases inside, as long as all normals stay within max_angle of the plane
+/// that the region is projected on. O(n log n).
+alp_result alpi_regions_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
+                               float max_angle, alpi_regions *regions);
+void alpi_regions_destroy(alp_context *context, alpi_regions *regions);
+
+/// Whether one node shows both triangles, in one instance of its mesh.
+bool alpi_share_node(const alp_scene *scene, uint32_t a, uint32_t b);
+/// The edge of `across` that `triangle` lies beyond.
+int alpi_edge_back(const uint32_t (*neighbours)[3], uint32_t triangle, uint32_t across);
+/// How sharply the light steps across edge k of a triangle that has a neighbour there: the angle
+/// between the shading normals on its two sides, or the fold of the surface where that is more than
+/// normals of a round surface hide. Radians, 0 on a smooth surface.
+float alpi_crease(const alp_scene *scene, const uint32_t (*neighbours)[3], uint32_t triangle,
+                  int k);
+
+#endif
