@@ -54,11 +54,13 @@ static alp_result measure_all(alpi_bake_job *job, const alpi_seams *seams, bool 
 
 static const alpi_stitch_options of_shares = {.channels = 3, .low = 0.0f, .high = 1.0f},
                                  of_light = {.channels = 3, .low = 0.0f, .high = HUGE_VALF},
-                                 of_signed = {.channels = 3, .low = -HUGE_VALF, .high = HUGE_VALF},
-                                 of_units = {.channels = 3,
-                                             .low = -HUGE_VALF,
+                                 of_parts = {.channels = 3,
+                                             .low = 0.0f,
                                              .high = HUGE_VALF,
-                                             .unit = true};
+                                             .part = true},
+                                 of_signed = {.channels = 3, .low = -HUGE_VALF, .high = HUGE_VALF},
+                                 of_units = {
+                                     .channels = 3, .low = -1.0f, .high = 1.0f, .unit = true};
 
 static alp_result stitch_map(const alpi_stitch *stitch, const alpi_stitch_options *options,
                              float **pages, alp_seam_error *error)
@@ -108,24 +110,39 @@ static alp_result stitch_obscurance(alpi_bake_job *job, const alpi_seams *seams)
     return result;
 }
 
-/// Irradiance at a place is again the sum of its layers, in their order; direct and bounced light
-/// again add up to it. All were moved alike, but where one would have become negative.
-static void add_up(const alp_lightmap *l, size_t page, size_t at)
+/// The parts of a sum at a place, made to add up to what it was stitched to: all were moved alike,
+/// but where one came to an end of its range. The whole becomes their sum in their order.
+static void add_up(float *const *parts, size_t count, float *whole)
 {
-    float *all = l->irradiance_pages[page] + at;
-    for (size_t k = 0; k < 3; k++) {
-        float sum = 0.0f;
+    float sum = 0.0f, exact = 0.0f;
+    for (size_t i = 0; i < count; i++) {
+        sum += *parts[i];
+    }
+    const float share = sum > 0.0f ? *whole / sum : 0.0f;
+    for (size_t i = 0; i < count; i++) {
+        *parts[i] *= share;
+        exact += *parts[i];
+    }
+    *whole = exact;
+}
+
+/// Irradiance at a place is again the sum of its layers; direct and bounced light add up to it.
+static void add_up_light(const alp_lightmap *l, size_t page, size_t at)
+{
+    float *parts[ALPI_LAYER_LIMIT];
+    for (size_t k = at; k < at + 3; k++) {
+        float *whole = &l->irradiance_pages[page][k];
         for (uint32_t i = 0; i < l->layer_count; i++) {
-            sum += l->layer_pages[i][page][at + k];
+            parts[i] = &l->layer_pages[i][page][k];
         }
-        all[k] = l->layer_count > 0 ? sum : all[k];
+        if (l->layer_count > 0) {
+            add_up(parts, l->layer_count, whole);
+        }
         if (l->direct_pages != NULL) {
-            float *direct = l->direct_pages[page] + at + k;
-            float *bounced = l->bounced_pages[page] + at + k;
-            const double both = (double)*direct + (double)*bounced;
-            const double share = both > 0.0 ? (double)all[k] / both : 0.0;
-            *direct = (float)(share * (double)*direct);
-            *bounced = (float)fmax((double)all[k] - (double)*direct, 0.0);
+            float copy = *whole; // within rounding
+            parts[0] = &l->direct_pages[page][k];
+            parts[1] = &l->bounced_pages[page][k];
+            add_up(parts, 2, &copy);
         }
     }
 }
@@ -134,10 +151,10 @@ static alp_result stitch_each(alpi_bake_job *job, const alpi_stitch *stitch)
 {
     const alp_lightmap *l = job->lightmap;
     ALP_TRY(stitch_map(stitch, &of_light, l->irradiance_pages, &job->report.seams.light));
-    ALP_TRY(stitch_map(stitch, &of_light, l->direct_pages, NULL));
-    ALP_TRY(stitch_map(stitch, &of_light, l->bounced_pages, NULL));
+    ALP_TRY(stitch_map(stitch, &of_parts, l->direct_pages, NULL));
+    ALP_TRY(stitch_map(stitch, &of_parts, l->bounced_pages, NULL));
     for (uint32_t i = 0; i < l->layer_count; i++) {
-        ALP_TRY(stitch_map(stitch, &of_light, l->layer_pages[i], NULL));
+        ALP_TRY(stitch_map(stitch, &of_parts, l->layer_pages[i], NULL));
     }
     for (int i = 0; i < 4; i++) {
         ALP_TRY(stitch_map(stitch, &of_signed, l->sh_pages[i], NULL));
@@ -146,7 +163,7 @@ static alp_result stitch_each(alpi_bake_job *job, const alpi_stitch *stitch)
     const size_t page_size = (size_t)l->width * l->height;
     for (uint32_t i = 0; i < stitch->seams->pixel_count; i++) {
         const size_t at = stitch->seams->pixels[i];
-        add_up(l, at / page_size, 4 * (at % page_size));
+        add_up_light(l, at / page_size, 4 * (at % page_size));
     }
     return ALP_OK;
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { STEP_LIMIT = 300, ROUNDS = 4 };
-static const double RESIDUAL = 1e-4; // of the first: what is left is below what is stated
+static const double RESIDUAL = 1e-6; // of the first: what is left is below what is stated
 // Of texels with a value of their own, of gaps; and how much more than the mean errors may change.
 static const double HOLD = 0.3, GAP_HOLD = 1e-4, HOLD_RANGE = 2.0;
 static const double LEAST_ERROR = 0.002; // of the mean: half of a step of eight bits
@@ -100,7 +100,7 @@ void alpi_stitch_destroy(alpi_stitch *stitch)
 /// One channel: changes of the texels, and what the method needs besides.
 typedef struct solver {
     const alpi_stitch *stitch;
-    const alpi_stitch_options *options;
+    double low, high;                                         // values stay within
     double *change, *residual, *direction, *image, *diagonal; // [pixel_count]
     uint8_t *bound; // [pixel_count] at an end of its range, and no unknown any more
 } solver;
@@ -160,7 +160,7 @@ static bool stop_at_ends(const solver *v, float *const *pages, uint32_t channel)
     for (uint32_t i = 0; i < v->stitch->seams->pixel_count; i++) {
         const double old =
             (double)pixel_of(v->stitch->lightmap, v->stitch->seams, i, pages)[channel];
-        const double low = (double)v->options->low - old, high = (double)v->options->high - old;
+        const double low = v->low - old, high = v->high - old;
         if (!v->bound[i] && (v->change[i] < low || v->change[i] > high)) {
             v->change[i] = fmin(fmax(v->change[i], low), high);
             v->bound[i] = 1;
@@ -240,6 +240,24 @@ static alp_result reserve(solver *v)
     return ALP_OK;
 }
 
+/// The range of values that covered texels have at seams, within what is allowed: texels of gaps
+/// shall not become brighter than anything is.
+static void find_range(solver *v, const alpi_stitch_options *o, float *const *pages,
+                       uint32_t channel)
+{
+    const alpi_seams *s = v->stitch->seams;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (uint32_t i = 0; i < s->pixel_count; i++) {
+        if (s->owners[i] != ALPI_NONE && !o->part) {
+            const double value = (double)pixel_of(v->stitch->lightmap, s, i, pages)[channel];
+            low = fmin(low, value);
+            high = fmax(high, value);
+        }
+    }
+    v->low = low <= high ? fmax(low, (double)o->low) : (double)o->low;
+    v->high = low <= high ? fmin(high, (double)o->high) : (double)o->high;
+}
+
 typedef struct channels_job {
     solver solvers[3];
     float *const *pages;
@@ -271,7 +289,7 @@ static void move(const channels_job *job, const alpi_stitch_options *o, uint32_t
     for (uint32_t k = 0; k < 3; k++) {
         const solver *v = &job->solvers[k < o->channels ? k : 0];
         const float old = pixel[k < o->channels ? k : 0];
-        moved[k] = (float)fmin(fmax((double)old + v->change[i], (double)o->low), (double)o->high);
+        moved[k] = (float)fmin(fmax((double)old + v->change[i], v->low), v->high);
     }
     if (o->unit) {
         const vec3 unit = vec3_normalize_or(vec3_load(moved), vec3_load(pixel));
@@ -320,9 +338,9 @@ alp_result alpi_stitch_apply(const alpi_stitch *stitch, const alpi_stitch_option
     alp_result result = ALP_OK;
     for (uint32_t k = 0; k < options->channels; k++) {
         job.solvers[k].stitch = stitch;
-        job.solvers[k].options = options;
     }
     for (uint32_t k = 0; k < options->channels && result == ALP_OK; k++) {
+        find_range(&job.solvers[k], options, pages, k);
         result = reserve(&job.solvers[k]);
     }
     const alpi_watch *watch = alpi_context_watch(context);

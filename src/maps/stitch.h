@@ -44,7 +44,8 @@ void alpi_stitch_destroy(alpi_stitch *stitch);
 
 typedef struct alpi_stitch_options {
     uint32_t channels; // 1: G and B become R; 3
-    float low, high;   // values stay within
+    float low, high;   // values stay within, and within the range of covered texels at seams
+    bool part;         // of a sum: the range of its own texels is not looked at
     bool unit;         // they are unit vectors, and stay it
 } alpi_stitch_options;
 
@@ -55,8 +56,8 @@ typedef struct alpi_stitch_change {
 } alpi_stitch_change;
 
 /// Stitches a map by conjugate gradients with Jacobi's preconditioner, in double and in a fixed
-/// order, until the residual is a 1e-4th of what it was, or 300 steps are done; up to three times
-/// again without the texels that left their range, which stop at its end.
+/// order, until the residual is a millionth of what it was, or 300 steps are done; up to three
+/// times again without the texels that left their range, which stop at its end.
 /// @param change NULL, or out
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context: the map is as it was
 alp_result alpi_stitch_apply(const alpi_stitch *stitch, const alpi_stitch_options *options,
