@@ -118,6 +118,9 @@ static void add_up(float *const *parts, size_t count, float *whole)
     for (size_t i = 0; i < count; i++) {
         sum += *parts[i];
     }
+    if (!(sum > 0.0f)) { // nothing is left of any
+        sum = *parts[0] = *whole;
+    }
     const float share = sum > 0.0f ? *whole / sum : 0.0f;
     for (size_t i = 0; i < count; i++) {
         *parts[i] *= share;

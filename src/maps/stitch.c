@@ -240,22 +240,20 @@ static alp_result reserve(solver *v)
     return ALP_OK;
 }
 
-/// The range of values that covered texels have at seams, within what is allowed: texels of gaps
-/// shall not become brighter than anything is.
+/// What is allowed, and not more than covered texels have at seams: those of gaps shall not become
+/// brighter than anything is.
 static void find_range(solver *v, const alpi_stitch_options *o, float *const *pages,
                        uint32_t channel)
 {
     const alpi_seams *s = v->stitch->seams;
-    double low = HUGE_VAL, high = -HUGE_VAL;
+    double high = -HUGE_VAL;
     for (uint32_t i = 0; i < s->pixel_count; i++) {
         if (s->owners[i] != ALPI_NONE && !o->part) {
-            const double value = (double)pixel_of(v->stitch->lightmap, s, i, pages)[channel];
-            low = fmin(low, value);
-            high = fmax(high, value);
+            high = fmax(high, (double)pixel_of(v->stitch->lightmap, s, i, pages)[channel]);
         }
     }
-    v->low = low <= high ? fmax(low, (double)o->low) : (double)o->low;
-    v->high = low <= high ? fmin(high, (double)o->high) : (double)o->high;
+    v->low = (double)o->low;
+    v->high = high > v->low ? fmin(high, (double)o->high) : (double)o->high;
 }
 
 typedef struct channels_job {

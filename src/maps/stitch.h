@@ -44,8 +44,8 @@ void alpi_stitch_destroy(alpi_stitch *stitch);
 
 typedef struct alpi_stitch_options {
     uint32_t channels; // 1: G and B become R; 3
-    float low, high;   // values stay within, and within the range of covered texels at seams
-    bool part;         // of a sum: the range of its own texels is not looked at
+    float low, high;   // values stay within, and not above all covered texels at seams
+    bool part;         // of a sum: its own texels set no limit
     bool unit;         // they are unit vectors, and stay it
 } alpi_stitch_options;
 
