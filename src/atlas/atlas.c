@@ -119,6 +119,9 @@ static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     if (result == ALP_OK) {
         result = alpi_layout(atlas, &charts, clock);
     }
+    if (result == ALP_OK) {
+        alpi_widen_slivers(atlas);
+    }
     atlas->info.mode = ALP_ATLAS_CHARTS;
     atlas->info.charts = charts.count;
     alpi_charts_destroy(atlas->context, &charts);

@@ -62,6 +62,10 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 /// triangle_pages and info.pages.
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
 
+/// Gives triangles that are thinner than the steps of floats on their page some steps of width, so
+/// that none is flat or flipped there.
+void alpi_widen_slivers(alp_atlas *atlas);
+
 /// Packs into one page, or says that it cannot; that is no failure and leaves no message.
 alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint32_t count,
                               uint32_t size, uint32_t padding, bool *fits);
