@@ -21,6 +21,9 @@ bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, 
     bench_denoise, bench_formats;
 bench_fn bench_direct, bench_path_tracer; // further tables of transport
 
+/// Figures of one atlas for scripts; the words after its name. @return exit status
+int bench_measure_atlas(int count, char **words);
+
 // --- tables --------------------------------------------------------------------------------------
 
 enum { BENCH_COLUMN_LIMIT = 10, BENCH_ROW_LIMIT = 64, BENCH_CELL_SIZE = 64 };
@@ -47,7 +50,7 @@ double bench_seconds(uint32_t workers);
 // --- scenes --------------------------------------------------------------------------------------
 
 /// A scene on a context of its own. Names: those of alp_scene_load, or "hills:N", a field of hills
-/// with overhangs of about N triangles.
+/// with overhangs of about N triangles, or "pieces:N", N meshes of one triangle each.
 typedef struct bench_scene {
     const char *name;
     alp_context *context;
@@ -57,6 +60,8 @@ typedef struct bench_scene {
 } bench_scene;
 /// @return false after a message; nothing is left to close then
 bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene);
+/// The same without the tracer.
+bool bench_scene_load(const char *name, uint32_t workers, bench_scene *scene);
 void bench_scene_close(bench_scene *scene);
 /// Whether a scene of this name can be loaded; says nothing.
 bool bench_scene_exists(const char *name);

@@ -27,6 +27,9 @@ static int find_bench(const char *name)
 
 int main(int count, char **words)
 {
+    if (count > 1 && strcmp(words[1], "measure-atlas") == 0) {
+        return bench_measure_atlas(count - 2, words + 2);
+    }
     bench_options options = {0};
     bool wanted[BENCH_COUNT] = {false}, any = false;
     for (int i = 1; i < count; i++) {

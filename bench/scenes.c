@@ -51,6 +51,36 @@ static alp_result make_hills(alp_context *context, uint32_t triangles, alp_scene
     return result;
 }
 
+/// Pieces of one triangle, each a mesh of its own, in a lattice of 0.1 m; a third of them are alike,
+/// the others get thinner with their number.
+static alp_result make_pieces(alp_context *context, uint32_t count, alp_scene **scene)
+{
+    float(*positions)[3][3] = bench_allocate(count, sizeof *positions);
+    alp_mesh *meshes = bench_allocate(count, sizeof *meshes);
+    static const uint32_t corners[3] = {0, 1, 2};
+    const uint32_t side = (uint32_t)ceil(cbrt(count));
+    for (uint32_t i = 0; i < count; i++) {
+        const float thin = i % 3 == 0 ? 1.0f : 1.0f / (float)(1 + i % 1000);
+        const float at[3] = {0.1f * (float)(i % side), 0.1f * (float)(i / side % side),
+                             0.1f * (float)(i / side / side)};
+        for (int k = 0; k < 3; k++) {
+            positions[i][k][0] = at[0] + (k == 1 ? 0.05f : 0.0f);
+            positions[i][k][1] = at[1] + (k == 2 ? 0.05f * thin : 0.0f);
+            positions[i][k][2] = at[2] + (k == 2 ? 0.01f : 0.0f);
+        }
+        meshes[i] = (alp_mesh){.name = "piece",
+                               .vertex_count = 3,
+                               .positions = positions[i][0],
+                               .triangle_count = 1,
+                               .indices = corners,
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+    }
+    const alp_result result = alp_scene_create_from_meshes(context, meshes, count, scene);
+    free(meshes);
+    free(positions);
+    return result;
+}
+
 bool bench_good(const bench_scene *scene, alp_result result)
 {
     if (result != ALP_OK) {
@@ -61,9 +91,9 @@ bool bench_good(const bench_scene *scene, alp_result result)
     return result == ALP_OK;
 }
 
-bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
+bool bench_scene_load(const char *name, uint32_t workers, bench_scene *scene)
 {
-    static const char hills[] = "hills:";
+    static const char hills[] = "hills:", pieces[] = "pieces:";
     *scene = (bench_scene){.name = name};
     alp_context_options options = alp_context_options_default();
     options.worker_count = workers;
@@ -71,14 +101,26 @@ bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
     if (result == ALP_OK && strncmp(name, hills, sizeof hills - 1) == 0) {
         const uint32_t triangles = (uint32_t)strtoul(name + sizeof hills - 1, NULL, 10);
         result = make_hills(scene->context, triangles, &scene->scene);
+    } else if (result == ALP_OK && strncmp(name, pieces, sizeof pieces - 1) == 0) {
+        const uint32_t count = (uint32_t)strtoul(name + sizeof pieces - 1, NULL, 10);
+        result = make_pieces(scene->context, count, &scene->scene);
     } else if (result == ALP_OK) {
         result = alp_scene_load(scene->context, name, &scene->scene);
     }
-    if (result == ALP_OK) {
-        result =
-            alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer, &scene->build_seconds);
-    }
     if (!bench_good(scene, result)) {
+        bench_scene_close(scene);
+        return false;
+    }
+    return true;
+}
+
+bool bench_scene_open(const char *name, uint32_t workers, bench_scene *scene)
+{
+    if (!bench_scene_load(name, workers, scene)) {
+        return false;
+    }
+    if (!bench_good(scene, alpi_tracer_for_scene(scene->scene, NULL, NULL, &scene->tracer,
+                                                 &scene->build_seconds))) {
         bench_scene_close(scene);
         return false;
     }

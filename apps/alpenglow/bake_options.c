@@ -35,6 +35,9 @@ static int check_vertex_options(const option_value *values)
     } of_maps[] = {{OPTION_SIZE, "--size"},
                    {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
                    {OPTION_PADDING, "--padding"},
+                   {OPTION_BLOCK, "--block"},
+                   {OPTION_MIPS, "--mips"},
+                   {OPTION_DENSITY, "--density"},
                    {OPTION_EXISTING_AO, "--existing-ao"},
                    {OPTION_AO_INTO, "--ao-into"},
                    {OPTION_QUALITY, "--quality"},
@@ -399,6 +402,29 @@ static int read_light(const command_line *a, alp_light_options *o)
     return code == EXIT_DONE ? check_layers(values, o) : code;
 }
 
+static int read_atlas(const option_value *values, alp_atlas_options *o)
+{
+    static const named_option of_charts[] = {
+        {OPTION_BLOCK, "--block"}, {OPTION_MIPS, "--mips"}, {OPTION_DENSITY, "--density"}};
+    const option_value *density = &values[OPTION_TEXELS_PER_METRE];
+    const char *name = find_given(values, of_charts, sizeof of_charts / sizeof *of_charts);
+    o->mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
+    o->size = (uint32_t)values[OPTION_SIZE].whole;
+    o->padding = (uint32_t)values[OPTION_PADDING].whole;
+    o->block = (uint32_t)values[OPTION_BLOCK].whole;
+    o->mips = (uint32_t)values[OPTION_MIPS].whole;
+    o->densities = values[OPTION_DENSITY].text;
+    o->texels_per_metre = density->choice < 0 ? density->real : 0.0;
+    if (o->mode == ALP_ATLAS_KEEP && name != NULL) {
+        return usage_error(COMMAND_BAKE, "%s: is of new charts; leave out --atlas keep", name);
+    }
+    if (o->size % (1u << o->mips) != 0) {
+        return usage_error(COMMAND_BAKE, "--mips %u: --size must be a multiple of %u", o->mips,
+                           1u << o->mips);
+    }
+    return EXIT_DONE;
+}
+
 int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lamps)
 {
     const option_value *values = a->values;
@@ -408,13 +434,9 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     o->overwrite = values[OPTION_FORCE].given;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
-    o->atlas.mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
-    o->atlas.size = (uint32_t)values[OPTION_SIZE].whole;
-    o->atlas.padding = (uint32_t)values[OPTION_PADDING].whole;
-    const option_value *density = &values[OPTION_TEXELS_PER_METRE];
-    o->atlas.texels_per_metre = density->choice < 0 ? density->real : 0.0;
     int code = check_vertex_options(values);
+    code = code == EXIT_DONE ? read_atlas(values, &o->atlas) : code;
     if (code == EXIT_DONE) {
         code = read_choice(values, o);
     }

@@ -10,9 +10,16 @@ static void print_atlas(const alp_atlas_info *atlas)
 {
     printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
            "%.4g texels per metre\n",
-           atlas->mode == ALP_ATLAS_KEEP ? "kept" : "charts", atlas->pages,
-           atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           atlas->mode == ALP_ATLAS_KEEP    ? "kept"
+           : atlas->mode == ALP_ATLAS_BLEND ? "blend"
+                                            : "charts",
+           atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
+    printf(
+        "stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, %llu texels "
+        "overlap\n",
+        atlas->stretch_mean, atlas->stretch_worst, atlas->density_spread, atlas->flipped_triangles,
+        (unsigned long long)atlas->overlapping_texels);
 }
 
 /// Names of files, .exr as the format of the maps has it.
@@ -129,6 +136,35 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
+/// How far the sides of seams are apart, of one map. @param separator before it
+static void print_seam_error(const char *separator, const char *map, const alp_seam_error *e)
+{
+    if (isfinite(e->mean)) {
+        printf("%s%s %.2g %% of the mean, 99 %% within %.2g %%", separator, map, 100.0 * e->mean,
+               100.0 * e->p99);
+    }
+}
+
+static void print_seams(const alp_bake_report *r)
+{
+    const alp_seam_report *s = &r->seams;
+    if (s->count == 0) {
+        printf("seams      none\n");
+        return;
+    }
+    printf("seams      %.4g m along %u edges", s->length, s->count);
+    if ((r->maps & ALP_MAP_AO) != 0) {
+        print_seam_error("; ", "occlusion", &s->ao);
+    }
+    if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
+        print_seam_error("; ", "obscurance", &s->obscurance);
+    }
+    if ((r->maps & ALP_MAP_LIGHT) != 0) {
+        print_seam_error("; ", "light", &s->light);
+    }
+    printf("\n");
+}
+
 static void print_layers(const alp_bake_options *o, const alp_lightmap *lightmap)
 {
     const uint32_t count = alp_lightmap_layer_count(lightmap);
@@ -162,6 +198,9 @@ void bake_summary_print(const session *s, const command_line *a, const alp_light
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
         print_light(o, r);
+    }
+    if (r->atlas.mode != ALP_ATLAS_VERTEX) {
+        print_seams(r);
     }
     printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
            s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,

@@ -23,6 +23,9 @@ int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diag
     options.messages = heard;
     options.message_count = (uint32_t)count;
     options.light = baked != NULL && (baked->maps & ALP_MAP_LIGHT) != 0;
+    if (baked != NULL && baked->atlas.mode == ALP_ATLAS_KEEP) {
+        options.page_size = baked->atlas.width; // the size that the set was baked at
+    }
     options.progress = baked == NULL ? session_progress : NULL;
     options.progress_user = s;
     const alp_result result = alp_scene_diagnose(s->scene, &options, diagnosis);
@@ -132,18 +135,31 @@ void findings_print(const alp_diagnosis *diagnosis)
 
 // --- JSON ----------------------------------------------------------------------------------------
 
+/// The worst place of a finding, null where it has none.
+static json_t *make_spot(const alp_finding_spot *spot)
+{
+    return !spot->known
+               ? json_null()
+               : json_pack("{s:I, s:I, s:[o, o, o], s:[o, o]}", "surface",
+                           (json_int_t)spot->surface, "triangle", (json_int_t)spot->triangle, "at",
+                           json_number((double)spot->at[0]), json_number((double)spot->at[1]),
+                           json_number((double)spot->at[2]), "uv", json_number((double)spot->uv[0]),
+                           json_number((double)spot->uv[1]));
+}
+
 json_t *findings_json(const alp_diagnosis *diagnosis)
 {
     json_t *list = json_array();
     for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
         const alp_finding f = alp_diagnosis_get_finding(diagnosis, i);
         json_array_append_new(
-            list, json_pack("{s:o, s:s, s:s, s:I, s:o, s:I, s:o, s:o, s:o, s:o}", "code",
-                            json_text(f.code), "severity", alp_severity_name(f.severity), "place",
-                            alp_finding_place_name(f.place), "index", (json_int_t)f.index, "name",
-                            json_text(f.name), "count", (json_int_t)f.count, "value",
-                            json_number(f.value), "what", json_text(f.what), "seen",
-                            json_text(f.seen), "todo", json_text(f.todo)));
+            list,
+            json_pack("{s:o, s:s, s:s, s:I, s:o, s:I, s:o, s:o, s:o, s:o, s:o}", "code",
+                      json_text(f.code), "severity", alp_severity_name(f.severity), "place",
+                      alp_finding_place_name(f.place), "index", (json_int_t)f.index, "name",
+                      json_text(f.name), "count", (json_int_t)f.count, "value",
+                      json_number(f.value), "what", json_text(f.what), "seen", json_text(f.seen),
+                      "todo", json_text(f.todo), "spot", make_spot(&f.spot)));
     }
     return list;
 }
@@ -155,17 +171,19 @@ json_t *findings_uv_sets_json(const alp_diagnosis *diagnosis)
         const alp_uv_set_info u = alp_diagnosis_get_uv_set(diagnosis, i);
         json_array_append_new(
             list,
-            json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:b, "
-                      "s:o}",
+            json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, "
+                      "s:o, s:b, s:o}",
                       "set", (json_int_t)u.set, "surfaces", (json_int_t)u.surfaces,
                       "missing_surfaces", (json_int_t)u.missing_surfaces, "triangles",
                       (json_int_t)u.triangles, "outside_triangles", (json_int_t)u.outside_triangles,
                       "flat_triangles", (json_int_t)u.flat_triangles, "overlapping_triangles",
                       (json_int_t)u.overlapping_triangles, "islands", (json_int_t)u.islands,
-                      "touching_islands", (json_int_t)u.touching_islands, "coverage",
-                      json_number(u.coverage), "overlap", json_number(u.overlap), "shared",
-                      json_number(u.shared), "density_ratio", json_number(u.density_ratio),
-                      "holds_bake", (int)u.holds_bake, "reason", json_text(u.reason)));
+                      "touching_islands", (json_int_t)u.touching_islands, "tiny_islands",
+                      (json_int_t)u.tiny_islands, "free_texels", (json_int_t)u.free_texels,
+                      "stretch", json_number(u.stretch), "coverage", json_number(u.coverage),
+                      "overlap", json_number(u.overlap), "shared", json_number(u.shared),
+                      "density_ratio", json_number(u.density_ratio), "holds_bake",
+                      (int)u.holds_bake, "reason", json_text(u.reason)));
     }
     return list;
 }

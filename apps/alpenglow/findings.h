@@ -19,7 +19,8 @@ void findings_print_uv_sets(const alp_diagnosis *diagnosis);
 /// Findings by severity, the first of each kind.
 void findings_print(const alp_diagnosis *diagnosis);
 
-/// [{"code", "severity", "place", "index", "name", "count", "value", "what", "seen", "todo"}]
+/// [{"code", "severity", "place", "index", "name", "count", "value", "what", "seen", "todo",
+///   "spot"}]
 json_t *findings_json(const alp_diagnosis *diagnosis);
 /// [{"set", "surfaces", …, "holds_bake", "reason"}]
 json_t *findings_uv_sets_json(const alp_diagnosis *diagnosis);

@@ -45,15 +45,16 @@ static const option rows[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
-     .value = "auto|keep|charts|vertex",
-     .choices = "auto|keep|charts|vertex",
-     .later_choices = "blend",
+     .value = "auto|keep|charts|vertex|blend",
+     .choices = "auto|keep|charts|vertex|blend",
      .initial = "auto",
      .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
              "charts: unwrap anew. auto: keep where it is valid, else charts. vertex: no map, but "
              "a value at each vertex, the best for linear interpolation over its triangles; "
              "options of maps, of their error and of stopping have no meaning then and are "
-             "refused. Warns where triangles are too large for it."},
+             "refused. Warns where triangles are too large for it. blend: charts that overlap "
+             "and three coordinate sets, for a shader that blends them by the normal and shows no "
+             "seams (docs/blend.md)."},
     {.id = OPTION_VERTEX_ATTRIBUTE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -78,6 +79,40 @@ static const option rows[] = {
      .initial = "2",
      .help = "Free texels between neighbouring charts, filled with the nearest value. More keeps "
              "smaller mip levels clean, and leaves less of the page for charts."},
+    {.id = OPTION_BLOCK,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--block",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 64,
+     .unit = "texels",
+     .initial = "1",
+     .help = "No block of N x N texels holds two charts, so that compressed textures keep them "
+             "apart: 4 for BC and ETC, 4 to 12 for ASTC. Makes new charts."},
+    {.id = OPTION_MIPS,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--mips",
+     .value = "N",
+     .minimum = 0,
+     .maximum = 8,
+     .unit = "levels",
+     .initial = "0",
+     .help = "Keep charts so far apart that bilinear look-ups at the first N mip levels read no "
+             "texel of another chart; --size must be a multiple of 2^N. Makes new charts."},
+    {.id = OPTION_DENSITY,
+     .commands = IN_BAKE,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--density",
+     .value = "GLOB=FACTOR",
+     .help = "Surfaces with more texels per metre than others, or fewer: patterns of names as in "
+             "--only, or material:GLOB for names of materials, each with its factor in "
+             "[0.001, 1000]; several with commas between, whose factors are multiplied. Makes new "
+             "charts."},
     {.id = OPTION_ONLY,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,

@@ -112,10 +112,16 @@ json_t *report_warnings(const message_log *messages)
 
 static json_t *make_atlas(const alp_atlas_info *atlas)
 {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o}", "pages", (json_int_t)atlas->pages, "width",
-                     (json_int_t)atlas->width, "height", (json_int_t)atlas->height, "charts",
-                     (json_int_t)atlas->charts, "texels", (json_int_t)atlas->texels, "utilisation",
-                     json_number(atlas->utilisation));
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:I, s:I, s:I}", "pages",
+                     (json_int_t)atlas->pages, "width", (json_int_t)atlas->width, "height",
+                     (json_int_t)atlas->height, "charts", (json_int_t)atlas->charts, "texels",
+                     (json_int_t)atlas->texels, "utilisation", json_number(atlas->utilisation),
+                     "stretch_mean", json_number(atlas->stretch_mean), "stretch_worst",
+                     json_number(atlas->stretch_worst), "density_spread",
+                     json_number(atlas->density_spread), "flipped_triangles",
+                     (json_int_t)atlas->flipped_triangles, "sliver_triangles",
+                     (json_int_t)atlas->sliver_triangles, "overlapping_texels",
+                     (json_int_t)atlas->overlapping_texels);
 }
 
 static json_t *make_seconds(const alp_bake_report *r, double load)
@@ -171,6 +177,30 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
+static void add_seam_error(json_t *maps, const char *map, const alp_seam_error *e)
+{
+    json_object_set_new(
+        maps, map,
+        json_pack("{s:o, s:o}", "mean", json_number(e->mean), "p99", json_number(e->p99)));
+}
+
+/// How far the sides of seams are apart, over the mean of each map.
+static json_t *make_seams(const alp_bake_report *r)
+{
+    json_t *maps = json_object();
+    if ((r->maps & ALP_MAP_AO) != 0) {
+        add_seam_error(maps, "ao", &r->seams.ao);
+    }
+    if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
+        add_seam_error(maps, "obscurance", &r->seams.obscurance);
+    }
+    if ((r->maps & ALP_MAP_LIGHT) != 0) {
+        add_seam_error(maps, "irradiance", &r->seams.light);
+    }
+    return json_pack("{s:I, s:o, s:o}", "edges", (json_int_t)r->seams.count, "length",
+                     json_number(r->seams.length), "maps", maps);
+}
+
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                     const alp_diagnosis *diagnosis)
 {
@@ -203,6 +233,9 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
     }
     if ((r->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) == 0) {
         json_object_del(error, "ao");
+    }
+    if (r->atlas.mode != ALP_ATLAS_VERTEX) {
+        json_object_set_new(document, "seams", make_seams(r));
     }
     json_object_set_new(document, "sampling", make_sampling(r));
     json_object_set_new(document, "uv_sets", findings_uv_sets_json(diagnosis));

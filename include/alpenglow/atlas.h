@@ -11,13 +11,34 @@ ALP_BEGIN_DECLS
 typedef struct alp_atlas alp_atlas;
 
 typedef enum alp_atlas_mode {
-    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else charts
+    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else (and where block, mips or densities
+                        ///< ask for them) charts
     ALP_ATLAS_KEEP =
         1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
     ALP_ATLAS_CHARTS = 2, ///< new charts, packed into pages
     /// No pages: values at the vertices. alp_bake only; the other atlas options have no meaning.
-    ALP_ATLAS_VERTEX = 3
+    ALP_ATLAS_VERTEX = 3,
+    /// Overlapping charts and three coordinate sets, one for each axis of the object (of the world,
+    /// where the scene or what is written has no objects): set k has the triangles whose normals
+    /// have a part of axis k, up to 80° from it, projected along it. A shader reads all three and
+    /// adds them up weighted by the squares of the unit normal's components, which sum to 1
+    ///
+    ///     value = Σ_k n_k² · L(uv_k),   n = the interpolated normal in the object's frame, unit
+    ///
+    /// so that a chart is seen least where it ends. Where a triangle is none of set k it has there
+    /// the coordinates of its strongest axis: each set alone is a map of everything, with seams.
+    /// Texels: up to three halves of those of CHARTS. KEEP's and CHARTS' max_angle is not read.
+    /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
+    /// 2007, chapters 5.4, 7.3 and 7.5.
+    ALP_ATLAS_BLEND = 4
 } alp_atlas_mode;
+
+/// How the three values of ALP_ATLAS_BLEND become one.
+typedef enum alp_blend {
+    ALP_BLEND_NORMAL = 0, ///< by the squares of the normal's components (default)
+    ALP_BLEND_AVERAGE = 1 ///< each chart that the triangle is in counts alike: for comparison, it
+                          ///< shows steps where charts end
+} alp_blend;
 
 typedef struct alp_atlas_options {
     size_t struct_size;
@@ -32,6 +53,23 @@ typedef struct alp_atlas_options {
     float max_angle;
     alp_progress_fn *progress;
     void *progress_user;
+    /// Side of the blocks of a texture compression, [1, 64]; default 1: none. No block of
+    /// block × block texels, counted from the corner of a page, holds texels of two charts: their
+    /// colours never share a block's palette. 4 for BC and ETC, 4 to 12 for ASTC.
+    uint32_t block;
+    /// Mip levels (means of 2 × 2) that must stay clean, [0, 8]; default 0. At levels 1 … mips no
+    /// bilinear look-up at a point of a chart, held at the page's border, reads a mip texel that
+    /// texels of another chart went into. With cells of 2^(mips − 1) texels, halves of that level's
+    /// texels, two free cells between the cells of two charts are what that takes: a look-up reads
+    /// its own texel and the next one on the side of its own half, so two halves beyond its half,
+    /// and each lower level reads less. `size` must be a multiple of 2^mips.
+    uint32_t mips;
+    /// Factors by which surfaces have more texels per metre: "PATTERN=FACTOR" with commas between,
+    /// patterns as in alp_bake_options.only, "material:PATTERN" for names of materials; where
+    /// several match, their product. Factors in [0.001, 1000]; each pattern must match something.
+    /// Charts hold surfaces of one factor. NULL (default): all alike. Instances that share a map
+    /// have the factor of the one that is baked.
+    const char *densities;
 } alp_atlas_options;
 ALP_API alp_atlas_options alp_atlas_options_default(void);
 
@@ -39,8 +77,9 @@ ALP_API alp_atlas_options alp_atlas_options_default(void);
 /// plane, with short outlines that lie in creases → planar projection → clusters that meet are
 /// unfolded together, as rigid as possible, where no triangle flips or lies over another, none has
 /// an L2 stretch above 1.75 (Sander et al. 2001, each chart having the area of its triangles) and
-/// their box does not grow → turned to the tightest box → packed pages. The same scene and options
-/// give the same atlas on any number of workers.
+/// their box does not grow → turned to the tightest box → packed pages. Charts are packed by their
+/// shapes, turned by quarters and never mirrored, into holes too. The same scene and options give
+/// the same atlas on any number of workers.
 /// @param scene must outlive the atlas
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
 ///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
@@ -55,7 +94,7 @@ ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
 ALP_API void alp_atlas_destroy(alp_atlas *atlas); ///< NULL does nothing
 
 typedef struct alp_atlas_info {
-    alp_atlas_mode mode; ///< what was done: KEEP or CHARTS; VERTEX: all else is 0
+    alp_atlas_mode mode; ///< what was done: KEEP, CHARTS or BLEND; VERTEX: all else is 0
     uint32_t pages, width, height;
     uint32_t charts;
     uint64_t texels; ///< covered: with area of a chart inside
@@ -64,6 +103,19 @@ typedef struct alp_atlas_info {
     double utilisation;
     double texels_per_metre;   ///< mean over the area, √(texel area / world area)
     uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
+    /// L2 stretch √((Γ² + γ²) / 2) of the map from texels to the surface, Γ ≥ γ its singular
+    /// values, times texels_per_metre: 1 = the mean density without shear. The mean is the root of
+    /// the mean square over the area; both leave slivers out. Based on: P. V. Sander et al. Texture
+    /// Mapping Progressive Meshes. SIGGRAPH 2001.
+    double stretch_mean, stretch_worst;
+    double density_spread; ///< 99th over 1st percentile, by area, of triangles' texels per metre
+    /// Whose corners run clockwise on the page, or which have no area there. CHARTS: none, ever.
+    /// KEEP: of islands that are mirrored too.
+    uint32_t flipped_triangles;
+    /// Lower than 1/64 of a texel at the mean density, so that coordinates do not hold their shape:
+    /// they count as flipped only beyond their rounding.
+    uint32_t sliver_triangles;
+    uint64_t overlapping_texels; ///< in which triangles cover one place; 0 but of pages of 1 texel
 } alp_atlas_info;
 ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 
@@ -72,6 +124,10 @@ ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 /// a bake of some surfaces only, triangles of the others have page UINT32_MAX. Owned by the atlas.
 ALP_API const float *alp_atlas_corner_uvs(const alp_atlas *atlas);
 ALP_API const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas);
+/// The three sets of ALP_ATLAS_BLEND, [triangles][set][corner][2], all three of a triangle on its
+/// page; else NULL. alp_atlas_corner_uvs are then those of each triangle's strongest axis. Owned by
+/// the atlas.
+ALP_API const float *alp_atlas_blend_uvs(const alp_atlas *atlas);
 
 /// A picture of one page: every chart in a colour of its own on black.
 ALP_API ALP_NODISCARD alp_result alp_atlas_picture(const alp_atlas *atlas, uint32_t page,

@@ -262,9 +262,9 @@ typedef struct alp_bake_options {
     const char *maps_folder;
     alp_maps_format maps_format; ///< of maps_folder, else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "write".
-    /// With ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of short
-    /// work may stay unheard.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "seams";
+    /// "write". With ALP_ATLAS_VERTEX "vertices", "build", "occlusion", "detail", "write". Parts of
+    /// short work may stay unheard.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;
@@ -281,6 +281,23 @@ typedef struct alp_light_energy {
     double behind;   ///< into the black backs of single-sided surfaces, by the rays that meet them
     double unshot;   ///< reflected by the last bounce, and not followed any more
 } alp_light_energy;
+
+/// How far apart the values are that a map shows on the two sides of its seams: |difference| of
+/// bilinear look-ups, of colours the mean of the channels, over the area-weighted mean of the map.
+typedef struct alp_seam_error {
+    double mean; ///< along all seams; NaN where the map is black
+    double p99;  ///< that 99 % of their length do not exceed
+} alp_seam_error;
+
+/// Seams: where a surface goes on across edges of triangles, whole or in part, in one object or
+/// from one to the next, and look-ups read other texels on each side. Where shading normals turn by
+/// more than 3°, light steps by itself, and nothing is a seam. Edges meet within a tenth of a
+/// texel.
+typedef struct alp_seam_report {
+    uint32_t count;                       ///< pairs of edges of triangles; 0 with ALP_ATLAS_VERTEX
+    double length;                        ///< metres
+    alp_seam_error ao, obscurance, light; ///< of those that were asked for
+} alp_seam_report;
 
 /// What was done.
 typedef struct alp_bake_report {
@@ -308,6 +325,7 @@ typedef struct alp_bake_report {
     /// Of each of the first 64 passes, the mean change of the light over its mean.
     float light_changes[64];
     alp_light_energy light_energy;
+    alp_seam_report seams;
     double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
     /// Rays of occlusion, plus what light took: the rays of direct light, of all passes of
     /// radiosity and of the texels that gathered; of ALP_GATHER_PATHS its paths, each of which is

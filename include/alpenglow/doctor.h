@@ -32,6 +32,10 @@ typedef enum alp_finding_kind {
     ALP_FINDING_MIRRORED = 10,        ///< placed by a matrix that mirrors
     ALP_FINDING_SIZE = 11,            ///< so large or small that the unit may be another
     ALP_FINDING_PRECISION = 12,       ///< too far from the origin for floats
+    ALP_FINDING_T_JUNCTIONS = 13,     ///< vertices within the open edges of other triangles
+    ALP_FINDING_THIN_WALL = 14,       ///< double-sided sheets whose sides see unlike much sky
+    ALP_FINDING_BURIED = 15,          ///< surface that lies inside other objects
+    ALP_FINDING_SCALE = 16,           ///< objects of another order of size than all others
 
     ALP_FINDING_NO_UVS = 30,     ///< no coordinates at all
     ALP_FINDING_UV_MISSING = 31, ///< some surfaces lack the set that others have
@@ -41,6 +45,9 @@ typedef enum alp_finding_kind {
     ALP_FINDING_UV_SHARED = 35,  ///< the same between nodes that show one mesh
     ALP_FINDING_UV_PADDING = 36, ///< islands without a free texel between them
     ALP_FINDING_UV_DENSITY = 37, ///< some surfaces have much more texels than others
+    ALP_FINDING_UV_MIPS = 38,    ///< islands without space for a second mip level
+    ALP_FINDING_UV_TINY = 39,    ///< islands smaller than a texel
+    ALP_FINDING_UV_STRETCH = 40, ///< texels that are long and narrow on the surface
 
     ALP_FINDING_MATERIAL_RANGE = 60, ///< values that were clamped
     ALP_FINDING_WHITE = 61,          ///< an albedo that hardly takes any light
@@ -70,6 +77,15 @@ typedef enum alp_finding_place {
     ALP_PLACE_MESSAGE = 5 ///< what the log called `name`; it has no index
 } alp_finding_place;
 
+/// The worst place of a finding.
+typedef struct alp_finding_spot {
+    bool known; ///< false: it has none, and the rest says nothing
+    uint32_t surface;
+    uint32_t triangle; ///< of the surface
+    float at[3];       ///< a point there, metres
+    float uv[2];       ///< of findings of a UV set: a point of the set, else NAN
+} alp_finding_spot;
+
 /// One finding. Texts are owned by the diagnosis, in English, never NULL, without a full stop.
 typedef struct alp_finding {
     alp_finding_kind kind;
@@ -83,10 +99,11 @@ typedef struct alp_finding {
     const char *what; ///< what is wrong
     const char *seen; ///< what will be seen; "" where nobody knows
     const char *todo; ///< what to do; "" where nobody knows
+    alp_finding_spot spot;
 } alp_finding;
 
 /// A set of texture coordinates as a place for a bake, over all surfaces with usable triangles.
-/// Measured on a page of 1024² texels.
+/// Measured on a page of page_size² texels (see alp_diagnosis_options).
 typedef struct alp_uv_set_info {
     uint32_t set;                               ///< n of TEXCOORD_n, from 0
     uint32_t surfaces, missing_surfaces;        ///< that have it, that do not
@@ -100,6 +117,11 @@ typedef struct alp_uv_set_info {
     double shared;        ///< share of those texels where nodes of one mesh do
     double density_ratio; ///< √ of texels per m² of the finest over the coarsest surface (of those
                           ///< with 1 % of the area or more); 1 = even
+    uint32_t tiny_islands; ///< smaller than a texel; like the two below of set 1 alone, and only
+                           ///< where it holds a bake, else 0
+    uint32_t free_texels;  ///< least between two islands; page_size where there is but one
+    double stretch;     ///< L2 stretch of the surface that has most, of those with 1 % of the area;
+                        ///< 1 = none. Sander et al., Texture Mapping Progressive Meshes, 2001
     bool holds_bake;    ///< what ALP_ATLAS_KEEP asks of set 1
     const char *reason; ///< why it does not, "" where it does
 } alp_uv_set_info;
@@ -111,6 +133,8 @@ typedef struct alp_diagnosis_options {
                                         ///< by them alone; copied. NULL (default) = none
     uint32_t message_count;             ///< default 0
     bool light; ///< light is to be baked: NO_LIGHT is a warning then, not a note; default false
+    uint32_t page_size; ///< side of the page that UV sets are measured on, texels, 1 to 16384;
+                        ///< default 1024
     alp_progress_fn *progress; ///< NULL, or asked whether to go on
     void *progress_user;
 } alp_diagnosis_options;
@@ -145,10 +169,12 @@ ALP_API alp_uv_set_info alp_diagnosis_get_uv_set(const alp_diagnosis *diagnosis,
 /// colours in even light; red: normals that look to the back, orange: backs of single-sided
 /// surfaces. Then the UV sets in their order, 1024 × 1024, row 0 is v = 0: islands in colours of
 /// their own, red where triangles overlap; orange lines are triangles outside of the unit square,
-/// which then is framed in white, with up to four tiles around it. None where there is nothing to
-/// bake.
+/// which then is framed in white, with up to four tiles around it; spots of findings are ringed.
+/// Then the worst spot of each kind of finding that has one in the scene, at most eight, from
+/// nearby: its triangle in magenta, the spot ringed. None where there is nothing to bake.
 ALP_API uint32_t alp_diagnosis_picture_count(const alp_diagnosis *diagnosis);
-/// "scene", "uv0" … "uv3": to name a file by. "" past the last. Static.
+/// "scene", "uv0" … "uv3", "spot-" and the code of a finding: to name a file by. "" past the last.
+/// Owned by the diagnosis.
 ALP_API const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, uint32_t index);
 /// @param image out: 8-bit RGB, which the caller destroys
 /// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Making an atlas: the stages in a row, and the questions one can ask it.
+#include "atlas/blend.h"
 #include "atlas/choice.h"
+#include "atlas/factors.h"
 #include "atlas/repeats.h"
 #include "atlas/stages.h"
 
@@ -15,6 +17,7 @@ alp_atlas_options alp_atlas_options_default(void)
                                .mode = ALP_ATLAS_AUTO,
                                .size = 1024,
                                .padding = 2,
+                               .block = 1,
                                .max_angle = (float)(ALPI_PI / 4.0)};
 }
 
@@ -35,10 +38,38 @@ alp_result alpi_atlas_tick(alpi_atlas_clock *clock, const char *stage, uint64_t 
                : alpi_fail(clock->context, ALP_ERROR_CANCELLED, "cancelled");
 }
 
+static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
+{
+    if (o->block < 1 || o->block > ALPI_ATLAS_BLOCK_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "blocks of %u texels: must be in [1, %d]", o->block,
+                         ALPI_ATLAS_BLOCK_LIMIT);
+    }
+    if (o->mips > ALPI_ATLAS_MIPS_LIMIT) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT, "%u mip levels: must be in [0, %d]",
+                         o->mips, ALPI_ATLAS_MIPS_LIMIT);
+    }
+    if (o->size % (1u << o->mips) != 0) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "%u mip levels of a page of %u texels: the size must be a multiple of %u",
+                         o->mips, o->size, 1u << o->mips);
+    }
+    if (o->mode == ALP_ATLAS_KEEP && (o->block > 1 || o->mips > 0 || o->densities != NULL)) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "coordinates that are kept cannot have %s: make new charts",
+                         o->densities != NULL ? "other densities"
+                         : o->mips > 0        ? "gaps for mip levels"
+                                              : "gaps for blocks");
+    }
+    return ALP_OK;
+}
+
 static alp_result check_options(const alp_scene *scene, const alp_atlas_options *o)
 {
     alp_context *context = scene->context;
-    if (o->struct_size != sizeof *o || o->mode < ALP_ATLAS_AUTO || o->mode > ALP_ATLAS_CHARTS) {
+    const bool known = o->mode == ALP_ATLAS_AUTO || o->mode == ALP_ATLAS_KEEP ||
+                       o->mode == ALP_ATLAS_CHARTS || o->mode == ALP_ATLAS_BLEND;
+    if (o->struct_size != sizeof *o || !known) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "atlas options must come from alp_atlas_options_default()");
     }
@@ -57,6 +88,7 @@ static alp_result check_options(const alp_scene *scene, const alp_atlas_options 
                          "padding of %u texels: must be in [0, %d]", o->padding,
                          ALPI_ATLAS_PADDING_LIMIT);
     }
+    ALP_TRY(check_gaps(context, o));
     if (!(o->max_angle > 0.0f && o->max_angle <= 1.2f)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "a chart angle of %g radians: must be in (0, 1.2]", (double)o->max_angle);
@@ -117,7 +149,8 @@ static alp_result chart_view(alp_atlas *atlas, const alp_scene *view,
     ALP_TRY(alpi_clusters_create(view, neighbours, atlas->options.max_angle, clock, &clusters));
     const alp_scene *scene = atlas->scene;
     atlas->scene = view;
-    const alp_result result = alpi_charts_create(atlas, neighbours, &clusters, charts);
+    alp_result result = alpi_charts_create(atlas, neighbours, &clusters, charts);
+    result = result == ALP_OK ? alpi_charts_merge(atlas, neighbours, charts) : result;
     atlas->scene = scene;
     alpi_clusters_destroy(atlas->context, &clusters);
     return result;
@@ -149,6 +182,7 @@ static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     alpi_charts charts = {0};
     alp_result result = chart_all(atlas, neighbours, clock, &charts);
     if (result == ALP_OK) {
+        alpi_factors_apply(atlas, &charts);
         result = alpi_layout(atlas, &charts, clock);
     }
     if (result == ALP_OK) {
@@ -174,7 +208,11 @@ static void drop_texels(alp_atlas *atlas)
 static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_atlas_clock *clock)
 {
     alp_atlas_mode mode = atlas->options.mode;
-    if (mode == ALP_ATLAS_KEEP || (mode == ALP_ATLAS_AUTO && atlas->scene->uvs[1] != NULL)) {
+    if (mode == ALP_ATLAS_BLEND) {
+        return alpi_blend_build(atlas, neighbours, clock);
+    }
+    if (alpi_atlas_may_keep(&atlas->options) &&
+        (mode == ALP_ATLAS_KEEP || atlas->scene->uvs[1] != NULL)) {
         char *reason = NULL;
         alp_result result = alpi_keep(atlas, neighbours, &reason);
         if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {
@@ -201,13 +239,18 @@ static alp_result build(alp_atlas *atlas)
     ALPI_TRY_NEW(atlas->context, atlas->corner_uvs, scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_pages, scene->triangle_count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_charts, scene->triangle_count);
+    ALP_TRY(alpi_factors_create(scene, atlas->options.densities, &atlas->factors));
     ALP_TRY(alpi_atlas_tick(&clock, "atlas", 0, scene->triangle_count));
     uint32_t(*neighbours)[3] = NULL;
     ALP_TRY(alpi_adjacency_create(scene, &neighbours));
+    alpi_factors_part(scene, atlas->factors, neighbours);
     alp_result result = choose(atlas, (const uint32_t(*)[3])neighbours, &clock);
     alpi_release(atlas->context, neighbours);
     ALP_TRY(result);
     place_unusable(atlas);
+    if (atlas->set_uvs != NULL) {
+        alpi_blend_fill_sets(atlas);
+    }
     if (atlas->info.shared_triangles > 0) {
         alpi_note(atlas->context, "tiny-triangles", scene->name,
                   "%u of %u triangles are smaller than a texel: they share the texels of their "
@@ -219,7 +262,8 @@ static alp_result build(alp_atlas *atlas)
 
 /// Builds an atlas of what is usable in `view`, and makes it one of `scene`.
 static alp_result create_from_view(const alp_scene *scene, const alp_scene *view,
-                                   const alp_atlas_options *options, alp_atlas **atlas)
+                                   const alp_atlas_options *options, bool world_axes,
+                                   alp_atlas **atlas)
 {
     if (view->usable_count == 0) {
         return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
@@ -233,6 +277,7 @@ static alp_result create_from_view(const alp_scene *scene, const alp_scene *view
     made->scene = view;
     made->context = scene->context;
     made->options = *options;
+    made->world_axes = world_axes;
     made->info.width = made->info.height = options->size;
     alpi_watch former = alpi_set_watch(
         made->context, (alpi_watch){.callback = options->progress, .user = options->progress_user});
@@ -254,11 +299,11 @@ alp_result alpi_atlas_create(const alp_scene *scene, const alp_atlas_options *op
     alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
     ALP_TRY(check_options(scene, &chosen));
     if (choice == NULL) {
-        return create_from_view(scene, scene, &chosen, atlas);
+        return create_from_view(scene, scene, &chosen, false, atlas);
     }
     alp_scene view;
     ALP_TRY(alpi_choice_view(scene, choice, &view));
-    alp_result result = create_from_view(scene, &view, &chosen, atlas);
+    alp_result result = create_from_view(scene, &view, &chosen, choice->world_axes, atlas);
     alpi_choice_end(&view);
     if (result == ALP_OK) {
         alpi_choice_share(*atlas, choice);
@@ -285,6 +330,10 @@ void alp_atlas_destroy(alp_atlas *atlas)
         alpi_release(context, atlas->corner_uvs);
         alpi_release(context, atlas->triangle_pages);
         alpi_release(context, atlas->triangle_charts);
+        alpi_release(context, atlas->factors);
+        alpi_release(context, atlas->face_triangles);
+        alpi_release(context, atlas->set_uvs);
+        alpi_release(context, atlas->set_members);
         alpi_release(context, atlas);
     }
 }
@@ -302,4 +351,9 @@ const float *alp_atlas_corner_uvs(const alp_atlas *atlas)
 const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas)
 {
     return atlas == NULL ? NULL : atlas->triangle_pages;
+}
+
+const float *alp_atlas_blend_uvs(const alp_atlas *atlas)
+{
+    return atlas == NULL || atlas->set_uvs == NULL ? NULL : &atlas->set_uvs[0][0][0][0];
 }

@@ -15,13 +15,40 @@ struct alp_atlas {
     alp_context *context;
     alp_atlas_options options;
     alp_atlas_info info;
-    float (*corner_uvs)[3][2];  // [triangle_count]
-    uint32_t *triangle_pages;   // [triangle_count]; ALPI_NONE: of a surface that was not chosen
-    uint32_t *triangle_charts;  // [triangle_count] chart of each; ALPI_NONE for triangles without
-                                // texels of their own: unusable, not chosen, or of an instance.
-                                // KEEP: chart = connected island in uv
+    float (*corner_uvs)[3][2]; // [faces]
+    uint32_t *triangle_pages;  // [faces]; ALPI_NONE: of a surface that was not chosen
+    uint32_t *triangle_charts; // [faces] chart of each; ALPI_NONE for triangles without
+                               // texels of their own: unusable, not chosen, or of an instance.
+                               // KEEP: chart = connected island in uv
+    // Faces: the triangles in their order, and behind them, BLEND alone, those that lie in further
+    // charts once more. NULL, 0: as many faces as triangles.
+    uint32_t *face_triangles; // [face_count]
+    uint32_t face_count;
+    float (*set_uvs)[3][3][2];  // BLEND: [triangle_count][set][corner], else NULL
+    uint8_t *set_members;       // BLEND: [triangle_count] bit k: it is in a chart of axis k, else
+                                // set k repeats the chart of its strongest axis
+    bool world_axes;            // BLEND: the axes are those of the world
+    float *factors;             // [surface_count] of options.densities; NULL: all 1
     struct alpi_texels *texels; // made when it was measured, until somebody takes them; or NULL
 };
+
+static inline uint32_t alpi_atlas_face_count(const alp_atlas *atlas)
+{
+    return atlas->face_triangles != NULL ? atlas->face_count : atlas->scene->triangle_count;
+}
+static inline uint32_t alpi_atlas_triangle(const alp_atlas *atlas, uint32_t face)
+{
+    return atlas->face_triangles != NULL ? atlas->face_triangles[face] : face;
+}
+
+/// Whether the scene's own coordinates will do: not where something is asked for that only new
+/// charts can have.
+static inline bool alpi_atlas_may_keep(const alp_atlas_options *options)
+{
+    return options->mode == ALP_ATLAS_KEEP ||
+           (options->mode == ALP_ATLAS_AUTO && options->block <= 1 && options->mips == 0 &&
+            options->densities == NULL);
+}
 
 /// What is special about a texel.
 enum {
@@ -36,6 +63,7 @@ typedef struct alpi_texels {
     uint32_t *pages;          // [count]
     uint16_t (*pixels)[2];    // [count] x, y
     uint32_t *triangles;      // [count] the triangle its representative point lies on
+    uint32_t *faces;          // [count] the face it is of; BLEND: else the array of triangles
     float (*barycentrics)[2]; // [count] of that point: weights of corners 1 and 2
     float (*normals)[3];      // [count] shading normal there, unit
     float *areas;             // [count] world area of the chart inside the texel, m²
@@ -46,10 +74,10 @@ typedef struct alpi_texels {
     uint16_t *valid; // [count] or NULL (as made): which strata of its unit square hold points. Bit
                      // 4·floor(4·sy) + floor(4·sx); all bits or none: all of it
 
-    // Pieces: the triangles with area in the texel, neighbours after each other. A texel without
+    // Pieces: the faces with area in the texel, neighbours after each other. A texel without
     // any lies wholly inside triangles[i].
     uint32_t *piece_first;     // [count + 1]
-    uint32_t *piece_triangles; // [piece_first[count]]
+    uint32_t *piece_triangles; // [piece_first[count]] faces
     float *piece_ends; // [piece_first[count]] share of the texel's area up to the end of the piece:
                        // ascending, the last is 1
 
@@ -84,6 +112,24 @@ typedef struct alpi_uv_set_facts {
 ///               ALPI_NONE; charts are islands
 alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
                               alpi_uv_set_facts *facts, alp_atlas **layout);
+
+/// What will be seen of a bake in a set that can hold one.
+typedef struct alpi_uv_quality {
+    uint32_t tiny;       // islands whose area is below a texel
+    double tiny_share;   // of the surface, that they hold
+    uint32_t tiny_worst; // triangle of the one of them with most surface, ALPI_NONE = none
+    double tiny_texels;  // its area
+    uint32_t free;       // texels between the two islands that are nearest; the page's side where
+                         // there is but one island
+    uint32_t near[2];    // a triangle of each, ALPI_NONE = there is but one island
+    float gap[2];        // u, v between them
+    double stretch;      // L2 stretch of the surface with most, of those of 1 % of the area
+    uint32_t stretched;  // that surface, ALPI_NONE = none
+    uint32_t stretched_worst; // its triangle that is stretched most
+    double own_stretch;       // of that triangle
+} alpi_uv_quality;
+/// Measures a layout of alpi_uv_set_survey.
+alp_result alpi_uv_set_quality(const alp_atlas *layout, alpi_uv_quality *quality);
 
 // --- the layout of a texture that is there already -----------------------------------------------
 
@@ -161,15 +207,28 @@ alp_result alpi_clusters_create(const alp_scene *scene, const uint32_t (*neighbo
                                 float max_angle, alpi_atlas_clock *clock, alpi_clusters *clusters);
 void alpi_clusters_destroy(alp_context *context, alpi_clusters *clusters);
 
-/// A rectangle to be packed and where it went, in texels.
+/// Something to be packed and where it went, in texels.
 typedef struct alpi_pack_item {
-    uint32_t width, height; // ≥ 1
-    uint32_t x, y, page;    // out
-    bool turned;            // out: width and height were exchanged
+    uint32_t width, height; // ≥ 1, of its box
+    const uint64_t *mask;   // [height][(width + 63) / 64] the texels of the box that it covers, the
+                            // first in the lowest bit, none behind the last; at least one of all;
+                            // NULL = all
+    uint32_t x, y, page;    // out: of the box after turning
+    uint32_t turns;         // out: quarters; one takes texel (x, y) to (height − 1 − y, x)
 } alpi_pack_item;
-/// Skyline packing into pages of side `size` with `padding` free texels between neighbours (none at
-/// the page border). Items larger than a page fail with LIMIT. Deterministic.
-alp_result alpi_pack(alp_context *context, alpi_pack_item *items, uint32_t count, uint32_t size,
-                     uint32_t padding, uint32_t page_limit, uint32_t *page_count);
+/// What must be free between two items.
+typedef struct alpi_pack_rules {
+    uint32_t size;    // side of a page
+    uint32_t padding; // texels between covered ones of two items, rows and columns alike
+    uint32_t block; // no block of block × block texels, counted from the page's corner, has texels
+                    // of two items; 0 and 1: no matter
+    uint32_t mips;  // two cells of 2^(mips − 1) texels are free between those with texels of two
+                    // items; 0: no matter. See alp_atlas_options.mips
+} alpi_pack_rules;
+/// Packs shapes into pages: the large first, each turned by quarters, to where its upper side ends
+/// lowest on the first page that has room for it; holes are used. The page's border needs no gap.
+/// Items larger than a page fail with LIMIT. Deterministic.
+alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pack_item *items,
+                     uint32_t count, uint32_t page_limit, uint32_t *page_count);
 
 #endif

@@ -2,6 +2,7 @@
 // Clusters become charts: projected on their plane and turned to the tightest box; and charts that
 // are larger than a page are cut into pieces that fit.
 #include "atlas/box.h"
+#include "atlas/factors.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -142,9 +143,7 @@ static alp_result group_triangles(alp_atlas *atlas, const alpi_clusters *cluster
     return ALP_OK;
 }
 
-/// Turns all charts to their tightest boxes, at the size that they have in the world.
-static alp_result turn_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
-                              alpi_charts *charts)
+alp_result alpi_charts_turn(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts)
 {
     turner turn = {.context = atlas->context};
     alp_result result = ALP_OK;
@@ -167,9 +166,7 @@ alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     for (uint32_t c = 0; c < charts->count; c++) {
         project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
     }
-    ALP_TRY(turn_charts(atlas, neighbours, charts));
-    ALP_TRY(alpi_charts_merge(atlas, neighbours, charts));
-    return turn_charts(atlas, neighbours, charts);
+    return alpi_charts_turn(atlas, neighbours, charts);
 }
 
 void alpi_charts_destroy(alp_context *context, alpi_charts *charts)
@@ -219,12 +216,14 @@ static alp_result fail_too_large(const alp_atlas *atlas, const alpi_chart *chart
                                  double density)
 {
     const alpi_surface *surface = &atlas->scene->surfaces[atlas->scene->triangle_surface[triangle]];
-    double longest = fmax(chart->width, chart->height);
+    const double factor = alpi_factor_of(atlas, triangle);
+    const double longest = fmax(chart->width, chart->height) / factor;
     return alpi_fail(atlas->context, ALP_ERROR_LIMIT,
                      "%s: %s: triangle %u is %.4g m long: at %.4g texels per metre it is larger "
                      "than a page of %u texels; use at most %.4g texels per metre or a larger size",
                      atlas->scene->name, surface->name, triangle - surface->first_triangle, longest,
-                     density, atlas->options.size, 0.999 * atlas->options.size / longest);
+                     density * factor, atlas->options.size,
+                     0.999 * atlas->options.size / (longest * factor));
 }
 
 /// Cuts chart c in two; the second piece goes to the end of the list.

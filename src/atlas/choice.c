@@ -68,6 +68,13 @@ static void share_surface(alp_atlas *atlas, uint32_t instance, uint32_t original
                 corner_of(scene, source, scene->vertex_source[scene->triangles[t][k]]);
             memcpy(atlas->corner_uvs[t][k], atlas->corner_uvs[source][corner],
                    sizeof atlas->corner_uvs[t][k]);
+            for (int set = 0; set < 3 && atlas->set_uvs != NULL; set++) {
+                memcpy(atlas->set_uvs[t][set][k], atlas->set_uvs[source][set][corner],
+                       sizeof atlas->set_uvs[t][set][k]);
+            }
+        }
+        if (atlas->set_members != NULL) {
+            atlas->set_members[t] = atlas->set_members[source];
         }
         atlas->triangle_pages[t] = atlas->triangle_pages[source];
     }

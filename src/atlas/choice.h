@@ -12,6 +12,7 @@
 typedef struct alpi_atlas_choice {
     const bool *surfaces;      // [surface_count] chosen; NULL = all
     const uint32_t *originals; // [surface_count] of alpi_scene_instances; NULL = no instances
+    bool world_axes;           // BLEND: what is written has no objects
 } alpi_atlas_choice;
 
 /// alp_atlas_create for some of the surfaces. What `choice` points to is read by this call only.

@@ -37,7 +37,7 @@ static void load_carrier(const alp_atlas *atlas, uint32_t triangle, carrier *c)
     c->heights[0] = 2.0 * shape.area / length(e[1][0] - e[0][0], e[1][1] - e[0][1]);
     c->heights[1] = 2.0 * shape.area / length(e[1][0], e[1][1]);
     c->heights[2] = 2.0 * shape.area / length(e[0][0], e[0][1]);
-    alpi_facet_load(atlas->scene, triangle, false, &c->facet);
+    alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, triangle), false, &c->facet);
 }
 
 /// Moves a point that lies on an edge, or nearly, into the triangle: a twentieth of a texel towards

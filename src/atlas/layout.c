@@ -1,209 +1,281 @@
 // SPDX-License-Identifier: MIT
 // How many texels a metre gets and where each chart goes: the highest density at which all charts
 // fit one page, or a given density and as many pages as that takes.
+#include "atlas/frame.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <math.h>
+#include <string.h>
 
-// A chart smaller than a texel has a texel of its own; it is drawn this large in it, so that its
-// coordinates stay apart in 32-bit floats: the longer side and the shorter one, in texels.
-static const double SMALLEST_LONGER_SIDE = 0.5;
-static const double SMALLEST_SHORTER_SIDE = 1.0 / 16.0;
+enum {
+    PACKING_LIMIT = 20, // of the search for the density
+    CHARTS_PER_RANGE = 64
+};
 
-enum { PACKING_LIMIT = 20 }; // of the search for the density
+// Of the page, charts and gaps, at the first density that is tried.
+static const double LIKELY_UTILISATION = 0.85;
 
 typedef struct layout {
     alp_atlas *atlas;
     alpi_charts *charts;
     alpi_atlas_clock *clock;
+    alpi_pack_rules rules;
     alpi_pack_item *items; // [chart_capacity]
     size_t item_capacity;
+    alpi_pack_item *best; // [chart_capacity] as they lay at the highest density that fitted
+    size_t best_capacity;
+    uint64_t *bits; // the items' masks
+    size_t bit_capacity;
+    double density; // at which they are drawn
     uint32_t packings;
 } layout;
 
-static double longer_side(const alpi_chart *chart)
+static size_t mask_words(const alpi_pack_item *item)
 {
-    return fmax(chart->width, chart->height);
+    return (size_t)((item->width + 63) / 64) * item->height;
 }
 
-/// Sides of a chart in texels; zero for a chart that is a line or a point to 32-bit floats.
-static void chart_sides(const alpi_chart *chart, double density, double sides[2])
-{
-    sides[0] = sides[1] = 0.0;
-    if (chart->width > 0.0 && chart->height > 0.0) {
-        double scale = fmax(density, SMALLEST_LONGER_SIDE / longer_side(chart));
-        sides[0] = fmax(chart->width * scale, SMALLEST_SHORTER_SIDE);
-        sides[1] = fmax(chart->height * scale, SMALLEST_SHORTER_SIDE);
-    }
-}
+// --- what is packed ------------------------------------------------------------------------------
 
-static uint32_t whole_texels(double side)
+static alp_result draw_charts(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    return side <= 1.0 ? 1 : (uint32_t)fmin(ceil(side - 1e-5), 1e9);
-}
-
-static alp_result size_items(layout *l, double density)
-{
-    ALP_TRY(alpi_grow(l->atlas->context, (void **)&l->items, &l->item_capacity, l->charts->count,
-                      sizeof *l->items));
-    for (uint32_t c = 0; c < l->charts->count; c++) {
-        double sides[2];
-        chart_sides(&l->charts->charts[c], density, sides);
-        l->items[c] =
-            (alpi_pack_item){.width = whole_texels(sides[0]), .height = whole_texels(sides[1])};
+    (void)worker;
+    const layout *l = user;
+    for (uint32_t c = begin; c < end; c++) {
+        const alpi_chart *chart = &l->charts->charts[c];
+        const alpi_frame frame = alpi_frame_of(chart, l->density);
+        alpi_frame_draw(l->atlas, &frame, chart, l->charts->triangles,
+                        l->bits + (l->items[c].mask - l->bits));
     }
     return ALP_OK;
 }
 
-static alp_result try_density(layout *l, double density, bool *fits)
+/// Draws all charts at a density; *large: one is larger than a page, and nothing was drawn.
+static alp_result make_items(layout *l, double density, bool *large)
 {
-    const alp_atlas_options *options = &l->atlas->options;
-    ALP_TRY(alpi_atlas_tick(l->clock, "packing", l->packings++, PACKING_LIMIT));
-    ALP_TRY(size_items(l, density));
-    return alpi_pack_one_page(l->atlas->context, l->items, l->charts->count, options->size,
-                              options->padding, fits);
+    alp_context *context = l->atlas->context;
+    ALP_TRY(alpi_grow(context, (void **)&l->items, &l->item_capacity, l->charts->count,
+                      sizeof *l->items));
+    size_t words = 0;
+    *large = false;
+    for (uint32_t c = 0; c < l->charts->count && !*large; c++) {
+        const alpi_frame frame = alpi_frame_of(&l->charts->charts[c], density);
+        l->items[c] = (alpi_pack_item){.width = frame.width, .height = frame.height};
+        *large = frame.width > l->rules.size || frame.height > l->rules.size;
+        words += mask_words(&l->items[c]);
+    }
+    if (*large) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_grow(context, (void **)&l->bits, &l->bit_capacity, words, sizeof *l->bits));
+    memset(l->bits, 0, words * sizeof *l->bits);
+    words = 0;
+    for (uint32_t c = 0; c < l->charts->count; c++) {
+        l->items[c].mask = l->bits + words;
+        words += mask_words(&l->items[c]);
+    }
+    l->density = density;
+    return alpi_parallel_for(context, l->charts->count, CHARTS_PER_RANGE, draw_charts, l, NULL);
 }
 
-/// Texels per metre at which the boxes of the charts would fill one page.
-static double full_density(const layout *l, double *longest)
+// --- the density ---------------------------------------------------------------------------------
+
+/// Packs into one page; what fits is kept as the best there is.
+static alp_result try_density(layout *l, double density, bool *fits)
 {
-    double area = 0.0;
-    *longest = 0.0;
-    for (uint32_t c = 0; c < l->charts->count; c++) {
-        area += l->charts->charts[c].width * l->charts->charts[c].height;
-        *longest = fmax(*longest, longer_side(&l->charts->charts[c]));
+    ALP_TRY(alpi_atlas_tick(l->clock, "packing", l->packings++, PACKING_LIMIT));
+    bool large;
+    *fits = false;
+    ALP_TRY(make_items(l, density, &large));
+    if (!large) {
+        ALP_TRY(alpi_pack_one_page(l->atlas->context, &l->rules, l->items, l->charts->count, fits));
     }
-    double size = (double)l->atlas->options.size;
-    double density = size / sqrt(fmax(area, 1e-300));
-    return fmin(density, size / fmax(*longest, 1e-300));
+    if (*fits) {
+        ALP_TRY(alpi_grow(l->atlas->context, (void **)&l->best, &l->best_capacity, l->charts->count,
+                          sizeof *l->best));
+        memcpy(l->best, l->items, l->charts->count * sizeof *l->best);
+    }
+    return ALP_OK;
+}
+
+/// What the density is sought by.
+typedef struct extent {
+    double area;       // of all charts, m²
+    double half_round; // half of the way round their boxes, m
+    double longest;    // side of a box, m
+} extent;
+
+static extent measure_charts(const layout *l)
+{
+    extent all = {0};
+    for (uint32_t c = 0; c < l->charts->count; c++) {
+        const alpi_chart *chart = &l->charts->charts[c];
+        for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+            const float(*p)[2] = (const float(*)[2])l->atlas->corner_uvs[l->charts->triangles[i]];
+            const double ax = (double)p[1][0] - (double)p[0][0];
+            const double ay = (double)p[1][1] - (double)p[0][1];
+            const double bx = (double)p[2][0] - (double)p[0][0];
+            const double by = (double)p[2][1] - (double)p[0][1];
+            all.area += 0.5 * fabs(ax * by - ay * bx);
+        }
+        all.half_round += chart->width + chart->height;
+        all.longest = fmax(all.longest, fmax(chart->width, chart->height));
+    }
+    return all;
+}
+
+/// Texels per metre that no packing on one page exceeds.
+static double most_density(const layout *l, const extent *all)
+{
+    const double size = l->rules.size;
+    return fmin(size / sqrt(fmax(all->area, 1e-300)), size / fmax(all->longest, 1e-300));
+}
+
+/// Where to look first: charts with half of their gaps round them, d² area + d gap half_round +
+/// count gap², fill most of the page.
+static double likely_density(const layout *l, const extent *all)
+{
+    const double gap = l->rules.padding, size = l->rules.size;
+    const double room = LIKELY_UTILISATION * size * size - l->charts->count * gap * gap;
+    const double half = 0.5 * gap * all->half_round;
+    const double area = fmax(all->area, 1e-300);
+    return room > 0.0 ? (sqrt(half * half + area * room) - half) / area : 0.0;
 }
 
 /// The highest density that fits one page, to half a percent: bracketed, then bisected.
 /// 0 = none does, not even a texel for each chart.
 static alp_result search_density(layout *l, double *density)
 {
+    const extent all = measure_charts(l);
+    const double most = most_density(l, &all) * (1.0 + 1e-9);
+    double low = 0.0, high = most, step = 1.06;
+    double next = fmin(likely_density(l, &all), 0.97 * most);
     bool fits = false;
     *density = 0.0;
     ALP_TRY(try_density(l, 0.0, &fits));
     if (!fits) {
         return ALP_OK;
     }
-    double longest, most = full_density(l, &longest);
-    double low = 0.0, high = most * (1.0 + 1e-9), next = 0.9 * most, step = 0.85;
-    ALP_TRY(try_density(l, high, &fits));
+    ALP_TRY(try_density(l, most, &fits));
     if (fits) {
-        *density = high;
+        *density = most;
         return ALP_OK;
     }
+    next = next > 0.0 ? next : 0.5 * most;
     while (l->packings < PACKING_LIMIT && (low == 0.0 || high > 1.005 * low)) {
         ALP_TRY(try_density(l, next, &fits));
         low = fits ? next : low;
         high = fits ? high : next;
-        next = low > 0.0 ? sqrt(low * high) : high * step;
-        step *= 0.9; // faster when the estimate was far off
+        if (low == 0.0 || high == most) { // faster when the estimate was far off
+            next = fits ? fmin(low * step, sqrt(low * high)) : high / step;
+            step *= step;
+        } else {
+            next = sqrt(low * high);
+        }
     }
-    *density = low > 0.0 ? low : fmin(high, 1.0 / longest); // there every chart is one texel
+    *density = low > 0.0 ? low : fmin(high, 1.0 / all.longest); // there every chart is one texel
     return ALP_OK;
 }
 
 // --- placing -------------------------------------------------------------------------------------
 
-/// A chart without area in 32-bit floats: each of its triangles is drawn over half of its texel.
-static void place_point_chart(alp_atlas *atlas, const alpi_chart *chart, const uint32_t *triangles,
-                              const alpi_pack_item *item)
+/// Metres → page coordinates.
+static void place_chart(const layout *l, uint32_t c, double density)
 {
-    static const double corner[3][2] = {{0.25, 0.25}, {0.75, 0.25}, {0.5, 0.75}};
+    const alpi_chart *chart = &l->charts->charts[c];
+    const alpi_pack_item *item = &l->items[c];
+    const alpi_frame frame = alpi_frame_of(chart, density);
+    const double size = l->rules.size;
     for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+        const uint32_t t = l->charts->triangles[i];
         for (int k = 0; k < 3; k++) {
-            float *uv = atlas->corner_uvs[triangles[i]][k];
-            uv[0] = (float)((item->x + corner[k][0]) / atlas->options.size);
-            uv[1] = (float)((item->y + corner[k][1]) / atlas->options.size);
+            float *uv = l->atlas->corner_uvs[t][k];
+            double p[2];
+            alpi_frame_corner(&frame, uv, k, p);
+            alpi_frame_turn(&frame, item->turns, p);
+            uv[0] = (float)fmin(fmax((item->x + p[0]) / size, 0.0), 1.0);
+            uv[1] = (float)fmin(fmax((item->y + p[1]) / size, 0.0), 1.0);
         }
-    }
-}
-
-/// Metres → page coordinates, the chart in the middle of its texels.
-static void place_chart(alp_atlas *atlas, const alpi_chart *chart, const uint32_t *triangles,
-                        const alpi_pack_item *item, double density)
-{
-    double size = (double)atlas->options.size, sides[2];
-    chart_sides(chart, density, sides);
-    double scale_x = sides[0] / chart->width, scale_y = sides[1] / chart->height;
-    double rest_x =
-        0.5 * ((item->turned ? item->height : item->width) - (item->turned ? sides[1] : sides[0]));
-    double rest_y =
-        0.5 * ((item->turned ? item->width : item->height) - (item->turned ? sides[0] : sides[1]));
-    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            float *uv = atlas->corner_uvs[triangles[i]][k];
-            double x = (double)uv[0] * scale_x, y = (double)uv[1] * scale_y;
-            double turned_x = item->turned ? sides[1] - y : x; // by 90°, never mirrored
-            double turned_y = item->turned ? x : y;
-            uv[0] = (float)fmin(fmax((item->x + rest_x + turned_x) / size, 0.0), 1.0);
-            uv[1] = (float)fmin(fmax((item->y + rest_y + turned_y) / size, 0.0), 1.0);
-        }
+        l->atlas->triangle_pages[t] = item->page;
     }
 }
 
 static void place_all(layout *l, double density)
 {
     for (uint32_t c = 0; c < l->charts->count; c++) {
-        const alpi_chart *chart = &l->charts->charts[c];
-        if (chart->width > 0.0 && chart->height > 0.0) {
-            place_chart(l->atlas, chart, l->charts->triangles, &l->items[c], density);
-        } else {
-            place_point_chart(l->atlas, chart, l->charts->triangles, &l->items[c]);
-        }
-        for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
-            l->atlas->triangle_pages[l->charts->triangles[i]] = l->items[c].page;
-        }
+        place_chart(l, c, density);
     }
 }
 
 /// All charts on one page of one texel, one over the other.
-static alp_result share_one_texel(layout *l)
+static alp_result share_one_texel(layout *l, double longest)
 {
-    double longest;
-    full_density(l, &longest);
-    ALP_TRY(size_items(l, 0.0));
+    bool large;
+    ALP_TRY(make_items(l, 0.0, &large));
     place_all(l, 1.0 / fmax(longest, 1e-300));
     l->atlas->info.pages = 1;
     return ALP_OK;
 }
 
-static alp_result choose_and_place(layout *l)
+/// Into as many pages as it takes.
+static alp_result pack_pages(layout *l, double density)
 {
-    const alp_atlas_options *options = &l->atlas->options;
-    double density = options->texels_per_metre;
-    if (density == 0.0) {
-        ALP_TRY(search_density(l, &density));
-        if (density == 0.0 && options->size == 1) {
-            return share_one_texel(l);
-        }
-        if (density == 0.0) { // more charts than a page has room for: pages are added
-            double longest;
-            density = full_density(l, &longest);
-            alpi_note(l->atlas->context, "atlas-pages", l->atlas->scene->name,
-                      "%u charts do not fit one page of %u texels: pages are added",
-                      l->charts->count, options->size);
-        }
-    } else {
-        ALP_TRY(alpi_charts_split(l->atlas, density, l->charts));
-    }
+    bool large;
     ALP_TRY(alpi_atlas_tick(l->clock, "packing", PACKING_LIMIT, PACKING_LIMIT));
-    ALP_TRY(size_items(l, density));
-    ALP_TRY(alpi_pack(l->atlas->context, l->items, l->charts->count, options->size,
-                      options->padding, ALPI_ATLAS_PAGE_LIMIT, &l->atlas->info.pages));
+    ALP_TRY(make_items(l, density, &large));
+    ALP_TRY(alpi_pack(l->atlas->context, &l->rules, l->items, l->charts->count,
+                      ALPI_ATLAS_PAGE_LIMIT, &l->atlas->info.pages));
     place_all(l, density);
     return ALP_OK;
 }
 
+/// As dense as one page allows.
+static alp_result fill_page(layout *l)
+{
+    double density;
+    ALP_TRY(search_density(l, &density));
+    if (density > 0.0) {
+        memcpy(l->items, l->best, l->charts->count * sizeof *l->items);
+        l->atlas->info.pages = 1;
+        place_all(l, density);
+        return ALP_OK;
+    }
+    const extent all = measure_charts(l);
+    if (l->rules.size == 1) {
+        return share_one_texel(l, all.longest);
+    }
+    alpi_note(l->atlas->context, "atlas-pages", l->atlas->scene->name,
+              "%u charts do not fit one page of %u texels: pages are added", l->charts->count,
+              l->rules.size);
+    return pack_pages(l, most_density(l, &all));
+}
+
+static alp_result choose_and_place(layout *l)
+{
+    const double density = l->atlas->options.texels_per_metre;
+    if (density == 0.0) {
+        return fill_page(l);
+    }
+    ALP_TRY(alpi_charts_split(l->atlas, density, l->charts));
+    return pack_pages(l, density);
+}
+
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock)
 {
-    layout l = {.atlas = atlas, .charts = charts, .clock = clock};
+    const alp_atlas_options *options = &atlas->options;
+    layout l = {.atlas = atlas,
+                .charts = charts,
+                .clock = clock,
+                .rules = {.size = options->size,
+                          .padding = options->padding,
+                          .block = options->block,
+                          .mips = options->mips}};
     alp_result result = choose_and_place(&l);
     alpi_release(atlas->context, l.items);
+    alpi_release(atlas->context, l.best);
+    alpi_release(atlas->context, l.bits);
     return result;
 }

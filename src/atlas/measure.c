@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an atlas holds: covered texels, how full its pages are, and which triangles share texels.
 #include "atlas/stages.h"
+#include "atlas/stretch.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -25,6 +26,7 @@ typedef struct tally {
     uint64_t *wide, *around;       // [height][words] of one page, [words]
     uint8_t *owns;                 // [triangle_count] some texel's point lies on it
     uint64_t texels, taken;        // taken: covered, or within `padding` of a covered one
+    uint64_t overlapping;
     bool keeps;
     alpi_texel_chunks chunks;
     uint32_t band_count;
@@ -33,8 +35,9 @@ typedef struct tally {
 
 static alp_result count_band(void *user, const alpi_band *band)
 {
-    const tally *t = user;
+    tally *t = user;
     const size_t height = t->atlas->info.height;
+    uint64_t overlapping = 0;
     uint64_t *page = t->covered + (band->page - t->first_page) * height * t->words;
     for (uint32_t y = band->first_row; y < band->end_row; y++) {
         const uint32_t row = y - band->first_row;
@@ -46,6 +49,7 @@ static alp_result count_band(void *user, const alpi_band *band)
             page[(size_t)y * t->words + x / 64] |= (uint64_t)1 << (x % 64);
             // Other bands may say the same at the same time.
             __atomic_store_n(&t->owns[cells[x].triangle], 1, __ATOMIC_RELAXED);
+            overlapping += cells[x].other != ALPI_NONE;
             if (t->overlaps != NULL && cells[x].other != ALPI_NONE) {
                 band_overlaps *o = &t->overlaps[band->index];
                 ALP_TRY(alpi_grow(t->atlas->context, (void **)&o->pairs, &o->capacity, o->count + 1,
@@ -54,6 +58,7 @@ static alp_result count_band(void *user, const alpi_band *band)
             }
         }
     }
+    __atomic_fetch_add(&t->overlapping, overlapping, __ATOMIC_RELAXED);
     return t->keeps ? alpi_texel_chunk_fill(t->atlas, band, &t->chunks.chunks[band->index])
                     : ALP_OK;
 }
@@ -127,21 +132,6 @@ static alp_result count_page(tally *t, const uint64_t *page)
     return ALP_OK;
 }
 
-/// √(texel area / world area) over the usable triangles.
-static double mean_density(const alp_atlas *atlas)
-{
-    double area = 0.0;
-    for (uint32_t t = 0; t < atlas->scene->triangle_count; t++) {
-        const float(*p)[2] = (const float(*)[2])atlas->corner_uvs[t];
-        if (atlas->scene->triangle_usable[t]) {
-            double ax = (double)p[1][0] - (double)p[0][0], ay = (double)p[1][1] - (double)p[0][1];
-            double bx = (double)p[2][0] - (double)p[0][0], by = (double)p[2][1] - (double)p[0][1];
-            area += 0.5 * fabs(ax * by - ay * bx);
-        }
-    }
-    return sqrt(area * atlas->info.width * atlas->info.height / atlas->scene->area);
-}
-
 // --- rounds --------------------------------------------------------------------------------------
 
 static alp_result run_round(tally *t)
@@ -197,18 +187,27 @@ static alp_result keep_texels(tally *t)
     return alpi_texels_join(atlas, &t->chunks, atlas->texels);
 }
 
-static void read_tally(const tally *t)
+static alp_result read_tally(const tally *t)
 {
     alp_atlas *atlas = t->atlas;
+    alpi_stretch_facts stretch;
+    ALP_TRY(alpi_stretch_measure(atlas, &stretch));
     double room = (double)atlas->info.pages * atlas->info.width * atlas->info.height;
     atlas->info.texels = t->texels;
     atlas->info.utilisation =
         (double)(atlas->info.mode == ALP_ATLAS_KEEP ? t->texels : t->taken) / room;
-    atlas->info.texels_per_metre = mean_density(atlas);
+    atlas->info.texels_per_metre = stretch.texels_per_metre;
+    atlas->info.stretch_mean = stretch.mean;
+    atlas->info.stretch_worst = stretch.worst;
+    atlas->info.density_spread = stretch.spread;
+    atlas->info.flipped_triangles = stretch.flipped;
+    atlas->info.sliver_triangles = stretch.slivers;
+    atlas->info.overlapping_texels = t->overlapping;
     atlas->info.shared_triangles = 0;
     for (uint32_t i = 0; i < atlas->scene->triangle_count; i++) {
         atlas->info.shared_triangles += atlas->scene->triangle_usable[i] && t->owns[i] == 0;
     }
+    return ALP_OK;
 }
 
 static alp_result join_overlaps(const tally *t, alpi_overlaps *overlaps)
@@ -235,10 +234,8 @@ alp_result alpi_measure(alp_atlas *atlas, alpi_overlaps *overlaps)
         *overlaps = (alpi_overlaps){0};
         result = result == ALP_OK ? join_overlaps(&t, overlaps) : result;
     }
-    if (result == ALP_OK) {
-        read_tally(&t);
-        result = keep_texels(&t);
-    }
+    result = result == ALP_OK ? read_tally(&t) : result;
+    result = result == ALP_OK ? keep_texels(&t) : result;
     for (uint32_t b = 0; t.overlaps != NULL && b < t.band_count; b++) {
         alpi_release(context, t.overlaps[b].pairs);
     }

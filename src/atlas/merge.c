@@ -392,5 +392,5 @@ alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3], 
     alpi_release(atlas->context, m.pairs);
     alpi_release(atlas->context, m.attempts);
     alpi_release(atlas->context, m.failed);
-    return result;
+    return result == ALP_OK ? alpi_charts_turn(atlas, neighbours, charts) : result;
 }

@@ -1,38 +1,42 @@
 // SPDX-License-Identifier: MIT
-// Skyline packing: each rectangle goes, as it is or turned, to the place where its upper side ends
-// lowest, on the first page that has one.
-// Based on: J. Jylänki. A Thousand Ways to Pack the Bin. 2010 (skyline, bottom-left).
-#include "atlas/stages.h"
+// Packing of shapes: each goes, turned by quarters, to the place where its upper side ends lowest,
+// on the first page that has one; the largest go first, and the small into what they leave.
+// Based on: E. K. Burke, R. S. R. Hellier, G. Kendall, G. Whitwell. A New Bottom-Left-Fill
+// Heuristic Algorithm for the Two-Dimensional Irregular Packing Problem. Operations Research 54(3),
+// 2006; B. Lévy, S. Petitjean, N. Ray, J. Maillot. Least Squares Conformal Maps for Automatic
+// Texture Atlas Generation. SIGGRAPH, 2002 (the shapes as texels). Places are sought in bits, all
+// columns of a row at a time.
+#include "atlas/pack.h"
 
 #include "base/memory.h"
 
 #include <stdlib.h>
 
-/// A page filled up to `y` from `x` to the next level's x.
-typedef struct level {
-    uint32_t x, y;
-} level;
+enum {
+    EXACT_SIDES = 16, // sides up to this are classes of their own; longer ones by quarter octaves
+    CLASSES = EXACT_SIDES + 4 * 11
+};
 
-typedef struct page {
-    level *levels;
-    size_t count, capacity;
-    uint64_t open_area;                 // above the skyline
-    uint32_t failed_short, failed_long; // nothing of at least these sides fits
-} page;
+/// Where the last item of about this size went: those after it look no lower.
+typedef struct hint {
+    uint32_t page, y;
+} hint;
 
 typedef struct packer {
     alp_context *context;
-    uint32_t side, padding, page_limit;
-    page *pages;
+    const alpi_pack_rules *rules;
+    uint32_t page_limit;
+    alpi_pack_page *pages;
     size_t page_capacity;
     uint32_t page_count;
     bool quiet; // no message when the pages are full
+    alpi_shapes shapes;
+    hint hints[CLASSES][CLASSES];
 } packer;
 
 typedef struct place {
-    uint32_t x, y, top;
-    size_t level;
-    bool turned, found;
+    uint32_t x, y, top, turns;
+    bool found;
 } place;
 
 typedef struct order_entry {
@@ -51,109 +55,43 @@ static int compare_entries(const void *a, const void *b)
     return p->item < q->item ? -1 : 1;
 }
 
-/// Improves `best` by places for width × height (padding included).
-static void find_place(const packer *p, const page *on, uint32_t width, uint32_t height,
-                       bool turned, place *best)
+static uint32_t class_of_side(uint32_t side)
 {
-    for (size_t i = 0; i < on->count; i++) {
-        uint32_t x = on->levels[i].x, y = 0;
-        if (width > p->side - x) {
-            break;
+    if (side < EXACT_SIDES) {
+        return side;
+    }
+    const uint32_t octave = 31u - (uint32_t)__builtin_clz(side);
+    return EXACT_SIDES + 4 * (octave - 4) + (side >> (octave - 2) & 3u);
+}
+
+/// Whether the upper side ends lower, or as low and the middle lies further left: what it leaves
+/// free is on the right, where the next goes.
+static bool is_better(const packer *p, const place *a, const place *b)
+{
+    return a->top < b->top || (a->top == b->top &&
+                               2 * a->x * p->shapes.texels + p->shapes.turned[a->turns].moment <
+                                   2 * b->x * p->shapes.texels + p->shapes.turned[b->turns].moment);
+}
+
+/// The place whose upper side ends lowest, of equal ones the leftmost middle, from row `from` on.
+static place find_place(const packer *p, const alpi_pack_page *on, uint32_t from)
+{
+    place best = {.found = false};
+    for (uint32_t turns = 0; turns < 4; turns++) {
+        const alpi_shape *shape = &p->shapes.turned[turns];
+        if (!p->shapes.differs[turns] || shape->width > on->size || shape->height > on->size) {
+            continue;
         }
-        for (size_t j = i; j < on->count && on->levels[j].x < x + width; j++) {
-            y = on->levels[j].y > y ? on->levels[j].y : y;
-            if (best->found && y + height > best->top) {
+        const uint32_t end = best.found ? best.top : on->size;
+        for (uint32_t y = from, x; y + shape->height <= end; y++) {
+            if (alpi_pack_page_find(on, shape, y, &x)) {
+                const place at = {x, y, y + shape->height, turns, true};
+                best = !best.found || is_better(p, &at, &best) ? at : best;
                 break;
             }
         }
-        if (height > p->side - y) {
-            continue;
-        }
-        if (!best->found || y + height < best->top) {
-            *best = (place){x, y, y + height, i, turned, true};
-        }
     }
-}
-
-/// Raises the skyline over [x, x + width) to `top`.
-static alp_result raise_skyline(packer *p, page *on, const place *at, uint32_t width)
-{
-    ALP_TRY(alpi_grow(p->context, (void **)&on->levels, &on->capacity, on->count + 1,
-                      sizeof *on->levels));
-    size_t end = at->level; // first level that begins at or after the right side
-    uint32_t right = at->x + width, last_y = 0;
-    uint64_t covered = 0;
-    while (end < on->count && on->levels[end].x < right) {
-        uint32_t next = end + 1 < on->count ? on->levels[end + 1].x : p->side;
-        uint32_t until = next < right ? next : right;
-        covered += (uint64_t)(at->top - on->levels[end].y) * (until - on->levels[end].x);
-        last_y = on->levels[end++].y;
-    }
-    on->open_area -= covered;
-    bool rest = right < p->side && (end == on->count || on->levels[end].x > right);
-    size_t added = rest ? 2 : 1, removed = end - at->level;
-    size_t tail = on->count - end;
-    level *levels = on->levels;
-    if (added > removed) {
-        for (size_t i = tail; i-- > 0;) {
-            levels[end + i + 1] = levels[end + i];
-        }
-    } else {
-        for (size_t i = 0; i < tail; i++) {
-            levels[at->level + added + i] = levels[end + i];
-        }
-    }
-    levels[at->level] = (level){at->x, at->top};
-    if (rest) {
-        levels[at->level + 1] = (level){right, last_y};
-    }
-    on->count = on->count + added - removed;
-    return ALP_OK;
-}
-
-/// Joins levels of one height round level `at`.
-static void merge_levels(page *on, size_t at)
-{
-    size_t from = at > 0 ? at - 1 : 0;
-    for (int repeat = 0; repeat < 2; repeat++) {
-        size_t next = from + 1;
-        if (next < on->count && on->levels[from].y == on->levels[next].y) {
-            for (size_t i = next; i + 1 < on->count; i++) {
-                on->levels[i] = on->levels[i + 1];
-            }
-            on->count--;
-        } else {
-            from++;
-        }
-    }
-}
-
-static alp_result try_page(packer *p, page *on, alpi_pack_item *item, bool *done)
-{
-    uint32_t width = item->width + p->padding, height = item->height + p->padding;
-    uint32_t shorter = width < height ? width : height, longer = width < height ? height : width;
-    *done = false;
-    if ((uint64_t)width * height > on->open_area ||
-        (shorter >= on->failed_short && longer >= on->failed_long)) {
-        return ALP_OK;
-    }
-    place at = {0};
-    find_place(p, on, width, height, false, &at);
-    if (width != height) {
-        find_place(p, on, height, width, true, &at);
-    }
-    if (!at.found) {
-        on->failed_short = shorter;
-        on->failed_long = longer;
-        return ALP_OK;
-    }
-    ALP_TRY(raise_skyline(p, on, &at, at.turned ? height : width));
-    merge_levels(on, at.level);
-    item->x = at.x;
-    item->y = at.y;
-    item->turned = at.turned;
-    *done = true;
-    return ALP_OK;
+    return best;
 }
 
 static alp_result add_page(packer *p)
@@ -165,40 +103,46 @@ static alp_result add_page(packer *p)
         return alpi_fail(p->context, ALP_ERROR_LIMIT,
                          "the charts need more than %u page%s of %u texels; use fewer texels per "
                          "metre, a larger size or less padding",
-                         p->page_limit, p->page_limit == 1 ? "" : "s", p->side - p->padding);
+                         p->page_limit, p->page_limit == 1 ? "" : "s", p->rules->size);
     }
     ALP_TRY(alpi_grow(p->context, (void **)&p->pages, &p->page_capacity, (size_t)p->page_count + 1,
                       sizeof *p->pages));
-    page *added = &p->pages[p->page_count];
-    *added = (page){.open_area = (uint64_t)p->side * p->side,
-                    .failed_short = UINT32_MAX,
-                    .failed_long = UINT32_MAX};
-    p->page_count++;
-    ALP_TRY(alpi_grow(p->context, (void **)&added->levels, &added->capacity, 16,
-                      sizeof *added->levels));
-    added->levels[0] = (level){0, 0};
-    added->count = 1;
-    return ALP_OK;
+    return alpi_pack_page_create(p->context, p->rules->size, &p->pages[p->page_count++]);
 }
 
 static alp_result place_item(packer *p, alpi_pack_item *item)
 {
-    bool done = false;
-    for (uint32_t i = 0; !done; i++) {
+    ALP_TRY(alpi_shapes_make(&p->shapes, item));
+    const uint32_t longer = item->width > item->height ? item->width : item->height;
+    const uint32_t shorter = item->width > item->height ? item->height : item->width;
+    hint *near = &p->hints[class_of_side(longer)][class_of_side(shorter)];
+    place at = {.found = false};
+    for (uint32_t i = near->page; !at.found; i++) {
         if (i == p->page_count) {
             ALP_TRY(add_page(p));
         }
-        ALP_TRY(try_page(p, &p->pages[i], item, &done));
-        item->page = i;
+        alpi_pack_page *on = &p->pages[i];
+        if (on->free_texels < p->shapes.texels) {
+            continue;
+        }
+        at = find_place(p, on, i == near->page && longer < EXACT_SIDES ? near->y : 0);
+        if (at.found) {
+            alpi_pack_page_take(on, &p->shapes.turned[at.turns], at.x, at.y, p->rules);
+            *near = (hint){i, at.y > longer ? at.y - longer : 0};
+            item->page = i;
+        }
     }
+    item->x = at.x;
+    item->y = at.y;
+    item->turns = at.turns;
     return ALP_OK;
 }
 
 static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, order_entry *order)
 {
-    uint32_t size = p->side - p->padding;
+    const uint32_t size = p->rules->size;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t w = items[i].width, h = items[i].height;
+        const uint32_t w = items[i].width, h = items[i].height;
         if (w == 0 || h == 0 || w > size || h > size) {
             return alpi_fail(p->context, ALP_ERROR_LIMIT,
                              "a chart of %u x %u texels does not fit a page of %u texels", w, h,
@@ -215,41 +159,34 @@ static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, or
 
 static alp_result pack(packer *p, alpi_pack_item *items, uint32_t count)
 {
+    p->shapes.context = p->context;
     order_entry *order = ALPI_NEW(p->context, order_entry, count);
     alp_result result = order == NULL ? ALP_ERROR_OUT_OF_MEMORY : place_all(p, items, count, order);
     for (uint32_t i = 0; i < p->page_count; i++) {
-        alpi_release(p->context, p->pages[i].levels);
+        alpi_pack_page_destroy(p->context, &p->pages[i]);
     }
     alpi_release(p->context, p->pages);
     alpi_release(p->context, order);
+    alpi_shapes_destroy(&p->shapes);
     return result;
 }
 
-alp_result alpi_pack(alp_context *context, alpi_pack_item *items, uint32_t count, uint32_t size,
-                     uint32_t padding, uint32_t page_limit, uint32_t *page_count)
+alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pack_item *items,
+                     uint32_t count, uint32_t page_limit, uint32_t *page_count)
 {
-    // An item carries its padding on two sides; the page is as much larger, so that the border
-    // needs none.
-    packer p = {
-        .context = context, .side = size + padding, .padding = padding, .page_limit = page_limit};
+    packer p = {.context = context, .rules = rules, .page_limit = page_limit};
     alp_result result = pack(&p, items, count);
     *page_count = p.page_count;
     return result;
 }
 
-alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint32_t count,
-                              uint32_t size, uint32_t padding, bool *fits)
+alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,
+                              alpi_pack_item *items, uint32_t count, bool *fits)
 {
-    packer p = {.context = context,
-                .side = size + padding,
-                .padding = padding,
-                .page_limit = 1,
-                .quiet = true};
+    packer p = {.context = context, .rules = rules, .page_limit = 1, .quiet = true};
     *fits = false;
-    uint64_t area = 0, room = (uint64_t)p.side * p.side;
     for (uint32_t i = 0; i < count; i++) {
-        area += (uint64_t)(items[i].width + padding) * (items[i].height + padding);
-        if (items[i].width > size || items[i].height > size || area > room) {
+        if (items[i].width > rules->size || items[i].height > rules->size) {
             return ALP_OK;
         }
     }

@@ -43,8 +43,8 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     alpi_page_triangle_load(atlas, triangle, &page);
     alpi_page_triangle_cut(&page, pixel[0], pixel[1], &f->shape);
     f->map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
-    alpi_facet_load(atlas->scene, triangle, (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0,
-                    &f->facet);
+    alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, triangle),
+                    (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &f->facet);
     for (int i = 0; i < f->shape.count; i++) {
         f->shape.p[i][0] -= pixel[0];
         f->shape.p[i][1] -= pixel[1];
@@ -188,7 +188,7 @@ static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t c
     const uint16_t *pixel = texels->pixels[texel];
     alpi_page_triangle page;
     alpi_facet facet;
-    alpi_page_triangle_load(texels->atlas, texels->triangles[texel], &page);
+    alpi_page_triangle_load(texels->atlas, texels->faces[texel], &page);
     const alpi_facet_patch map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
     alpi_facet_load(texels->atlas->scene, texels->triangles[texel],
                     (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
@@ -223,11 +223,13 @@ void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float squ
         load_fan(texels, texel, piece, &f);
         find_in_fan(&f, width > 0.0 ? ((double)square[0] - begin) / width : 0.0, (double)square[1],
                     b);
-        *spot = (alpi_texel_spot){texels->piece_triangles[piece], (float)b[0], (float)b[1]};
+        const uint32_t triangle =
+            alpi_atlas_triangle(texels->atlas, texels->piece_triangles[piece]);
+        *spot = (alpi_texel_spot){triangle, (float)b[0], (float)b[1]};
         return;
     }
     alpi_page_triangle page;
-    alpi_page_triangle_load(texels->atlas, texels->triangles[texel], &page);
+    alpi_page_triangle_load(texels->atlas, texels->faces[texel], &page);
     const alpi_facet_patch map =
         alpi_page_triangle_patch(&page, texels->pixels[texel][0], texels->pixels[texel][1]);
     for (int k = 0; k < 2; k++) {
@@ -250,7 +252,8 @@ bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
     alpi_facet_load(scene, texels->triangles[texel], true, &facet);
     bool lifted = facet.lifted;
     for (uint32_t i = texels->piece_first[texel]; i < last && !lifted; i++) {
-        alpi_facet_load(scene, texels->piece_triangles[i], true, &facet);
+        alpi_facet_load(scene, alpi_atlas_triangle(texels->atlas, texels->piece_triangles[i]), true,
+                        &facet);
         lifted = facet.lifted;
     }
     return lifted;

@@ -253,7 +253,7 @@ static alp_result add_triangle(const raster *r, bench *b, uint32_t triangle, uin
         return ALP_OK;
     }
     vec3 c[3];
-    alpi_triangle_corners(atlas->scene, triangle, c);
+    alpi_triangle_corners(atlas->scene, alpi_atlas_triangle(atlas, triangle), c);
     a.world_per_texel = vec3_triangle_area(c[0], c[1], c[2]) / a.shape.area;
     first = first > first_row ? first : first_row;
     for (uint32_t y = first; y <= last && y < end_row; y++) {
@@ -355,7 +355,7 @@ static alp_result find_bands(void *user, uint32_t begin, uint32_t end, uint32_t 
 static alp_result list_bands(const raster *r, bool fill, uint64_t *at)
 {
     const alp_atlas *atlas = r->atlas;
-    for (uint32_t t = 0; t < atlas->scene->triangle_count; t++) {
+    for (uint32_t t = 0; t < alpi_atlas_face_count(atlas); t++) {
         if (t % TICK_INTERVAL == 0) {
             ALP_TRY(alpi_tick(atlas->context, "texels", r->first_page, atlas->info.pages));
         }
@@ -375,9 +375,9 @@ static alp_result list_bands(const raster *r, bool fill, uint64_t *at)
 static alp_result sort_into_bands(raster *r, uint32_t band_count)
 {
     alp_context *context = r->atlas->context;
-    ALPI_TRY_NEW(context, r->bands, r->atlas->scene->triangle_count);
+    ALPI_TRY_NEW(context, r->bands, alpi_atlas_face_count(r->atlas));
     ALPI_TRY_NEW(context, r->band_first, (size_t)band_count + 1);
-    ALP_TRY(alpi_parallel_for(context, r->atlas->scene->triangle_count, TRIANGLES_PER_RANGE,
+    ALP_TRY(alpi_parallel_for(context, alpi_atlas_face_count(r->atlas), TRIANGLES_PER_RANGE,
                               find_bands, r, NULL));
     ALP_TRY(list_bands(r, false, r->band_first + 1));
     for (uint32_t i = 0; i < band_count; i++) {

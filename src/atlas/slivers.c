@@ -2,7 +2,7 @@
 // Slivers thinner than the steps of a float: rounded to the page they may lie flat, turned over, or
 // at a fraction of their width. They are given a width of some steps, each for itself: that is less
 // than a thousandth of a texel.
-#include "atlas/stages.h"
+#include "atlas/factors.h"
 
 #include <math.h>
 
@@ -129,16 +129,18 @@ void alpi_widen_slivers(alp_atlas *atlas)
         sliver s;
         if (scene->triangle_usable[t]) {
             load_world(scene, t, &s);
+            const double factor = alpi_factor_of(atlas, t);
             laid += fmax(load_page((const float(*)[2])atlas->corner_uvs[t], s.p), 0.0);
-            world += s.world;
+            world += factor * factor * s.world;
         }
     }
-    const double density = world > 0.0 ? sqrt(laid / world) : 0.0; // pages per metre
-    for (uint32_t t = 0; t < scene->triangle_count && density > 0.0; t++) {
+    const double mean = world > 0.0 ? sqrt(laid / world) : 0.0; // pages per metre
+    for (uint32_t t = 0; t < scene->triangle_count && mean > 0.0; t++) {
         sliver s;
         if (!scene->triangle_usable[t]) {
             continue;
         }
+        const double density = mean * alpi_factor_of(atlas, t);
         load_world(scene, t, &s);
         s.laid = load_page((const float(*)[2])atlas->corner_uvs[t], s.p);
         const double thin = s.world * density / fmax(s.flat[0], hypot(s.flat[1], s.flat[2]));

@@ -5,7 +5,13 @@
 
 #include "atlas/raster.h"
 
-enum { ALPI_ATLAS_PAGE_LIMIT = 4096, ALPI_ATLAS_SIZE_LIMIT = 16384, ALPI_ATLAS_PADDING_LIMIT = 64 };
+enum {
+    ALPI_ATLAS_PAGE_LIMIT = 4096,
+    ALPI_ATLAS_SIZE_LIMIT = 16384,
+    ALPI_ATLAS_PADDING_LIMIT = 64,
+    ALPI_ATLAS_BLOCK_LIMIT = 64,
+    ALPI_ATLAS_MIPS_LIMIT = 8
+};
 
 /// When to ask the caller whether to go on.
 struct alpi_atlas_clock {
@@ -45,12 +51,15 @@ typedef struct alpi_charts {
     uint32_t *triangles; // [usable triangles] grouped by chart
 } alpi_charts;
 
-/// Projects every cluster on its plane, merges those that unwrap well together, turns each to its
-/// tightest box and writes corner_uvs (metres) and triangle_charts. A chart has the area of its
-/// triangles in the world. On failure the caller destroys what was made.
+/// Projects every cluster on its plane, turns it to its tightest box and writes corner_uvs (metres)
+/// and triangle_charts. A chart has the area of its triangles in the world. On failure the caller
+/// destroys what was made.
 alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                               const alpi_clusters *clusters, alpi_charts *charts);
-/// Merges charts that meet, where both have one good unwrapping; corner_uvs are in metres already.
+/// Gives all charts the area of their triangles and turns them to their tightest boxes; corner_uvs
+/// are in metres already.
+alp_result alpi_charts_turn(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts);
+/// Merges charts that meet, where both have one good unwrapping, and turns them again.
 alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                              alpi_charts *charts);
 /// Cuts every chart that is larger than a page at `density` texels per metre into pieces that fit.
@@ -67,8 +76,8 @@ alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *
 void alpi_widen_slivers(alp_atlas *atlas);
 
 /// Packs into one page, or says that it cannot; that is no failure and leaves no message.
-alp_result alpi_pack_one_page(alp_context *context, alpi_pack_item *items, uint32_t count,
-                              uint32_t size, uint32_t padding, bool *fits);
+alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,
+                              alpi_pack_item *items, uint32_t count, bool *fits);
 
 // --- the second UV set ---------------------------------------------------------------------------
 
@@ -118,8 +127,8 @@ typedef struct alpi_overlaps {
     alpi_overlap *pairs; // [count] texel by texel
 } alpi_overlaps;
 
-/// Rasters the atlas: fills info.texels, utilisation, texels_per_metre and shared_triangles, and
-/// keeps the texels in atlas->texels for alpi_texels_create unless they are very many.
+/// Rasters the atlas: fills info but for mode, pages, sides and charts, and keeps the texels in
+/// atlas->texels for alpi_texels_create unless they are very many.
 /// @param overlaps NULL, or out: released by the caller
 alp_result alpi_measure(alp_atlas *atlas, alpi_overlaps *overlaps);
 

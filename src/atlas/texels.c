@@ -134,9 +134,23 @@ static alp_result fill_band(void *user, const alpi_band *band)
     return alpi_texel_chunk_fill(job->atlas, band, &job->chunks.chunks[band->index]);
 }
 
-alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels)
+/// From the faces that the raster found to their triangles.
+static alp_result find_triangles(const alp_atlas *atlas, alpi_texels *texels)
 {
-    *texels = (alpi_texels){0};
+    texels->faces = texels->triangles;
+    if (atlas->face_triangles == NULL) {
+        return ALP_OK;
+    }
+    texels->triangles = NULL;
+    ALPI_TRY_NEW(atlas->context, texels->triangles, texels->count);
+    for (uint32_t i = 0; i < texels->count; i++) {
+        texels->triangles[i] = atlas->face_triangles[texels->faces[i]];
+    }
+    return ALP_OK;
+}
+
+static alp_result make_texels(const alp_atlas *atlas, alpi_texels *texels)
+{
     if (atlas->texels != NULL && atlas->texels->atlas != NULL) {
         *texels = *atlas->texels;
         *atlas->texels = (alpi_texels){0}; // taken
@@ -154,10 +168,26 @@ alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels)
     return result;
 }
 
+alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels)
+{
+    *texels = (alpi_texels){0};
+    alp_result result = make_texels(atlas, texels);
+    if (result == ALP_OK) {
+        result = find_triangles(atlas, texels);
+    }
+    if (result != ALP_OK) {
+        alpi_texels_destroy(atlas->context, texels);
+    }
+    return result;
+}
+
 void alpi_texels_destroy(alp_context *context, alpi_texels *texels)
 {
     alpi_release(context, texels->pages);
     alpi_release(context, texels->pixels);
+    if (texels->faces != texels->triangles) {
+        alpi_release(context, texels->faces);
+    }
     alpi_release(context, texels->triangles);
     alpi_release(context, texels->barycentrics);
     alpi_release(context, texels->normals);

@@ -270,7 +270,7 @@ static alp_result visit_band(void *user, const alpi_band *band)
             }
             alpi_uv_cell out = {.x = x,
                                 .y = y,
-                                .triangle = cell->triangle,
+                                .triangle = alpi_atlas_triangle(v->layout, cell->triangle),
                                 .coverage = (float)fmin(cell->coverage, 1.0)};
             find_barycentrics(v->layout, cell, out.barycentrics);
             v->each(v->user, &out);

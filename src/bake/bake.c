@@ -92,7 +92,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    const alpi_atlas_choice choice = {job->only, job->originals};
+    const alpi_atlas_choice choice = {job->only, job->originals, alpi_bake_exports(job)};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
     if (result != ALP_OK) {
@@ -123,6 +123,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     ALP_TRY(alpi_bake_occlusion(job));
+    ALP_TRY(alpi_bake_seams(job));
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_pack_images(job));

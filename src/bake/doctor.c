@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXT_LIMIT = 600 };
+enum { TEXT_LIMIT = 600, LEAST_PAGE = 1, MOST_PAGE = 16384 };
 
 // --- the list ------------------------------------------------------------------------------------
 
@@ -89,6 +89,49 @@ alp_result alpi_diagnosis_add(alp_diagnosis *diagnosis, alpi_finding_facts facts
                       .name = make_name(diagnosis, &facts),
                       .what = alpi_copy_string(diagnosis->context, text)};
     return append(diagnosis, &f);
+}
+
+void alpi_diagnosis_mark(alp_diagnosis *diagnosis, uint32_t triangle, vec3 at, const float uv[2])
+{
+    const alp_scene *scene = diagnosis->scene;
+    alp_finding_spot *spot = &diagnosis->findings[diagnosis->count - 1].view.spot;
+    const uint32_t surface = scene->triangle_surface[triangle];
+    *spot = (alp_finding_spot){.known = true,
+                               .surface = surface,
+                               .triangle = triangle - scene->surfaces[surface].first_triangle,
+                               .uv = {uv != NULL ? uv[0] : NAN, uv != NULL ? uv[1] : NAN}};
+    vec3_store(spot->at, at);
+}
+
+void alpi_diagnosis_mark_triangle(alp_diagnosis *diagnosis, uint32_t triangle)
+{
+    vec3 c[3];
+    alpi_triangle_corners(diagnosis->scene, triangle, c);
+    const vec3 sum = vec3_add(vec3_add(c[0], c[1]), c[2]);
+    alpi_diagnosis_mark(diagnosis, triangle, vec3_scale(sum, 1.0f / 3.0f), NULL);
+}
+
+uint32_t alpi_doctor_choose_worst(const alp_scene *scene, const double *measure,
+                                  uint32_t worst[ALPI_DOCTOR_SURFACES], uint32_t *all)
+{
+    uint32_t count = 0;
+    *all = 0;
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        if (!(measure[s] > 0.0)) {
+            continue;
+        }
+        *all += 1;
+        uint32_t at = count < ALPI_DOCTOR_SURFACES ? count : ALPI_DOCTOR_SURFACES - 1;
+        if (count == ALPI_DOCTOR_SURFACES && !(measure[s] > measure[worst[at]])) {
+            continue;
+        }
+        for (; at > 0 && measure[s] > measure[worst[at - 1]]; at--) {
+            worst[at] = worst[at - 1];
+        }
+        worst[at] = s;
+        count += count < ALPI_DOCTOR_SURFACES;
+    }
+    return count;
 }
 
 bool alpi_diagnosis_has(const alp_diagnosis *diagnosis, alp_finding_kind kind)
@@ -200,6 +243,20 @@ static alp_result sort_findings(alp_diagnosis *d)
 
 // --- all of it -----------------------------------------------------------------------------------
 
+/// The spots to be drawn: of each kind the first, which is the worst; those of UV sets are shown
+/// with their set.
+static void choose_spots(alp_diagnosis *d)
+{
+    for (uint32_t i = 0; i < d->count && d->spot_count < ALPI_DOCTOR_SPOTS; i++) {
+        const alp_finding *f = &d->findings[i].view;
+        const bool again = i > 0 && d->findings[i - 1].view.kind == f->kind;
+        if (f->spot.known && f->place != ALP_PLACE_UV_SET && !again) {
+            snprintf(d->spot_names[d->spot_count], sizeof d->spot_names[0], "spot-%s", f->code);
+            d->spots[d->spot_count++] = i;
+        }
+    }
+}
+
 static alp_result look(alp_diagnosis *d, const alp_diagnosis_options *options)
 {
     for (uint32_t i = 0; i < options->message_count; i++) {
@@ -210,12 +267,18 @@ static alp_result look(alp_diagnosis *d, const alp_diagnosis_options *options)
     ALP_TRY(alpi_doctor_look_at_materials(d));
     ALP_TRY(alpi_doctor_look_at_lights(d));
     ALP_TRY(alpi_doctor_look_at_backs(d));
-    return sort_findings(d);
+    ALP_TRY(alpi_doctor_look_at_junctions(d));
+    ALP_TRY(alpi_doctor_look_at_sides(d));
+    ALP_TRY(alpi_doctor_look_at_scale(d));
+    ALP_TRY(sort_findings(d));
+    choose_spots(d);
+    return ALP_OK;
 }
 
 alp_diagnosis_options alp_diagnosis_options_default(void)
 {
-    return (alp_diagnosis_options){.struct_size = sizeof(alp_diagnosis_options)};
+    return (alp_diagnosis_options){.struct_size = sizeof(alp_diagnosis_options),
+                                   .page_size = ALPI_DOCTOR_PAGE};
 }
 
 alp_result alp_scene_diagnose(const alp_scene *scene, const alp_diagnosis_options *options,
@@ -230,12 +293,18 @@ alp_result alp_scene_diagnose(const alp_scene *scene, const alp_diagnosis_option
         return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
                          "diagnosis options are not from _default(), or messages are NULL");
     }
+    if (o.page_size < LEAST_PAGE || o.page_size > MOST_PAGE) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "diagnosis options: page_size %u; give one from %d to %d", o.page_size,
+                         (int)LEAST_PAGE, (int)MOST_PAGE);
+    }
     alp_diagnosis *d = ALPI_NEW(scene->context, alp_diagnosis, 1);
     if (d == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     d->context = scene->context;
     d->scene = scene;
+    d->page_size = o.page_size;
     const alpi_watch former = alpi_set_watch(
         scene->context, (alpi_watch){.callback = o.progress, .user = o.progress_user});
     const alp_result result = look(d, &o);

@@ -3,6 +3,8 @@
 // lies outside of the unit square as orange lines.
 #include "bake/doctor.h"
 
+#include "bake/doctor_spot.h"
+
 #include "atlas/raster.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -238,8 +240,21 @@ static alp_result draw(layout_picture *p, alp_atlas *layout, uint32_t set,
     return ALP_OK;
 }
 
-alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_image **image)
+/// Rings around the spots of findings, over all else.
+static void put_spots(const layout_picture *p, const alp_diagnosis *d, uint32_t set)
 {
+    for (size_t i = 0; i < d->count; i++) {
+        const alp_finding *f = &d->findings[i].view;
+        if (f->spot.known && f->place == ALP_PLACE_UV_SET && f->index == set) {
+            alpi_doctor_ring((uint8_t *)p->pixels, SIDE, SIDE, pixel_of(p, (double)f->spot.uv[0]),
+                             pixel_of(p, (double)f->spot.uv[1]));
+        }
+    }
+}
+
+alp_result alpi_doctor_draw_uv_set(const alp_diagnosis *diagnosis, uint32_t set, alp_image **image)
+{
+    const alp_scene *scene = diagnosis->scene;
     alpi_uv_set_facts facts;
     alp_atlas *layout = NULL;
     ALP_TRY(alpi_uv_set_survey(scene, set, SIDE, &facts, &layout));
@@ -255,6 +270,7 @@ alp_result alpi_doctor_draw_uv_set(const alp_scene *scene, uint32_t set, alp_ima
         }
         p.pixels = (color *)(void *)alp_image_bytes(*image);
         result = draw(&p, layout, set, &facts);
+        put_spots(&p, diagnosis, set);
     }
     alpi_release(scene->context, p.islands);
     alp_atlas_destroy(layout);

@@ -2,6 +2,8 @@
 // The doctor's pictures: the scene from where most of it is seen, with what is wrong in colour.
 #include "bake/doctor.h"
 
+#include "bake/doctor_spot.h"
+
 #include "base/tasks.h"
 #include "render/automatic_camera.h"
 #include "render/camera_rays.h"
@@ -17,6 +19,8 @@ static const float SKY_UP = 1.1f, SKY_DOWN = 0.35f;
 static const vec3 TOP = {0.32f, 0.36f, 0.42f}, BOTTOM = {0.72f, 0.74f, 0.77f};
 /// Linear; normals that look to the back, and backs of single-sided surfaces.
 static const vec3 RED = {0.80f, 0.03f, 0.03f}, ORANGE = {0.90f, 0.32f, 0.02f};
+/// Linear: the triangle of a spot.
+static const vec3 MAGENTA = {0.85f, 0.02f, 0.60f};
 static const float TINT = 0.9f; // so much of the colour, the rest is the picture
 /// A lamp over the left shoulder: factors of what faces away from it, and towards it.
 static const float KEY_LOW = 0.72f, KEY_HIGH = 1.25f;
@@ -28,6 +32,7 @@ typedef struct scene_picture {
     vec3 key;                  // unit, towards the lamp
     const float *light, *open; // [HEIGHT][WIDTH][4] of the two renderings
     uint8_t *bytes;            // [HEIGHT][WIDTH][3]
+    uint32_t marked;           // triangle in magenta, ALPI_NONE = none
 } scene_picture;
 
 /// What a point of the picture shows, and means of several.
@@ -60,10 +65,14 @@ static look look_at(const scene_picture *p, const alpi_hits *hits, int lane, vec
     const float cosine = fmaxf(side * vec3_dot(normal, p->key), 0.0f);
     const bool behind =
         vec3_dot(face, direction) > 0.0f && !alpi_surface_is_double_sided(scene, triangle);
-    const float tint = reversed || behind ? TINT : 0.0f;
+    const bool marked = triangle == p->marked;
+    const float tint = marked || reversed || behind ? TINT : 0.0f;
     return (look){.key = KEY_LOW + (KEY_HIGH - KEY_LOW) * cosine,
                   .tint = tint,
-                  .color = vec3_scale(reversed ? RED : ORANGE, tint)};
+                  .color = vec3_scale(marked     ? MAGENTA
+                                      : reversed ? RED
+                                                 : ORANGE,
+                                      tint)};
 }
 
 static vec3 mix(vec3 a, vec3 b, float share)
@@ -148,13 +157,24 @@ static alp_result render_parts(const alp_scene *scene, const alp_camera *camera,
     return alp_render(scene, &o, open);
 }
 
-alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image)
+/// The triangle of a spot, in the scene.
+static uint32_t marked_triangle(const alp_scene *scene, const alp_finding_spot *spot)
 {
-    scene_picture p = {.scene = scene};
+    return spot != NULL ? scene->surfaces[spot->surface].first_triangle + spot->triangle
+                        : ALPI_NONE;
+}
+
+alp_result alpi_doctor_draw_scene(const alp_scene *scene, const alp_finding_spot *spot,
+                                  alp_image **image)
+{
+    scene_picture p = {.scene = scene, .marked = marked_triangle(scene, spot)};
     alpi_tracer *tracer = NULL;
     alp_camera camera;
     ALP_TRY(alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     ALP_TRY(alpi_camera_choose(scene, UINT32_MAX, NULL, NULL, &camera));
+    if (spot != NULL) {
+        alpi_doctor_aim(scene, tracer, spot, &camera);
+    }
     ALP_TRY(alpi_view_place(scene->context, &camera, WIDTH, HEIGHT, &p.view));
     alp_image *light = NULL, *open = NULL;
     alp_result result = render_parts(scene, &camera, &light, &open);
@@ -173,6 +193,9 @@ alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image)
         p.bytes = alp_image_bytes(*image);
         result = alpi_parallel_for(scene->context, HEIGHT, ROWS_PER_RANGE, put_rows, &p, NULL);
     }
+    if (result == ALP_OK && spot != NULL) {
+        alpi_doctor_ring_in_view(&p.view, vec3_load(spot->at), p.bytes);
+    }
     alp_image_destroy(light);
     alp_image_destroy(open);
     if (result != ALP_OK) {
@@ -186,8 +209,9 @@ alp_result alpi_doctor_draw_scene(const alp_scene *scene, alp_image **image)
 
 uint32_t alp_diagnosis_picture_count(const alp_diagnosis *diagnosis)
 {
-    return diagnosis == NULL || diagnosis->scene->usable_count == 0 ? 0
-                                                                    : 1 + diagnosis->uv_set_count;
+    return diagnosis == NULL || diagnosis->scene->usable_count == 0
+               ? 0
+               : 1 + diagnosis->uv_set_count + diagnosis->spot_count;
 }
 
 const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, uint32_t index)
@@ -195,6 +219,9 @@ const char *alp_diagnosis_picture_name(const alp_diagnosis *diagnosis, uint32_t 
     static const char *const names[] = {"uv0", "uv1", "uv2", "uv3"};
     if (index >= alp_diagnosis_picture_count(diagnosis)) {
         return "";
+    }
+    if (index > diagnosis->uv_set_count) {
+        return diagnosis->spot_names[index - diagnosis->uv_set_count - 1];
     }
     return index == 0 ? "scene" : names[diagnosis->uv_sets[index - 1].set % ALPI_UV_SET_LIMIT];
 }
@@ -208,7 +235,13 @@ alp_result alp_diagnosis_picture(const alp_diagnosis *diagnosis, uint32_t index,
     if (index >= alp_diagnosis_picture_count(diagnosis)) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
-    return index == 0 ? alpi_doctor_draw_scene(diagnosis->scene, image)
-                      : alpi_doctor_draw_uv_set(diagnosis->scene, diagnosis->uv_sets[index - 1].set,
-                                                image);
+    const uint32_t sets = diagnosis->uv_set_count;
+    if (index > sets) {
+        const uint32_t finding = diagnosis->spots[index - sets - 1];
+        return alpi_doctor_draw_scene(diagnosis->scene, &diagnosis->findings[finding].view.spot,
+                                      image);
+    }
+    return index == 0
+               ? alpi_doctor_draw_scene(diagnosis->scene, NULL, image)
+               : alpi_doctor_draw_uv_set(diagnosis, diagnosis->uv_sets[index - 1].set, image);
 }

@@ -43,6 +43,23 @@ static const alpi_finding_words words[] = {
     {ALP_FINDING_PRECISION, ALP_SEVERITY_WARNING, "precision",
      "steps and noise in occlusion, and edges that do not meet",
      "move the scene near the origin before export"},
+    {ALP_FINDING_T_JUNCTIONS, ALP_SEVERITY_NOTE, "t-junctions",
+     "cracks of single pixels, and a seam: the two sides share neither corners nor charts",
+     "cut the long edge at that vertex (in Blender: loop cut, merge by distance)"},
+    {ALP_FINDING_THIN_WALL, ALP_SEVERITY_NOTE, "thin-wall",
+     "light of the open side on the other one, or its shadow: a texel holds one value for "
+     "both",
+     "give the sheet a thickness (in Blender: solidify), so that each side has texels of its "
+     "own"},
+    {ALP_FINDING_BURIED, ALP_SEVERITY_NOTE, "buried",
+     "nothing of that part; its texels are wasted and black, and darken the border where it "
+     "comes out",
+     "cut away what nobody sees, or move the object out"},
+    {ALP_FINDING_SCALE, ALP_SEVERITY_NOTE, "scale-outlier",
+     "one that is too large takes the texels of all others and makes the scene's box, and all "
+     "that is given as a share of it, large; one that is too small is a dot",
+     "bring the object to the unit of the others, or leave skies and helpers out of the "
+     "export or, with --only, out of the bake"},
 
     {ALP_FINDING_NO_UVS, ALP_SEVERITY_NOTE, "no-uvs",
      "nothing: a bake makes charts, and writes their coordinates with the mesh", ""},
@@ -69,6 +86,17 @@ static const alpi_finding_words words[] = {
     {ALP_FINDING_UV_DENSITY, ALP_SEVERITY_NOTE, "uv-density",
      "with --atlas keep, sharp shadows on the one and blurred ones on the other",
      "scale the islands to one density, or use --atlas charts"},
+    {ALP_FINDING_UV_MIPS, ALP_SEVERITY_NOTE, "uv-mips",
+     "with --atlas keep, light bleeds over the seams from afar: smaller mip levels mix the "
+     "islands",
+     "give the set a margin of two texels for a second level, four for a third, or bake "
+     "without mip-maps"},
+    {ALP_FINDING_UV_TINY, ALP_SEVERITY_WARNING, "uv-tiny",
+     "with --atlas keep, one value for all of such an island: no shadow falls across it",
+     "scale those islands up, bake at that size, or use --atlas charts"},
+    {ALP_FINDING_UV_STRETCH, ALP_SEVERITY_WARNING, "uv-stretch",
+     "with --atlas keep, shadows with steps in the one direction and sharp in the other",
+     "unwrap the surface with less stretch, or use --atlas charts"},
 
     {ALP_FINDING_MATERIAL_RANGE, ALP_SEVERITY_WARNING, "material-range",
      "a look that differs from what the file says: with such values light would grow at every "

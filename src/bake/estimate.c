@@ -83,7 +83,7 @@ static alp_atlas_info guess_atlas(const alpi_bake_job *job, double *area)
         }
     }
     const double page = (double)o->size * o->size;
-    const bool keep = s->uvs[1] != NULL && o->mode != ALP_ATLAS_CHARTS;
+    const bool keep = s->uvs[1] != NULL && alpi_atlas_may_keep(o);
     const bool fits = o->texels_per_metre == 0.0;
     const double texels = keep   ? fmin(uv_area, 1.0) * page
                           : fits ? PAGE_SHARE * page

@@ -98,6 +98,9 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
+/// Measures the seams of the stored maps; fills the report.
+alp_result alpi_bake_seams(alpi_bake_job *job);
+
 /// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
 /// tracer apart.
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -129,6 +132,8 @@ uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t pag
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// The same of the asset alone: makes no folder, so that an estimate may ask.
 alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages);
+/// Whether the asset is made anew from the scene in world space, instead of from the file it is of.
+bool alpi_bake_exports(const alpi_bake_job *job);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 

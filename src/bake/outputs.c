@@ -77,13 +77,26 @@ static bool is_gltf_path(const char *path)
     return alpi_path_has_ending(path, ".glb") || alpi_path_has_ending(path, ".gltf");
 }
 
+bool alpi_bake_exports(const alpi_bake_job *job)
+{
+    const char *output = job->options.output;
+    const alpi_attachment *from = job->scene->attachments;
+    if (output == NULL) {
+        return false;
+    }
+    return alpi_path_has_ending(output, ".dae")
+               ? from[ALPI_ATTACHMENT_COLLADA].data == NULL
+               : !is_gltf_path(output) || from[ALPI_ATTACHMENT_DOCUMENT].data == NULL;
+}
+
 /// An OBJ holds occlusion maps, and light as emission.
 static alp_result check_obj_options(const alpi_bake_job *job)
 {
     const alp_bake_options *o = &job->options;
     const char *what =
-        o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
-        : job->packing.count > 0          ? "occlusion packed into an image"
+        o->atlas.mode == ALP_ATLAS_VERTEX  ? "values at vertices"
+        : o->atlas.mode == ALP_ATLAS_BLEND ? "three coordinate sets"
+        : job->packing.count > 0           ? "occlusion packed into an image"
         : o->lightmap_as == ALP_LIGHTMAP_AS_MOZ || o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS
             ? "a light map other than emission"
             : NULL;
@@ -99,10 +112,11 @@ static alp_result check_dae_options(const alpi_bake_job *job)
     const alp_bake_options *o = &job->options;
     const bool lit_otherwise =
         o->lightmap_as != ALP_LIGHTMAP_AS_NONE && o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE;
-    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
-                       : o->ao_into == ALP_AO_INTO_ORM   ? "occlusion packed into an image"
-                       : lit_otherwise                   ? "a light map other than emission"
-                                                         : NULL;
+    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX  ? "values at vertices"
+                       : o->atlas.mode == ALP_ATLAS_BLEND ? "three coordinate sets"
+                       : o->ao_into == ALP_AO_INTO_ORM    ? "occlusion packed into an image"
+                       : lit_otherwise                    ? "a light map other than emission"
+                                                          : NULL;
     return what == NULL
                ? ALP_OK
                : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
@@ -176,7 +190,10 @@ static const char *falloff_name(alp_falloff falloff)
 
 static const char *atlas_name(alp_atlas_mode mode)
 {
-    return mode == ALP_ATLAS_KEEP ? "keep" : mode == ALP_ATLAS_VERTEX ? "vertex" : "charts";
+    return mode == ALP_ATLAS_KEEP     ? "keep"
+           : mode == ALP_ATLAS_VERTEX ? "vertex"
+           : mode == ALP_ATLAS_BLEND  ? "blend"
+                                      : "charts";
 }
 
 /// Values at vertices have an attribute instead of pages.
@@ -456,6 +473,8 @@ static alp_result add_asset(const alpi_bake_job *job, const encoded_page *pages,
             .page_count = count,
             .corner_uvs = keep ? NULL : (const float(*)[3][2])atlas->corner_uvs,
             .kept_uv_set = 1,
+            .set_uvs = (const float(*)[3][3][2])atlas->set_uvs,
+            .world_frame = atlas->world_axes,
             .triangle_pages = atlas->triangle_pages,
             .originals = job->originals,
             .page_pngs = (job->options.maps & ALP_MAP_AO) != 0 ? pngs : NULL,

@@ -55,6 +55,13 @@ static void put_atlas(alpi_page *page, const alp_bake_report *r)
     alpi_page_format(page, "<dt>Texels</dt><dd>%s, %s of the pages used</dd>\n",
                      alpi_grouped(a->texels).text, alpi_percent(a->utilisation).text);
     put_fact(page, "Texels per metre", alpi_significant(a->texels_per_metre, 4).text);
+    alpi_page_format(page, "<dt>Stretch</dt><dd>mean %s, worst %s; density spread %s</dd>\n",
+                     alpi_significant(a->stretch_mean, 3).text,
+                     alpi_significant(a->stretch_worst, 3).text,
+                     alpi_significant(a->density_spread, 3).text);
+    alpi_page_format(page, "<dt>Flipped triangles</dt><dd>%s; overlapping texels: %s</dd>\n",
+                     alpi_grouped(a->flipped_triangles).text,
+                     alpi_grouped(a->overlapping_texels).text);
 }
 
 static void put_occlusion(alpi_page *page, const alp_bake_report *r)
@@ -102,6 +109,35 @@ static void put_energy(alpi_page *page, const alp_light_energy *e)
                      alpi_significant(e->unshot, 2).text);
 }
 
+static void put_seam_error(alpi_page *page, const char *name, const alp_seam_error *e)
+{
+    if (isfinite(e->mean)) {
+        alpi_page_format(
+            page, "<dt>%s</dt><dd>%s of the mean; 99\u00A0%% of their length within %s</dd>\n",
+            name, alpi_percent(e->mean).text, alpi_percent(e->p99).text);
+    }
+}
+
+/// How far the sides of seams are apart.
+static void put_seams(alpi_page *page, const alp_bake_report *r)
+{
+    const alp_seam_report *s = &r->seams;
+    if (r->atlas.mode == ALP_ATLAS_VERTEX) {
+        return;
+    }
+    alpi_page_format(page, "<dt>Seams</dt><dd>%s m, along %s edges</dd>\n",
+                     alpi_significant(s->length, 4).text, alpi_grouped(s->count).text);
+    if (s->count > 0 && (r->maps & ALP_MAP_AO) != 0) {
+        put_seam_error(page, "Steps of occlusion at seams", &s->ao);
+    }
+    if (s->count > 0 && (r->maps & ALP_MAP_OBSCURANCE) != 0) {
+        put_seam_error(page, "Steps of obscurance at seams", &s->obscurance);
+    }
+    if (s->count > 0 && (r->maps & ALP_MAP_LIGHT) != 0) {
+        put_seam_error(page, "Steps of irradiance at seams", &s->light);
+    }
+}
+
 /// What happened to texels that are not like the others, as far as there are any.
 static void put_odd_texels(alpi_page *page, const alp_bake_report *r)
 {
@@ -130,6 +166,7 @@ void alpi_report_put_facts(alpi_page *page, const alp_scene *scene, const alp_ba
         put_light(page, r);
         put_energy(page, &r->light_energy);
     }
+    put_seams(page, r);
     put_odd_texels(page, r);
     put_count(page,
               r->light_samples > 0 && !r->light_direct && r->light_passes == 0 ? "Rays and paths"

@@ -170,6 +170,16 @@ static inline vec3 mat4_transform_direction(const mat4 *a, vec3 p)
                   (float)(a->m[2] * x + a->m[6] * y + a->m[10] * z)};
 }
 
+/// The images of the axes x, y, z: what normals of the target are multiplied by to come back.
+static inline void mat4_axes(const mat4 *a, float axes[3][3])
+{
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            axes[k][i] = (float)a->m[4 * k + i];
+        }
+    }
+}
+
 /// Determinant of the upper 3×3 block: negative where the transform mirrors.
 static inline double mat4_determinant3(const mat4 *a)
 {

@@ -278,6 +278,7 @@ static alp_result fill_surface(filling *f, alpi_collada_surface *origin)
                         .mirrored = mat4_determinant3(&f->placement->world) < 0.0,
                         .normals_generated =
                             f->part->inputs.source[ALPI_COLLADA_NORMAL] == ALPI_NONE};
+    mat4_axes(&f->placement->world, s->axes);
     scene->surface_count++;
     scene->vertex_count += s->vertex_count;
     scene->triangle_count += s->triangle_count;

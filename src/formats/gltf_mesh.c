@@ -220,6 +220,7 @@ static alp_result plan_instances(plan *p, json_t *primitives, alpi_surface surfa
         *world = mat4_multiply(&p->reader->world[surface.node], &local);
         surface.instance = i;
         surface.mirrored = mat4_determinant3(world) < 0.0;
+        mat4_axes(world, surface.axes);
         ALP_TRY(plan_mesh(p, primitives, surface, p->placement_count - 1));
     }
     return ALP_OK;
@@ -255,8 +256,10 @@ static alp_result plan_node(plan *p, uint32_t node)
     }
     alpi_surface surface = {.node = node, .mesh = (uint32_t)mesh};
     surface.mirrored = mat4_determinant3(&p->reader->world[node]) < 0.0;
+    mat4_axes(&p->reader->world[node], surface.axes);
     if (json_object_get(object, "skin") != NULL) {
         p->skinned++;
+        memset(surface.axes, 0, sizeof surface.axes); // joints place it, not its node
         ALP_TRY(find_mirrored(p, &surface));
     }
     alpi_gltf_instance *instances = NULL;

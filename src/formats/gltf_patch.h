@@ -5,6 +5,7 @@
 //   gltf_patch_plan.c      which primitives get what: coordinate set, pages, in place or in a copy
 //   gltf_patch_material.c  one material per (old material, page, coordinate set)
 //   gltf_patch_light.c     materials that show baked light
+//   gltf_patch_blend.c     what materials say of sets that are blended
 //   gltf_patch_packed.c    materials whose occlusion goes into an image that they have already
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
@@ -168,7 +169,8 @@ size_t alpi_patcher_add_texture(alpi_gltf_patcher *patcher, size_t image);
 typedef struct alpi_gltf_light_use {
     size_t material; // of the document, ALPI_GLTF_NONE = the primitive had none
     uint32_t page, uv_set;
-    float scale; // what 1 in the image stands for
+    float scale;       // what 1 in the image stands for
+    const char *blend; // what the extras say of the sets that are blended, or NULL
 } alpi_gltf_light_use;
 /// Edits a material of the document so that it does.
 void alpi_patcher_light_material(alpi_gltf_patcher *patcher, const alpi_gltf_light_use *use,
@@ -202,6 +204,28 @@ void alpi_patcher_show(alpi_gltf_patcher *patcher, size_t node, size_t mesh);
 /// Makes nodes of instances that differ; after the meshes.
 alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
+// --- sets that are blended -----------------------------------------------------------------------
+
+#define ALPI_GLTF_BLEND "alpenglow_blend" // in the extras of materials
+enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
+/// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
+/// viewers know, else _ALPENGLOW_UV_k.
+void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRIBUTE_SIZE]);
+/// Members of an object inside a material, which may not be there yet.
+typedef struct alpi_gltf_inside {
+    const char *outer;
+    uint32_t count;
+    const char *const *names, *const *values; // [count]
+} alpi_gltf_inside;
+/// Sets them; false where the outer one is there and no object.
+bool alpi_patcher_set_inside(alpi_gltf_patcher *patcher, size_t material,
+                             const alpi_gltf_inside *inside, alpi_edits *edits);
+/// What the extras of a material say of them, a JSON object.
+void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, uint32_t first, alpi_bytes *text);
+/// Adds it to a material of the document.
+void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
+                                 alpi_edits *edits);
+
 // --- values at vertices --------------------------------------------------------------------------
 
 /// "COLOR_0" or "_OCCLUSION".
@@ -231,19 +255,22 @@ json_t *alpi_gltf_primitive(const alpi_gltf_document *document, size_t mesh, siz
 
 // --- vertex splits -------------------------------------------------------------------------------
 
+enum { ALPI_GLTF_SPLIT_WIDTH = 6 };
+
 typedef struct alpi_gltf_split_input {
     uint32_t vertex_count, triangle_count;
     uint32_t (*indices)[3]; // of the primitive, in file order
-    float (*corner_uvs)[3][2];
-    const bool *usable; // [triangle_count] triangles without area part no vertices
+    uint32_t width;         // values of a corner, at most ALPI_GLTF_SPLIT_WIDTH
+    const float *values;    // [triangle_count][3][width]
+    const bool *usable;     // [triangle_count] triangles without area part no vertices
 } alpi_gltf_split_input;
 
-/// Vertices such that each has one bake coordinate.
+/// Vertices such that each has one bake coordinate, or one of each set.
 typedef struct alpi_gltf_split {
     bool changed; // false: the vertices are the old ones and so are the indices
     uint32_t vertex_count;
     uint32_t *sources;      // [vertex_count] old vertex of each
-    float (*uvs)[2];        // [vertex_count]
+    float *values;          // [vertex_count][width]
     uint32_t (*indices)[3]; // [triangle_count]
 } alpi_gltf_split;
 

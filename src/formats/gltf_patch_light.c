@@ -168,34 +168,10 @@ static void light_by_emission(alpi_gltf_patcher *p, const alpi_gltf_light_use *u
     alpi_bytes_destroy(&extensions);
 }
 
-/// Sets object.outer.inner, where outer may be absent; false where it is there and no object.
-static bool set_inside(alpi_gltf_patcher *p, size_t material, const char *const names[2],
-                       const alpi_bytes *value, alpi_edits *edits)
-{
-    const alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[material];
-    alpi_json_span outer;
-    if (alpi_json_find(p->document->text, span, names[0], &outer)) {
-        const bool is_object = p->document->text[outer.begin] == '{';
-        if (is_object) {
-            alpi_edits_set(edits, outer, names[1], value->bytes, value->size);
-        }
-        return is_object;
-    }
-    alpi_bytes object = alpi_bytes_create(p->context);
-    alpi_bytes_print(&object, "{\"%s\":", names[1]);
-    alpi_bytes_add(&object, value->bytes, value->size);
-    alpi_bytes_print(&object, "}");
-    p->data.failed |= object.failed;
-    alpi_edits_set(edits, span, names[0], object.bytes, object.size);
-    alpi_bytes_destroy(&object);
-    return true;
-}
-
 void alpi_patcher_light_material(alpi_gltf_patcher *p, const alpi_gltf_light_use *use,
                                  alpi_edits *edits)
 {
-    static const char *const moz[] = {"extensions", "MOZ_lightmap"};
-    static const char *const file[] = {"extras", "lightmap"};
+    static const char *const moz = "MOZ_lightmap";
     const alpi_light_form form = p->patch->light->form;
     if (form == ALPI_LIGHT_FORM_EMISSIVE) {
         p->extension = "KHR_materials_emissive_strength";
@@ -205,8 +181,13 @@ void alpi_patcher_light_material(alpi_gltf_patcher *p, const alpi_gltf_light_use
     alpi_bytes value = alpi_bytes_create(p->context);
     (form == ALPI_LIGHT_FORM_MOZ ? print_moz : print_file)(p, use, &value);
     p->data.failed |= value.failed;
-    p->extension = form == ALPI_LIGHT_FORM_MOZ ? moz[1] : NULL;
-    if (!set_inside(p, use->material, form == ALPI_LIGHT_FORM_MOZ ? moz : file, &value, edits)) {
+    p->extension = form == ALPI_LIGHT_FORM_MOZ ? moz : NULL;
+    const bool both = form == ALPI_LIGHT_FORM_EXTRAS && use->blend != NULL;
+    const char *const names[] = {form == ALPI_LIGHT_FORM_MOZ ? moz : "lightmap", ALPI_GLTF_BLEND};
+    const char *const values[] = {value.failed ? "" : (const char *)value.bytes, use->blend};
+    const alpi_gltf_inside inside = {form == ALPI_LIGHT_FORM_MOZ ? "extensions" : "extras",
+                                     both ? 2 : 1, names, values};
+    if (!alpi_patcher_set_inside(p, use->material, &inside, edits)) {
         alpi_warn(p->context, "extras", p->document->path,
                   "the extras of material %zu are no object: they stay, and do not name its light",
                   use->material);
@@ -228,6 +209,9 @@ void alpi_patcher_print_light(alpi_gltf_patcher *p, const alpi_gltf_light_use *u
         alpi_bytes_print(text, ",\"extensions\":{");
         print_emissive_strength(use, text);
         alpi_bytes_print(text, "}");
+        if (use->blend != NULL) {
+            alpi_bytes_print(text, ",\"extras\":{\"" ALPI_GLTF_BLEND "\":%s}", use->blend);
+        }
         break;
     case ALPI_LIGHT_FORM_MOZ:
         p->extension = "MOZ_lightmap";

@@ -159,17 +159,22 @@ static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value
     alpi_bytes_print(value, "}");
 }
 
-static alpi_gltf_light_use light_use(const need *n)
+static alpi_gltf_light_use light_use(const need *n, const char *blend)
 {
-    return (alpi_gltf_light_use){n->old, n->page, n->uv_set, n->light_scale};
+    return (alpi_gltf_light_use){n->old, n->page, n->uv_set, n->light_scale, blend};
 }
 
 /// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
 /// no KHR_texture_transform of the old one remains.
-static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits *edits)
+static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char *blend,
+                                alpi_edits *edits)
 {
     if (n->page == ALPI_NONE) {
         return alpi_patcher_pack_material(p, n->old, edits);
+    }
+    const bool named = n->lit && p->patch->light->form == ALPI_LIGHT_FORM_EXTRAS; // with the light
+    if (blend != NULL && !named) {
+        alpi_patcher_blend_material(p, n->old, blend, edits);
     }
     if (n->occluded) {
         alpi_bytes value = alpi_bytes_create(p->context);
@@ -180,7 +185,7 @@ static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits 
         alpi_bytes_destroy(&value);
     }
     if (n->lit) {
-        const alpi_gltf_light_use use = light_use(n);
+        const alpi_gltf_light_use use = light_use(n, blend);
         alpi_patcher_light_material(p, &use, edits);
     }
     return ALP_OK;
@@ -188,9 +193,16 @@ static alp_result edit_material(alpi_gltf_patcher *p, const need *n, alpi_edits 
 
 /// A material for a primitive without one. It looks like glTF's default material; the mark tells a
 /// later reading that there was none.
-static void print_new_material(alpi_gltf_patcher *p, const need *n, alpi_bytes *text)
+static void print_new_material(alpi_gltf_patcher *p, const need *n, const char *blend,
+                               alpi_bytes *text)
 {
-    static const char mark[] = "\"alpenglow\":\"" ALPI_GLTF_NO_MATERIAL "\"";
+    alpi_bytes members = alpi_bytes_create(p->context);
+    alpi_bytes_print(&members, "\"alpenglow\":\"" ALPI_GLTF_NO_MATERIAL "\"");
+    if (blend != NULL) {
+        alpi_bytes_print(&members, ",\"" ALPI_GLTF_BLEND "\":%s", blend);
+    }
+    const char *mark = members.failed ? "" : (const char *)members.bytes;
+    p->data.failed |= members.failed;
     alpi_bytes_print(text, "{");
     if (n->occluded) {
         alpi_bytes_print(text, "\"occlusionTexture\":");
@@ -198,38 +210,45 @@ static void print_new_material(alpi_gltf_patcher *p, const need *n, alpi_bytes *
         alpi_bytes_print(text, ",");
     }
     if (n->lit) {
-        const alpi_gltf_light_use use = light_use(n);
+        const alpi_gltf_light_use use = light_use(n, blend);
         alpi_patcher_print_light(p, &use, mark, text);
     } else {
         alpi_bytes_print(text, "\"extras\":{%s}", mark);
     }
     alpi_bytes_print(text, "}");
+    alpi_bytes_destroy(&members);
 }
 
 /// Puts the map into a material: the one of the document, a copy of it, or a new one.
 static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
+    alpi_bytes sets = alpi_bytes_create(p->context);
+    if (p->patch->set_uvs != NULL) {
+        alpi_patcher_print_blend(p, n->uv_set, &sets);
+    }
+    const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
     alpi_bytes text = alpi_bytes_create(p->context);
     alp_result result = ALP_OK;
     if (n->old == ALPI_GLTF_NONE) {
-        print_new_material(p, n, &text);
+        print_new_material(p, n, blend, &text);
         n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
     } else {
         alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];
         if (!all->has_other_users[n->old] && !all->edited[n->old]) {
             n->written = n->old;
-            result = edit_material(p, n, &p->edits);
+            result = edit_material(p, n, blend, &p->edits);
         } else {
             alpi_edits copy = alpi_edits_create(p->context, p->document->text);
-            result = edit_material(p, n, &copy);
+            result = edit_material(p, n, blend, &copy);
             result = result == ALP_OK ? alpi_edits_apply(&copy, span, &text) : result;
             n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
             alpi_edits_destroy(&copy);
         }
         all->edited[n->old] = true;
     }
-    p->data.failed |= text.failed;
+    p->data.failed |= text.failed || sets.failed;
     alpi_bytes_destroy(&text);
+    alpi_bytes_destroy(&sets);
     return result;
 }
 

@@ -31,13 +31,16 @@ typedef struct rewrite {
     uint32_t vertex_count;
     uint32_t (*indices)[3]; // of the file
     uint32_t triangle_count;
-    float (*corner_uvs)[3][2]; // in the file's order
+    uint32_t width;
+    float *corner_values; // [triangle_count][3][width] in the file's order
     alpi_gltf_split split;
-    bool parted;           // vertices were split
-    bool compressed;       // some of its accessors are, and none of them may stay so
-    bool has_draco;        // its extension, that is
-    char added_name[32];   // of the attribute that is added
-    size_t added_accessor; // ALPI_GLTF_NONE: kept coordinates
+    bool parted;     // vertices were split
+    bool compressed; // some of its accessors are, and none of them may stay so
+    bool has_draco;  // its extension, that is
+    // Attributes that are added; none: kept coordinates.
+    uint32_t added_count;
+    char added_names[ALPI_GLTF_BLEND_SETS][ALPI_GLTF_ATTRIBUTE_SIZE];
+    size_t added_accessors[ALPI_GLTF_BLEND_SETS];
     attribute_edit *attribute_edits;
     size_t attribute_count, attribute_capacity;
 } rewrite;
@@ -46,7 +49,7 @@ static void destroy_rewrite(alpi_gltf_patcher *p, rewrite *r)
 {
     alpi_gltf_split_destroy(p->context, &r->split);
     alpi_release(p->context, r->indices);
-    alpi_release(p->context, r->corner_uvs);
+    alpi_release(p->context, r->corner_values);
     alpi_release(p->context, r->attribute_edits);
 }
 
@@ -77,25 +80,35 @@ static bool match_corners(const alpi_gltf_patcher *p, const rewrite *r, uint32_t
     return false;
 }
 
+/// What is written of a corner of the scene's triangle.
+static void read_corner(const alpi_gltf_patcher *p, uint32_t triangle, int corner, float *out)
+{
+    const alpi_mesh_patch *patch = p->patch;
+    if (patch->vertex_values != NULL) { // split as if it were a coordinate
+        out[0] = alpi_patcher_vertex_value(p, p->scene->triangles[triangle][corner]);
+        return;
+    }
+    const int sets = patch->set_uvs != NULL ? ALPI_GLTF_BLEND_SETS : 1;
+    for (int i = 0; i < 2 * sets; i++) {
+        const float value = patch->set_uvs != NULL ? patch->set_uvs[triangle][i / 2][corner][i % 2]
+                                                   : patch->corner_uvs[triangle][corner][i];
+        out[i] = isfinite(value) ? value + 0.0f : 0.0f; // −0 → 0
+    }
+}
+
 static alp_result turn_corners(alpi_gltf_patcher *p, rewrite *r)
 {
-    ALPI_TRY_NEW(p->context, r->corner_uvs, r->triangle_count);
+    r->width = 2 * r->added_count;
+    ALPI_TRY_NEW(p->context, r->corner_values, 3 * (size_t)r->width * r->triangle_count);
     for (uint32_t i = 0; i < r->triangle_count; i++) {
         int order[3];
         if (!match_corners(p, r, i, order)) {
             return alpi_gltf_fail(p->document, r->owner, "triangle %u is not the one that was read",
                                   i);
         }
-        const uint32_t *vertices = p->scene->triangles[r->surface->first_triangle + i];
         for (int k = 0; k < 3; k++) {
-            if (p->patch->vertex_values != NULL) { // split as if it were a coordinate
-                r->corner_uvs[i][k][0] = alpi_patcher_vertex_value(p, vertices[order[k]]);
-                continue;
-            }
-            for (int axis = 0; axis < 2; axis++) {
-                float value = p->patch->corner_uvs[r->surface->first_triangle + i][order[k]][axis];
-                r->corner_uvs[i][k][axis] = isfinite(value) ? value + 0.0f : 0.0f; // −0 → 0
-            }
+            float *out = r->corner_values + (3 * (size_t)i + (size_t)k) * r->width;
+            read_corner(p, r->surface->first_triangle + i, order[k], out);
         }
     }
     return ALP_OK;
@@ -228,8 +241,10 @@ static alp_result split_attributes(alpi_gltf_patcher *p, rewrite *r, alpi_json_s
     const char *text = p->document->text;
     alpi_json_cursor cursor = alpi_json_open(text, object);
     while (alpi_json_next(&cursor)) {
-        bool replaced = object.begin == r->attributes.begin &&
-                        alpi_json_key_is(text, cursor.key, r->added_name);
+        bool replaced = false;
+        for (uint32_t k = 0; k < r->added_count && object.begin == r->attributes.begin; k++) {
+            replaced |= alpi_json_key_is(text, cursor.key, r->added_names[k]);
+        }
         bool stays = !r->parted &&
                      !alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
         if (!replaced && !stays) {
@@ -257,12 +272,22 @@ static alp_result split_targets(alpi_gltf_patcher *p, rewrite *r)
 
 static alp_result add_coordinates(alpi_gltf_patcher *p, rewrite *r)
 {
-    alpi_gltf_array uvs = {.bytes = r->split.uvs,
-                           .count = r->split.vertex_count,
-                           .components = 2,
-                           .component_type = 5126,
-                           .element_size = sizeof *r->split.uvs};
-    return alpi_patcher_add_accessor(p, &uvs, &r->added_accessor);
+    const uint32_t count = r->split.vertex_count;
+    float(*uvs)[2] = (float(*)[2])alpi_allocate(p->context, count, sizeof *uvs);
+    alp_result result = uvs != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    for (uint32_t k = 0; k < r->added_count && result == ALP_OK; k++) {
+        for (uint32_t v = 0; v < count; v++) {
+            memcpy(uvs[v], r->split.values + (size_t)v * r->width + (size_t)2 * k, sizeof uvs[v]);
+        }
+        alpi_gltf_array array = {.bytes = uvs,
+                                 .count = count,
+                                 .components = 2,
+                                 .component_type = 5126,
+                                 .element_size = sizeof *uvs};
+        result = alpi_patcher_add_accessor(p, &array, &r->added_accessors[k]);
+    }
+    alpi_release(p->context, uvs);
+    return result;
 }
 
 /// The values of the corners as an attribute; vertices of no triangle are open.
@@ -277,7 +302,7 @@ static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
     for (uint32_t i = 0; i < r->triangle_count; i++) {
         for (int k = 0; k < 3; k++) {
             uint32_t vertex = r->split.indices[i][k];
-            values[vertex] = (uint16_t)r->split.uvs[vertex][0];
+            values[vertex] = (uint16_t)r->split.values[(size_t)vertex * r->width];
         }
     }
     alpi_gltf_vertex_input input = {.primitive = r->primitive,
@@ -286,7 +311,7 @@ static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
                                     .count = count,
                                     .sources = r->split.changed ? r->split.sources : NULL,
                                     .values = values};
-    alp_result result = alpi_patcher_add_vertex_values(p, &input, &r->added_accessor);
+    alp_result result = alpi_patcher_add_vertex_values(p, &input, &r->added_accessors[0]);
     alpi_release(p->context, values);
     return result;
 }
@@ -294,16 +319,19 @@ static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
 static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
 {
     bool at_vertices = p->patch->vertex_values != NULL;
+    r->added_count = p->patch->set_uvs != NULL ? ALPI_GLTF_BLEND_SETS : 1;
+    for (uint32_t k = 0; k < r->added_count; k++) {
+        alpi_patcher_set_name(r->plan->uv_set, k, r->added_names[k]);
+    }
     if (at_vertices) {
-        snprintf(r->added_name, sizeof r->added_name, "%s", alpi_patcher_vertex_name(p));
-    } else {
-        snprintf(r->added_name, sizeof r->added_name, "TEXCOORD_%u", r->plan->uv_set);
+        snprintf(r->added_names[0], sizeof r->added_names[0], "%s", alpi_patcher_vertex_name(p));
     }
     ALP_TRY(turn_corners(p, r));
     alpi_gltf_split_input input = {.vertex_count = r->vertex_count,
                                    .triangle_count = r->triangle_count,
                                    .indices = r->indices,
-                                   .corner_uvs = r->corner_uvs,
+                                   .width = r->width,
+                                   .values = r->corner_values,
                                    .usable =
                                        p->scene->triangle_usable + r->surface->first_triangle};
     ALP_TRY(alpi_gltf_split_create(p->context, &input, &r->split));
@@ -413,8 +441,8 @@ static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const 
         alpi_edits_replace(edits, r->attribute_edits[i].span, "%zu",
                            r->attribute_edits[i].accessor);
     }
-    if (r->added_accessor != ALPI_GLTF_NONE) {
-        alpi_edits_set_index(edits, r->attributes, r->added_name, r->added_accessor);
+    for (uint32_t k = 0; k < r->added_count; k++) {
+        alpi_edits_set_index(edits, r->attributes, r->added_names[k], r->added_accessors[k]);
     }
     if (becomes_plain(p, r)) {
         drop_draco(p, edits, r);
@@ -499,8 +527,7 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
     rewrite r = {.plan = plan,
                  .surface = &p->scene->surfaces[plan->surface],
                  .primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive),
-                 .span = span,
-                 .added_accessor = ALPI_GLTF_NONE};
+                 .span = span};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
     alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
     if (result == ALP_OK && !plan->packed) {

@@ -11,8 +11,8 @@
 /// A pair in use. The first pair of an old vertex takes its place; others come behind.
 typedef struct vertex_pair {
     uint32_t source;
-    float uv[2];
-    uint32_t index; // of the new vertex
+    float values[ALPI_GLTF_SPLIT_WIDTH]; // those behind the width are 0
+    uint32_t index;                      // of the new vertex
 } vertex_pair;
 
 typedef struct splitter {
@@ -26,22 +26,20 @@ typedef struct splitter {
     uint32_t used_count;  // old vertices in use
 } splitter;
 
-static uint32_t float_bits(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 /// The slot of a pair, or the free one where it belongs.
-static size_t find_slot(const splitter *s, uint32_t source, const float uv[2])
+static size_t find_slot(const splitter *s, uint32_t source, const float *values)
 {
-    uint64_t key = ((uint64_t)float_bits(uv[0]) << 32) | float_bits(uv[1]);
-    size_t slot = (size_t)(alpi_hash64(key ^ alpi_hash64(source)) & (s->table_size - 1));
+    const size_t size = s->input->width * sizeof *values;
+    uint64_t key = alpi_hash64(source);
+    for (uint32_t i = 0; i < s->input->width; i += 2) {
+        uint64_t bits;
+        memcpy(&bits, values + i, sizeof bits);
+        key = alpi_hash64(bits ^ key);
+    }
+    size_t slot = (size_t)(key & (s->table_size - 1));
     while (s->table[slot] != ALPI_NONE) {
         const vertex_pair *pair = &s->pairs[s->table[slot]];
-        if (pair->source == source && float_bits(pair->uv[0]) == float_bits(uv[0]) &&
-            float_bits(pair->uv[1]) == float_bits(uv[1])) {
+        if (pair->source == source && memcmp(pair->values, values, size) == 0) {
             break;
         }
         slot = (slot + 1) & (s->table_size - 1);
@@ -50,10 +48,10 @@ static size_t find_slot(const splitter *s, uint32_t source, const float uv[2])
 }
 
 /// The pair of a corner, made where there is none. A triangle without area is content with any.
-static alp_result corner_pair(splitter *s, uint32_t source, const float uv[2], bool usable,
+static alp_result corner_pair(splitter *s, uint32_t source, const float *values, bool usable,
                               uint32_t *pair)
 {
-    size_t slot = find_slot(s, source, uv);
+    size_t slot = find_slot(s, source, values);
     *pair = s->table[slot];
     if (*pair == ALPI_NONE && !usable) {
         *pair = s->first_pair[source];
@@ -65,7 +63,8 @@ static alp_result corner_pair(splitter *s, uint32_t source, const float uv[2], b
     ALP_TRY(alpi_grow(s->context, &pairs, &s->pair_capacity, s->pair_count + 1, sizeof *s->pairs));
     s->pairs = pairs;
     *pair = (uint32_t)s->pair_count++;
-    s->pairs[*pair] = (vertex_pair){.source = source, .uv = {uv[0], uv[1]}};
+    s->pairs[*pair] = (vertex_pair){.source = source};
+    memcpy(s->pairs[*pair].values, values, s->input->width * sizeof *values);
     s->table[slot] = *pair;
     if (s->first_pair[source] == ALPI_NONE) {
         s->first_pair[source] = *pair;
@@ -82,8 +81,10 @@ static alp_result collect_pairs(splitter *s, uint32_t (*corners)[3])
         for (uint32_t t = 0; t < input->triangle_count; t++) {
             if (input->usable[t] == (pass == 0)) {
                 for (int k = 0; k < 3; k++) {
-                    ALP_TRY(corner_pair(s, input->indices[t][k], input->corner_uvs[t][k],
-                                        input->usable[t], &corners[t][k]));
+                    const float *values =
+                        input->values + (3 * (size_t)t + (size_t)k) * input->width;
+                    ALP_TRY(corner_pair(s, input->indices[t][k], values, input->usable[t],
+                                        &corners[t][k]));
                 }
             }
         }
@@ -110,7 +111,8 @@ static void number_vertices(splitter *s, alpi_gltf_split *split)
 static alp_result fill_split(splitter *s, alpi_gltf_split *split)
 {
     ALPI_TRY_NEW(s->context, split->sources, split->vertex_count);
-    ALPI_TRY_NEW(s->context, split->uvs, split->vertex_count);
+    const size_t width = s->input->width;
+    ALPI_TRY_NEW(s->context, split->values, split->vertex_count * width);
     uint32_t old = s->input->vertex_count;
     for (uint32_t v = 0; v < split->vertex_count && v < old; v++) {
         split->sources[v] = v; // those that no triangle uses
@@ -118,7 +120,7 @@ static alp_result fill_split(splitter *s, alpi_gltf_split *split)
     for (size_t i = 0; i < s->pair_count; i++) {
         const vertex_pair *pair = &s->pairs[i];
         split->sources[pair->index] = pair->source;
-        memcpy(split->uvs[pair->index], pair->uv, sizeof pair->uv);
+        memcpy(split->values + pair->index * width, pair->values, width * sizeof *pair->values);
     }
     for (uint32_t t = 0; t < s->input->triangle_count; t++) {
         for (int k = 0; k < 3; k++) {
@@ -167,7 +169,7 @@ alp_result alpi_gltf_split_create(alp_context *context, const alpi_gltf_split_in
 void alpi_gltf_split_destroy(alp_context *context, alpi_gltf_split *split)
 {
     alpi_release(context, split->sources);
-    alpi_release(context, split->uvs);
+    alpi_release(context, split->values);
     alpi_release(context, split->indices);
     *split = (alpi_gltf_split){0};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "maps/lightmap.h"
 
+#include "atlas/blend.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -143,20 +144,58 @@ bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle)
            lightmap->atlas->triangle_pages[triangle] != ALPI_NONE;
 }
 
-/// Bilinear look-up in some pages.
-static void sample_pages(const alp_lightmap *lightmap, float *const *pages, uint32_t triangle,
-                         float b1, float b2, float rgb[3])
+/// Bilinear look-up in a page, at coordinates between those of a triangle's corners.
+static void sample_page(const alp_lightmap *lightmap, float *page, const float (*uv)[2], float b1,
+                        float b2, float rgb[3])
 {
-    const float(*uv)[2] = (const float(*)[2])lightmap->atlas->corner_uvs[triangle];
     float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
     float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
     alp_image view = {.context = lightmap->context,
                       .info = {lightmap->width, lightmap->height, 4, ALP_COMPONENT_FLOAT},
-                      .pixels = pages[lightmap->atlas->triangle_pages[triangle]]};
+                      .pixels = page};
     float rgba[4];
     alpi_image_sample(&view, u, v,
                       (alpi_sampler){.wrap_u = ALPI_WRAP_CLAMP, .wrap_v = ALPI_WRAP_CLAMP}, rgba);
     memcpy(rgb, rgba, 3 * sizeof *rgb);
+}
+
+/// Shares of the three sets of a triangle, which sum to 1.
+static void blend_weights(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
+                          float weights[3])
+{
+    if (lightmap->blend == ALP_BLEND_NORMAL) {
+        alpi_blend_weights(lightmap->atlas, triangle, b1, b2, weights);
+        return;
+    }
+    const uint8_t members = lightmap->atlas->set_members[triangle];
+    const int count = __builtin_popcount(members);
+    for (int k = 0; k < 3; k++) { // a triangle without area is in none: all sets are alike
+        weights[k] = count == 0                 ? 1.0f / 3.0f
+                     : (members >> k & 1u) != 0 ? 1.0f / (float)count
+                                                : 0.0f;
+    }
+}
+
+/// Look-up in some pages.
+static void sample_pages(const alp_lightmap *lightmap, float *const *pages, uint32_t triangle,
+                         float b1, float b2, float rgb[3])
+{
+    const alp_atlas *atlas = lightmap->atlas;
+    float *page = pages[atlas->triangle_pages[triangle]];
+    if (atlas->set_uvs == NULL) {
+        sample_page(lightmap, page, (const float(*)[2])atlas->corner_uvs[triangle], b1, b2, rgb);
+        return;
+    }
+    float weights[3];
+    blend_weights(lightmap, triangle, b1, b2, weights);
+    rgb[0] = rgb[1] = rgb[2] = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float value[3];
+        sample_page(lightmap, page, (const float(*)[2])atlas->set_uvs[triangle][k], b1, b2, value);
+        for (int i = 0; i < 3; i++) {
+            rgb[i] += weights[k] * value[i];
+        }
+    }
 }
 
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,

@@ -16,6 +16,7 @@ struct alp_lightmap {
     float *vertex_values; // [scene vertices], owned; then there is no atlas and no page. Or NULL.
     alp_atlas *atlas;     // owned
     alpi_texels texels;
+    alp_blend blend; // how the sets of an atlas of overlapping charts are read
     uint32_t page_count, width, height;
     float *errors;   // [texels] standard error of occlusion, or NULL: nobody asked for it
     uint8_t *states; // [texels] alpi_texel_state: how its value was found
@@ -59,7 +60,8 @@ alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t p
 /// Whether the surface of a triangle has values: not those that a bake left out.
 bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
 
-/// Bilinear look-up at a point of a triangle that the lightmap holds, or linear between the values
+/// Bilinear look-up at a point of a triangle that the lightmap holds, blended where its charts
+/// overlap, or linear between the values
 /// at its vertices; 1 without any.
 void alpi_lightmap_sample(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float rgb[3]);

@@ -429,7 +429,7 @@ bool alpi_patches_are_two_sided(const alp_scene *scene)
 static uint32_t count_charts(const alpi_patches *p)
 {
     uint32_t count = 0;
-    for (uint32_t t = 0; t < p->scene->triangle_count; t++) {
+    for (uint32_t t = 0; t < alpi_atlas_face_count(p->atlas); t++) {
         const uint32_t chart = p->atlas->triangle_charts[t];
         count = chart != ALPI_NONE && chart >= count ? chart + 1 : count;
     }

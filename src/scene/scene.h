@@ -57,6 +57,9 @@ typedef struct alpi_surface {
     uint32_t uv_sets;       // sets 0 … uv_sets−1 are present in the file
     bool mirrored;          // negative determinant: the winding was reversed on reading
     bool normals_generated; // flat normals, because the file has none
+    float axes[3][3];       // x, y and z axis of its object in the world, of any length: a normal n
+                            // of the world has components n·axes there, before it is normalised.
+                            // All 0: the world's own
 } alpi_surface;
 
 typedef enum alpi_light_kind {

@@ -10,6 +10,8 @@ right() { # command, option, values
 }
 right bake --size 1 16384
 right bake --padding 0 64
+right bake --block 1 64
+right bake --mips 0 8
 right bake --texels-per-metre 1e-6 1000000 auto
 right bake --ao-samples 1 1048576
 right bake --ao-distance 0.000001 1e9 auto inf .5

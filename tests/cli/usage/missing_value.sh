@@ -2,6 +2,7 @@
 # an option at the end of the line, before another option, or with an empty value
 . "$(dirname "$0")/helpers.bash"
 for option in -o --output --maps --maps-dir --json --size --texels-per-metre --atlas --padding \
+    --block --mips --density \
     --ao-samples --ao-distance --ao-falloff --ao-cone --ao-distribution --existing-ao --seed \
     --threads --progress; do
     try bake scene.glb $option

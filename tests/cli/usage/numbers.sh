@@ -10,6 +10,9 @@ wrong() { # command, option, values
 }
 wrong bake --size 0 16385 -1 1.5 1e3 abc 12x ' 12' 0x10 99999999999999999999 +5 auto
 wrong bake --padding -1 65 x
+wrong bake --block 0 65 x
+wrong bake --mips -1 9 x
+try bake scene.glb -o out.glb --size 100 --mips 3
 wrong bake --texels-per-metre 0 9e-7 1000001 -2 nan inf 1e999 0x1p3 3m
 wrong bake --ao-samples 0 1048577 -1 1.5 many
 wrong bake --ao-distance 0 9e-7 1000000001 -1 nan infinity

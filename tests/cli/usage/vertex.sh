@@ -4,6 +4,11 @@
 try bake scene.glb -o out.glb --atlas vertex --size 64
 try bake scene.glb -o out.glb --atlas vertex --texels-per-metre 3
 try bake scene.glb -o out.glb --atlas vertex --padding 2
+try bake scene.glb -o out.glb --atlas vertex --block 4
+try bake scene.glb -o out.glb --atlas vertex --mips 1
+try bake scene.glb -o out.glb --atlas vertex --density 'a*=2'
+try bake scene.glb -o out.glb --atlas keep --block 4
+try bake scene.glb -o out.glb --atlas keep --density 'a*=2'
 try bake scene.glb -o out.glb --atlas vertex --existing-ao multiply
 try bake scene.glb -o out.glb --atlas vertex --maps-dir maps
 try bake scene.glb --atlas vertex --maps-dir maps

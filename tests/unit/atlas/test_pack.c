@@ -1,43 +1,67 @@
 // SPDX-License-Identifier: MIT
-// Packing: nothing overlaps, the padding is free, pages are as few as they can be where that is
-// known.
+// Packing: no texel of two shapes, what must be free is free, shapes are turned and never mirrored,
+// and pages are as few as they can be where that is known.
 #include "atlas_scenes.h"
+#include "page_owners.h"
 
 #include <stdlib.h>
 
-/// Fails unless all items are inside their pages and `padding` apart.
-static void check_places(const alpi_pack_item *items, uint32_t count, uint32_t size,
-                         uint32_t padding, uint32_t pages)
+static bool covers(const alpi_pack_item *item, uint32_t x, uint32_t y)
 {
-    unsigned char *taken = calloc((size_t)pages * size * size, 1);
+    const size_t words = (item->width + 63) / 64;
+    return item->mask == NULL || (item->mask[y * words + x / 64] >> (x % 64) & 1) != 0;
+}
+
+/// Where texel (x, y) of an item's box lies on its page.
+static void turned_place(const alpi_pack_item *item, uint32_t x, uint32_t y, uint32_t at[2])
+{
+    const uint32_t w = item->width - 1, h = item->height - 1;
+    const uint32_t turned[4][2] = {{x, y}, {h - y, x}, {w - x, h - y}, {y, w - x}};
+    assert_true(item->turns < 4);
+    at[0] = item->x + turned[item->turns][0];
+    at[1] = item->y + turned[item->turns][1];
+}
+
+/// Which item has each texel, [pages][size][size]; fails where two have one, or one is outside.
+static uint16_t *owners(const alpi_pack_item *items, uint32_t count, uint32_t size, uint32_t pages)
+{
+    uint16_t *taken = malloc((size_t)pages * size * size * sizeof *taken);
     assert_non_null(taken);
+    memset(taken, 0xff, (size_t)pages * size * size * sizeof *taken);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t w = items[i].turned ? items[i].height : items[i].width;
-        uint32_t h = items[i].turned ? items[i].width : items[i].height;
         assert_true(items[i].page < pages);
-        assert_true(items[i].x + w <= size && items[i].y + h <= size);
-        for (uint32_t y = items[i].y; y < items[i].y + h; y++) {
-            for (uint32_t x = items[i].x; x < items[i].x + w; x++) {
-                unsigned char *at = &taken[((size_t)items[i].page * size + y) * size + x];
-                assert_int_equal(*at, 0);
-                *at = 1;
+        for (uint32_t y = 0; y < items[i].height; y++) {
+            for (uint32_t x = 0; x < items[i].width; x++) {
+                uint32_t at[2];
+                turned_place(&items[i], x, y, at);
+                assert_true(at[0] < size && at[1] < size);
+                uint16_t *owner = &taken[((size_t)items[i].page * size + at[1]) * size + at[0]];
+                if (covers(&items[i], x, y)) {
+                    assert_int_equal(*owner, FREE);
+                    *owner = (uint16_t)i;
+                }
             }
         }
     }
-    for (uint32_t i = 0; i < count; i++) { // what is near an item is its own, or free
-        uint32_t w = items[i].turned ? items[i].height : items[i].width;
-        uint32_t h = items[i].turned ? items[i].width : items[i].height;
-        uint32_t x0 = items[i].x > padding ? items[i].x - padding : 0;
-        uint32_t y0 = items[i].y > padding ? items[i].y - padding : 0;
-        uint32_t near = 0;
-        for (uint32_t y = y0; y < items[i].y + h + padding && y < size; y++) {
-            for (uint32_t x = x0; x < items[i].x + w + padding && x < size; x++) {
-                near += taken[((size_t)items[i].page * size + y) * size + x];
-            }
-        }
-        assert_int_equal(near, w * h);
+    return taken;
+}
+
+static void check_places(const alpi_pack_rules *rules, const alpi_pack_item *items, uint32_t count,
+                         uint32_t pages)
+{
+    const size_t room = (size_t)rules->size * rules->size;
+    uint16_t *taken = owners(items, count, rules->size, pages);
+    for (uint32_t page = 0; page < pages; page++) {
+        check_page(taken + page * room, rules);
     }
     free(taken);
+}
+
+static void pack_and_check(alp_context *context, const alpi_pack_rules *rules,
+                           alpi_pack_item *items, uint32_t count, uint32_t *pages)
+{
+    ASSERT_OK(context, alpi_pack(context, rules, items, count, 4096, pages));
+    check_places(rules, items, count, *pages);
 }
 
 static void random_rectangles(void **state)
@@ -47,7 +71,8 @@ static void random_rectangles(void **state)
     alp_context *context = test_context(1);
     for (uint32_t trial = 0; trial < 30; trial++) {
         alpi_pack_item items[COUNT], again[COUNT];
-        uint32_t padding = trial % 5, size = 64, pages = 0, pages_again = 0;
+        const alpi_pack_rules rules = {.size = 64, .padding = trial % 5};
+        uint32_t pages = 0;
         double largest = trial % 3 == 0 ? 63.0 : trial % 3 == 1 ? 20.0 : 3.0;
         for (uint32_t i = 0; i < COUNT; i++) {
             items[i] =
@@ -55,10 +80,56 @@ static void random_rectangles(void **state)
                                  .height = 1 + (uint32_t)(largest * keyed(trial, 2 * i + 1))};
             again[i] = items[i];
         }
-        ASSERT_OK(context, alpi_pack(context, items, COUNT, size, padding, 4096, &pages));
-        check_places(items, COUNT, size, padding, pages);
-        ASSERT_OK(context, alpi_pack(context, again, COUNT, size, padding, 4096, &pages_again));
+        pack_and_check(context, &rules, items, COUNT, &pages);
+        pack_and_check(context, &rules, again, COUNT, &pages);
         assert_memory_equal(items, again, sizeof items);
+    }
+    alp_context_destroy(context);
+}
+
+/// A shape grown texel by texel from the middle of its box; it may have holes. [height][words]
+static uint64_t *random_mask(uint32_t key, uint32_t width, uint32_t height)
+{
+    const size_t words = (width + 63) / 64;
+    uint64_t *mask = calloc(words * height, sizeof *mask);
+    assert_non_null(mask);
+    uint32_t x = width / 2, y = height / 2;
+    for (uint32_t step = 0; step < 3 * width * height; step++) {
+        mask[y * words + x / 64] |= (uint64_t)1 << (x % 64);
+        const uint32_t way = (uint32_t)(4.0 * keyed(key, step));
+        x = way == 0 && x + 1 < width ? x + 1 : way == 1 && x > 0 ? x - 1 : x;
+        y = way == 2 && y + 1 < height ? y + 1 : way == 3 && y > 0 ? y - 1 : y;
+    }
+    return mask;
+}
+
+static void random_shapes(void **state)
+{
+    (void)state;
+    enum { COUNT = 60 };
+    alp_context *context = test_context(1);
+    static const alpi_pack_rules rules[] = {{.size = 64},
+                                            {.size = 100, .padding = 3},
+                                            {.size = 128, .padding = 2},
+                                            {.size = 96, .padding = 1, .block = 4},
+                                            {.size = 70, .padding = 0, .block = 12},
+                                            {.size = 64, .padding = 1, .mips = 1},
+                                            {.size = 128, .padding = 0, .mips = 2},
+                                            {.size = 128, .padding = 2, .block = 6, .mips = 3},
+                                            {.size = 256, .padding = 17, .block = 8, .mips = 4}};
+    for (uint32_t r = 0; r < sizeof rules / sizeof *rules; r++) {
+        alpi_pack_item items[COUNT] = {0};
+        uint32_t pages = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const double largest = i % 8 == 0 ? 63.0 : 20.0;
+            items[i].width = 1 + (uint32_t)(largest * keyed(r + 100, 2 * i));
+            items[i].height = 1 + (uint32_t)(largest * keyed(r + 100, 2 * i + 1));
+            items[i].mask = random_mask(1000 * r + i, items[i].width, items[i].height);
+        }
+        pack_and_check(context, &rules[r], items, COUNT, &pages);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            free((void *)(uintptr_t)items[i].mask);
+        }
     }
     alp_context_destroy(context);
 }
@@ -69,21 +140,109 @@ static void a_full_page_is_filled(void **state)
     alp_context *context = test_context(1);
     alpi_pack_item items[64];
     uint32_t pages = 0;
+    alpi_pack_rules rules = {.size = 64};
     for (uint32_t i = 0; i < 64; i++) {
         items[i] = (alpi_pack_item){.width = 8, .height = 8};
     }
-    ASSERT_OK(context, alpi_pack(context, items, 64, 64, 0, 1, &pages));
+    pack_and_check(context, &rules, items, 64, &pages);
     assert_int_equal(pages, 1);
-    check_places(items, 64, 64, 0, 1);
     // With padding 2 between, 8·8 + 2·7 texels are needed and no border.
-    ASSERT_OK(context, alpi_pack(context, items, 64, 78, 2, 1, &pages));
-    check_places(items, 64, 78, 2, 1);
-    assert_int_equal(alpi_pack(context, items, 64, 77, 2, 1, &pages), ALP_ERROR_LIMIT);
-    bool fits = true;
-    ASSERT_OK(context, alpi_pack_one_page(context, items, 64, 77, 2, &fits));
-    assert_false(fits);
-    ASSERT_OK(context, alpi_pack_one_page(context, items, 64, 78, 2, &fits));
+    rules = (alpi_pack_rules){.size = 78, .padding = 2};
+    pack_and_check(context, &rules, items, 64, &pages);
+    assert_int_equal(pages, 1);
+    bool fits = false;
+    ASSERT_OK(context, alpi_pack_one_page(context, &rules, items, 64, &fits));
     assert_true(fits);
+    rules.size = 77;
+    assert_int_equal(alpi_pack(context, &rules, items, 64, 1, &pages), ALP_ERROR_LIMIT);
+    ASSERT_OK(context, alpi_pack_one_page(context, &rules, items, 64, &fits));
+    assert_false(fits);
+    alp_context_destroy(context);
+}
+
+/// Two Ls of four texels make 2 × 4, eight of those a square of 8; a mirrored one would not fit
+/// with them.
+static void tetrominoes_fill_a_square(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const uint64_t ways[2][2] = {{7, 1}, {7, 4}}; // an L and a J
+    const alpi_pack_rules rules = {.size = 8};
+    for (int way = 0; way < 2; way++) {
+        alpi_pack_item items[16];
+        uint32_t pages = 0;
+        for (uint32_t i = 0; i < 16; i++) {
+            items[i] = (alpi_pack_item){.width = 3, .height = 2, .mask = ways[way]};
+        }
+        pack_and_check(context, &rules, items, 16, &pages);
+        assert_int_equal(pages, 1);
+    }
+    alp_context_destroy(context);
+}
+
+static void a_hole_is_used(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    uint64_t ring[12];
+    for (uint32_t y = 0; y < 12; y++) { // 12 × 12 with a hole of 8 × 8
+        ring[y] = y < 2 || y >= 10 ? 0xfff : 0xc03;
+    }
+    static const struct {
+        uint32_t padding, square, pages;
+    } cases[] = {{0, 8, 1}, {0, 9, 2}, {1, 6, 1}, {1, 7, 2}, {3, 2, 1}, {3, 3, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const alpi_pack_rules rules = {.size = 12, .padding = cases[i].padding};
+        alpi_pack_item items[2] = {{.width = cases[i].square, .height = cases[i].square},
+                                   {.width = 12, .height = 12, .mask = ring}};
+        uint32_t pages = 0;
+        pack_and_check(context, &rules, items, 2, &pages);
+        assert_int_equal(pages, cases[i].pages);
+    }
+    alp_context_destroy(context);
+}
+
+/// Small shapes go into what large ones left on earlier pages.
+static void earlier_pages_are_filled(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alpi_pack_item items[12];
+    uint32_t pages = 0;
+    const alpi_pack_rules rules = {.size = 16};
+    for (uint32_t i = 0; i < 12; i++) { // 16 × 9 and 16 × 7: two to a page, if only that
+        items[i] = (alpi_pack_item){.width = 16, .height = i < 6 ? 9 : 7};
+    }
+    pack_and_check(context, &rules, items, 12, &pages);
+    assert_int_equal(pages, 6);
+    alp_context_destroy(context);
+}
+
+/// What the gaps are for, counted out: blocks and mip levels take the least they must.
+static void gaps_are_as_small_as_they_can_be(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    static const struct {
+        alpi_pack_rules rules;
+        uint32_t pages; // for two items of 2 × 8
+    } cases[] = {
+        {{.size = 8}, 1},
+        {{.size = 8, .block = 4}, 1},               // columns 0–1 and 4–5
+        {{.size = 8, .block = 8}, 2},               // one block
+        {{.size = 8, .padding = 4}, 1},             // columns 0–1 and 6–7
+        {{.size = 8, .padding = 4, .block = 4}, 1}, // the same
+        {{.size = 8, .mips = 1}, 1},                // 2 free texels
+        {{.size = 8, .mips = 2}, 1},                // 2 free cells of 2: columns 0–1 and 6–7
+        {{.size = 16, .mips = 3}, 1},               // of 4: cells 0 and 3
+        {{.size = 8, .mips = 3}, 2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        alpi_pack_item items[2] = {{.width = 2, .height = 8}, {.width = 2, .height = 8}};
+        uint32_t pages = 0;
+        pack_and_check(context, &cases[i].rules, items, 2, &pages);
+        assert_int_equal(pages, cases[i].pages);
+    }
     alp_context_destroy(context);
 }
 
@@ -93,13 +252,14 @@ static void pages_are_added(void **state)
     alp_context *context = test_context(1);
     alpi_pack_item items[5];
     uint32_t pages = 0;
+    const alpi_pack_rules rules = {.size = 16, .padding = 3};
     for (uint32_t i = 0; i < 5; i++) {
         items[i] = (alpi_pack_item){.width = 16, .height = 9};
     }
-    ASSERT_OK(context, alpi_pack(context, items, 5, 16, 3, 5, &pages));
+    ASSERT_OK(context, alpi_pack(context, &rules, items, 5, 5, &pages));
     assert_int_equal(pages, 5);
-    check_places(items, 5, 16, 3, 5);
-    assert_int_equal(alpi_pack(context, items, 5, 16, 3, 4, &pages), ALP_ERROR_LIMIT);
+    check_places(&rules, items, 5, 5);
+    assert_int_equal(alpi_pack(context, &rules, items, 5, 4, &pages), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(context), "4 pages"));
     alp_context_destroy(context);
 }
@@ -110,9 +270,10 @@ static void turning_helps(void **state)
     alp_context *context = test_context(1);
     alpi_pack_item items[2] = {{.width = 10, .height = 5}, {.width = 5, .height = 10}};
     uint32_t pages = 0;
-    ASSERT_OK(context, alpi_pack(context, items, 2, 10, 0, 1, &pages));
-    assert_true(items[0].turned != items[1].turned);
-    check_places(items, 2, 10, 0, 1);
+    const alpi_pack_rules rules = {.size = 10};
+    ASSERT_OK(context, alpi_pack(context, &rules, items, 2, 1, &pages));
+    assert_true(items[0].turns % 2 != items[1].turns % 2);
+    check_places(&rules, items, 2, 1);
     alp_context_destroy(context);
 }
 
@@ -121,16 +282,19 @@ static void sides_at_their_ends(void **state)
     (void)state;
     alp_context *context = test_context(1);
     alpi_pack_item item = {.width = 1, .height = 1};
+    alpi_pack_rules rules = {.size = 1, .padding = 64};
     uint32_t pages = 0;
-    ASSERT_OK(context, alpi_pack(context, &item, 1, 1, 64, 1, &pages));
+    ASSERT_OK(context, alpi_pack(context, &rules, &item, 1, 1, &pages));
     assert_int_equal(pages, 1);
+    rules.size = 16384;
     item.width = 16384;
     item.height = 16384;
-    ASSERT_OK(context, alpi_pack(context, &item, 1, 16384, 64, 1, &pages));
+    ASSERT_OK(context, alpi_pack(context, &rules, &item, 1, 1, &pages));
     assert_true(item.x == 0 && item.y == 0);
     item.height = 16385;
-    assert_int_equal(alpi_pack(context, &item, 1, 16384, 0, 1, &pages), ALP_ERROR_LIMIT);
-    ASSERT_OK(context, alpi_pack(context, NULL, 0, 16, 0, 1, &pages));
+    assert_int_equal(alpi_pack(context, &rules, &item, 1, 1, &pages), ALP_ERROR_LIMIT);
+    rules.size = 16;
+    ASSERT_OK(context, alpi_pack(context, &rules, NULL, 0, 1, &pages));
     assert_int_equal(pages, 0);
     alp_context_destroy(context);
 }
@@ -138,8 +302,15 @@ static void sides_at_their_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_rectangles),   cmocka_unit_test(a_full_page_is_filled),
-        cmocka_unit_test(pages_are_added),     cmocka_unit_test(turning_helps),
+        cmocka_unit_test(random_rectangles),
+        cmocka_unit_test(random_shapes),
+        cmocka_unit_test(a_full_page_is_filled),
+        cmocka_unit_test(tetrominoes_fill_a_square),
+        cmocka_unit_test(a_hole_is_used),
+        cmocka_unit_test(earlier_pages_are_filled),
+        cmocka_unit_test(gaps_are_as_small_as_they_can_be),
+        cmocka_unit_test(pages_are_added),
+        cmocka_unit_test(turning_helps),
         cmocka_unit_test(sides_at_their_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

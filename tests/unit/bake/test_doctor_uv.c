@@ -68,10 +68,11 @@ static const double SHARE = 1e-4;
 /// @param kind -1 = none
 static void has_of_sets_only(const alp_diagnosis *d, int kind)
 {
-    static const alp_finding_kind kinds[] = {ALP_FINDING_NO_UVS,     ALP_FINDING_UV_MISSING,
-                                             ALP_FINDING_UV_OUTSIDE, ALP_FINDING_UV_FLAT,
-                                             ALP_FINDING_UV_OVERLAP, ALP_FINDING_UV_SHARED,
-                                             ALP_FINDING_UV_PADDING, ALP_FINDING_UV_DENSITY};
+    static const alp_finding_kind kinds[] = {
+        ALP_FINDING_NO_UVS,     ALP_FINDING_UV_MISSING, ALP_FINDING_UV_OUTSIDE,
+        ALP_FINDING_UV_FLAT,    ALP_FINDING_UV_OVERLAP, ALP_FINDING_UV_SHARED,
+        ALP_FINDING_UV_PADDING, ALP_FINDING_UV_DENSITY, ALP_FINDING_UV_MIPS,
+        ALP_FINDING_UV_TINY,    ALP_FINDING_UV_STRETCH};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         assert_int_equal(has(d, kinds[k]), (int)kinds[k] == kind);
     }
@@ -134,6 +135,125 @@ static void sets_are_judged(void **state)
     }
 }
 
+/// The finding of a kind.
+static alp_finding find(const alp_diagnosis *d, alp_finding_kind kind)
+{
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        if (alp_diagnosis_get_finding(d, i).kind == kind) {
+            return alp_diagnosis_get_finding(d, i);
+        }
+    }
+    return alp_diagnosis_get_finding(NULL, 0);
+}
+
+static alp_diagnosis *diagnose(const alp_scene *scene, uint32_t page_size)
+{
+    alp_diagnosis_options o = alp_diagnosis_options_default();
+    alp_diagnosis *d = NULL;
+    o.page_size = page_size;
+    ASSERT_OK(scene->context, alp_scene_diagnose(scene, &o, &d));
+    return d;
+}
+
+/// Columns of texels between two islands, side by side and one above the other, and the levels that
+/// they hold.
+static void space_between_islands(void **state)
+{
+    (void)state;
+    static const struct {
+        float texels; // on a page of 1024
+        uint32_t page, free;
+        int kind;
+    } cases[] = {{0, 1024, 0, ALP_FINDING_UV_PADDING},
+                 {1, 1024, 1, ALP_FINDING_UV_MIPS},
+                 {2, 1024, 2, -1},
+                 {1, 2048, 2, -1},
+                 {2, 512, 1, ALP_FINDING_UV_MIPS},
+                 {64, 1024, 64, -1}};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        const size_t k = i / 2;
+        const float gap = cases[k].texels / 1024.0f;
+        const rectangles beside = {{{0, 0, 0.5f - gap, 0.5f}, {0.5f, 0, 1, 0.5f}}};
+        const rectangles above = {{{0, 0, 0.5f, 0.5f - gap}, {0, 0.5f, 0.5f, 1}}};
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, i % 2 == 0 ? &beside : &above);
+        alp_diagnosis *d = diagnose(scene, cases[k].page);
+        assert_int_equal(alp_diagnosis_get_uv_set(d, 1).free_texels, cases[k].free);
+        has_of_sets_only(d, cases[k].kind);
+        if (cases[k].kind >= 0) { // the spot lies at the gap
+            const alp_finding f = find(d, (alp_finding_kind)cases[k].kind);
+            assert_true(f.spot.known);
+            ASSERT_NEAR(f.spot.uv[i % 2], 0.5, 2.0 / 512.0);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+/// Squares of 2 m as rectangles of the set with sides of 1 : r have √((r + 1/r) / 2).
+static void islands_that_are_stretched(void **state)
+{
+    (void)state;
+    static const struct {
+        float ratio;
+        bool found;
+    } cases[] = {{1.0f, false}, {7.0f, false}, {9.0f, true}, {20.0f, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float r = cases[i].ratio;
+        alp_context *context = test_context(1);
+        alp_scene *scene =
+            make(context, &(rectangles){{{0, 0, 0.3f, 0.3f}, {0.32f, 0.0f, 0.95f, 0.63f / r}}});
+        alp_diagnosis *d = diagnose(scene, 1024);
+        const double stretch = sqrt(0.5 * ((double)r + 1.0 / (double)r));
+        ASSERT_NEAR(alp_diagnosis_get_uv_set(d, 1).stretch, stretch, 1e-5 * stretch); // floats
+        has_of_sets_only(d, cases[i].found ? (int)ALP_FINDING_UV_STRETCH : -1);
+        if (cases[i].found) {
+            const alp_finding f = find(d, ALP_FINDING_UV_STRETCH);
+            assert_int_equal(f.spot.surface, 1);
+            assert_non_null(strstr(f.what, "mesh 1"));
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+/// A patch of .04 m² beside a floor of 4 m² in an island of a quarter of a texel, which a page of
+/// twice the side gives a whole one.
+static void islands_below_a_texel(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const float side = 0.5f / 1024.0f;
+    alp_scene *scene = make(
+        context, &(rectangles){{{0, 0, 0.5f, 0.5f}, {0.75f, 0.75f, 0.75f + side, 0.75f + side}}});
+    for (uint32_t v = 0; v < 4; v++) {
+        float *p = scene->positions[scene->surfaces[1].first_vertex + v];
+        p[0] = 5.0f + 0.1f * (p[0] - 5.0f);
+        p[2] *= 0.1f;
+    }
+    scene->area = 4.04;
+    alp_diagnosis *d = diagnose(scene, 1024);
+    has_of_sets_only(d, ALP_FINDING_UV_TINY);
+    const alp_finding f = find(d, ALP_FINDING_UV_TINY);
+    assert_int_equal(f.count, 1);
+    ASSERT_NEAR(f.value, 0.04 / 4.04, 1e-6);
+    assert_int_equal(f.spot.surface, 1);
+    assert_non_null(strstr(f.what, "a page of 2048"));
+    alp_diagnosis_destroy(d);
+    d = diagnose(scene, 2048);
+    has_of_sets_only(d, -1);
+    assert_int_equal(alp_diagnosis_get_uv_set(d, 1).tiny_islands, 0);
+    alp_diagnosis_destroy(d);
+    alp_diagnosis_options o = alp_diagnosis_options_default();
+    o.page_size = 0;
+    d = NULL;
+    assert_int_equal(alp_scene_diagnose(scene, &o, &d), ALP_ERROR_INVALID_ARGUMENT);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void nodes_of_one_mesh_share(void **state)
 {
     (void)state;
@@ -180,6 +300,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_judged),
+        cmocka_unit_test(space_between_islands),
+        cmocka_unit_test(islands_that_are_stretched),
+        cmocka_unit_test(islands_below_a_texel),
         cmocka_unit_test(nodes_of_one_mesh_share),
         cmocka_unit_test(any_number_of_workers_finds_the_same),
     };

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "maps/seam_edges.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "scene/double3.h"
+
+#include <math.h>
+
+enum { EDGES_PER_TICK = 1 << 12, LOOK_LIMIT = 4096 };
+
+static double3 load(const float position[3])
+{
+    return double3_from(vec3_load(position));
+}
+
+// --- which edges ---------------------------------------------------------------------------------
+
+/// The edge of `triangle` whose other side is half-edge (from, to) of a mesh, by positions.
+static int find_opposite(const alp_scene *scene, uint32_t triangle, const float *from,
+                         const float *to)
+{
+    const uint32_t *corners = scene->triangles[triangle];
+    for (int k = 0; k < 3; k++) {
+        const float *a = scene->positions[corners[k]];
+        const float *b = scene->positions[corners[(k + 1) % 3]];
+        if (a[0] == to[0] && a[1] == to[1] && a[2] == to[2] && b[0] == from[0] && b[1] == from[1] &&
+            b[2] == from[2]) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+/// Whether corner j of one triangle and corner k of another read the same place, and are lit alike.
+static bool is_same_corner(const alp_lightmap *l, const uint32_t triangles[2], int j, int k)
+{
+    const float uv_limit = 1e-3f; // texels
+    const float *p = l->atlas->corner_uvs[triangles[0]][j];
+    const float *q = l->atlas->corner_uvs[triangles[1]][k];
+    const vec3 m = vec3_load(l->scene->normals[l->scene->triangles[triangles[0]][j]]);
+    const vec3 n = vec3_load(l->scene->normals[l->scene->triangles[triangles[1]][k]]);
+    return fabsf(p[0] - q[0]) * (float)l->width <= uv_limit &&
+           fabsf(p[1] - q[1]) * (float)l->height <= uv_limit &&
+           (double)vec3_dot(m, n) >= ALPI_SEAM_COSINE;
+}
+
+/// Whether a look-up goes on from one triangle to the other across edge k of the first.
+static bool goes_on(const alp_lightmap *l, uint32_t triangle, int k, uint32_t neighbour)
+{
+    const alp_scene *s = l->scene;
+    const uint32_t *pages = l->atlas->triangle_pages;
+    if (neighbour == ALPI_NONE || pages[neighbour] != pages[triangle]) {
+        return false;
+    }
+    const int next = (k + 1) % 3;
+    const int other = find_opposite(s, neighbour, s->positions[s->triangles[triangle][k]],
+                                    s->positions[s->triangles[triangle][next]]);
+    const uint32_t both[2] = {triangle, neighbour};
+    return other >= 0 && is_same_corner(l, both, k, (other + 1) % 3) &&
+           is_same_corner(l, both, next, other);
+}
+
+static alpi_seam_edge make_edge(const alp_lightmap *l, uint32_t triangle, uint32_t k)
+{
+    const uint32_t next = (k + 1) % 3;
+    const float *p = l->atlas->corner_uvs[triangle][k], *q = l->atlas->corner_uvs[triangle][next];
+    const double du = ((double)q[0] - (double)p[0]) * l->width;
+    const double dv = ((double)q[1] - (double)p[1]) * l->height;
+    const uint32_t *corners = l->scene->triangles[triangle];
+    const double length = double3_length(double3_sub(load(l->scene->positions[corners[next]]),
+                                                     load(l->scene->positions[corners[k]])));
+    return (alpi_seam_edge){.half_edge = 3 * triangle + k,
+                            .length = (float)length,
+                            .texel = (float)(length / fmax(sqrt(du * du + dv * dv), 1.0))};
+}
+
+static alp_result collect(const alp_lightmap *l, const uint32_t (*neighbours)[3],
+                          alpi_seam_edges *edges)
+{
+    const alp_scene *s = l->scene;
+    size_t capacity = 0;
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        if (t % EDGES_PER_TICK == 0) {
+            ALP_TRY(alpi_tick(s->context, "seams", t, s->triangle_count));
+        }
+        if (!s->triangle_usable[t] || l->atlas->triangle_pages[t] == ALPI_NONE) {
+            continue;
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            if (goes_on(l, t, (int)k, neighbours[t][k])) {
+                continue;
+            }
+            ALP_TRY(alpi_grow(s->context, (void **)&edges->edges, &capacity,
+                              (size_t)edges->count + 1, sizeof *edges->edges));
+            const alpi_seam_edge edge = make_edge(l, t, k);
+            edges->edges[edges->count] = edge;
+            edges->count += edge.length > 0.0f ? 1 : 0;
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_seam_edges_create(const alp_lightmap *lightmap, alpi_seam_edges *edges)
+{
+    *edges = (alpi_seam_edges){.context = lightmap->context};
+    uint32_t(*neighbours)[3] = NULL;
+    ALP_TRY(alpi_adjacency_create(lightmap->scene, &neighbours));
+    const alp_result result = collect(lightmap, (const uint32_t(*)[3])neighbours, edges);
+    alpi_release(lightmap->context, neighbours);
+    if (result != ALP_OK) {
+        alpi_seam_edges_destroy(edges);
+    }
+    return result;
+}
+
+void alpi_seam_edges_destroy(alpi_seam_edges *edges)
+{
+    if (edges->context != NULL) {
+        alpi_release(edges->context, edges->edges);
+    }
+    *edges = (alpi_seam_edges){0};
+}
+
+// --- which of them meet --------------------------------------------------------------------------
+// A hash grid for each octave of lengths, with cells of one to two lengths; an edge stands in the
+// cell of its middle. Each edge looks for those that are as long or longer, so that it looks at few
+// cells however long it is itself.
+
+typedef struct cell {
+    int64_t x[3];
+    int octave;
+} cell;
+
+typedef struct pair_search {
+    const alp_scene *scene;
+    const alpi_seam_edges *edges;
+    uint32_t *first;  // [buckets + 1]
+    uint32_t *sorted; // [edges] bucket by bucket
+    uint32_t mask;
+    int lowest, highest; // octave
+    alpi_seam_pair_fn *each;
+    void *user;
+} pair_search;
+
+static int octave_of(const alpi_seam_edge *edge)
+{
+    return ilogbf(edge->length) + 1;
+}
+
+static void edge_ends(const alp_scene *scene, const alpi_seam_edge *edge, double3 ends[2])
+{
+    const uint32_t *corners = scene->triangles[edge->half_edge / 3];
+    const uint32_t k = edge->half_edge % 3;
+    ends[0] = load(scene->positions[corners[k]]);
+    ends[1] = load(scene->positions[corners[(k + 1) % 3]]);
+}
+
+static uint32_t hash_cell(const pair_search *s, const cell *c)
+{
+    uint64_t h = alpi_hash64((uint64_t)c->x[0] ^ (uint64_t)(c->octave + 512) << 48);
+    h = alpi_hash64(h ^ (uint64_t)c->x[1]);
+    return (uint32_t)(alpi_hash64(h ^ (uint64_t)c->x[2]) >> 32) & s->mask;
+}
+
+/// Cells are counted up to 2^60: beyond, an edge is shorter than its coordinates are exact.
+static int64_t find_cell(double coordinate, double size)
+{
+    const double limit = 0x1p60;
+    return (int64_t)fmin(fmax(floor(coordinate / size), -limit), limit);
+}
+
+static cell cell_of(const pair_search *s, const alpi_seam_edge *edge)
+{
+    double3 ends[2];
+    edge_ends(s->scene, edge, ends);
+    cell c = {.octave = octave_of(edge)};
+    const double size = ldexp(1.0, c.octave);
+    c.x[0] = find_cell(0.5 * (ends[0].x + ends[1].x), size);
+    c.x[1] = find_cell(0.5 * (ends[0].y + ends[1].y), size);
+    c.x[2] = find_cell(0.5 * (ends[0].z + ends[1].z), size);
+    return c;
+}
+
+static alp_result sort_edges(pair_search *s, uint32_t *buckets)
+{
+    const alpi_seam_edges *e = s->edges;
+    s->lowest = INT32_MAX;
+    s->highest = INT32_MIN;
+    for (uint32_t i = 0; i < e->count; i++) {
+        const cell c = cell_of(s, &e->edges[i]);
+        buckets[i] = hash_cell(s, &c);
+        s->first[buckets[i]]++;
+        s->lowest = c.octave < s->lowest ? c.octave : s->lowest;
+        s->highest = c.octave > s->highest ? c.octave : s->highest;
+        if (i % EDGES_PER_TICK == 0) {
+            ALP_TRY(alpi_tick(e->context, "seams", i, e->count));
+        }
+    }
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b <= s->mask; b++) {
+        sum += s->first[b];
+        s->first[b] = sum; // the end, for now
+    }
+    s->first[s->mask + 1] = sum;
+    for (uint32_t i = e->count; i-- > 0;) {
+        s->sorted[--s->first[buckets[i]]] = i;
+    }
+    return ALP_OK;
+}
+
+/// How far edges may lie apart: a tenth of the finer texel, and what rounding of coordinates does.
+static double find_tolerance(const alpi_seam_edge *a, const alpi_seam_edge *b,
+                             const double3 ends[2])
+{
+    const double rounding = 4e-7, texels = 0.1;
+    double largest = 0.0;
+    for (int i = 0; i < 2; i++) {
+        largest = fmax(largest, fmax(fabs(ends[i].x), fmax(fabs(ends[i].y), fabs(ends[i].z))));
+    }
+    return texels * fmin((double)a->texel, (double)b->texel) + rounding * largest;
+}
+
+/// Whether a and b meet, along more than a point.
+static bool meet(const alp_scene *scene, const alpi_seam_edge *a, const alpi_seam_edge *b,
+                 alpi_seam_pair *pair)
+{
+    double3 p[2], q[2];
+    edge_ends(scene, a, p);
+    edge_ends(scene, b, q);
+    const double tolerance = find_tolerance(a, b, p);
+    const double3 along = double3_sub(p[1], p[0]);
+    const double length = double3_length(along);
+    const double3 unit = double3_scale(along, 1.0 / length);
+    const double from = double3_dot(double3_sub(q[1], p[0]), unit);
+    const double to = double3_dot(double3_sub(q[0], p[0]), unit); // b runs the other way
+    const double begin = fmax(from, 0.0), end = fmin(to, length);
+    if (!(end - begin > 2.0 * tolerance)) {
+        return false;
+    }
+    const double ends[2] = {begin, end};
+    *pair = (alpi_seam_pair){.edges = {*a, *b}, .length = end - begin};
+    for (int i = 0; i < 2; i++) {
+        const double share = (to - ends[i]) / (to - from);
+        const double3 on_a = double3_add(p[0], double3_scale(unit, ends[i]));
+        const double3 on_b = double3_add(q[0], double3_scale(double3_sub(q[1], q[0]), share));
+        if (!(double3_length(double3_sub(on_a, on_b)) <= tolerance)) {
+            return false;
+        }
+        double *shares = i == 0 ? pair->begins : pair->ends;
+        shares[0] = ends[i] / length;
+        shares[1] = share;
+    }
+    return true;
+}
+
+/// Looks at the edges of one cell. @param left out: how many may still be looked at
+static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uint32_t *left)
+{
+    const alpi_seam_edge *edges = s->edges->edges, *a = &edges[own];
+    const bool alike = octave_of(a) == c->octave;
+    const uint32_t bucket = hash_cell(s, c);
+    for (uint32_t i = s->first[bucket]; i < s->first[bucket + 1] && *left > 0; i++) {
+        const uint32_t other = s->sorted[i];
+        const alpi_seam_edge *b = &edges[other];
+        if (octave_of(b) != c->octave || (alike && other <= own)) {
+            continue;
+        }
+        --*left;
+        alpi_seam_pair pair;
+        if (a->half_edge / 3 == b->half_edge / 3 || !meet(s->scene, a, b, &pair)) {
+            continue;
+        }
+        const cell at = cell_of(s, b); // other cells may share the bucket
+        if (at.x[0] == c->x[0] && at.x[1] == c->x[1] && at.x[2] == c->x[2]) {
+            ALP_TRY(s->each(s->user, &pair));
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result look_around(const pair_search *s, uint32_t own, int octave)
+{
+    const double size = ldexp(1.0, octave);
+    double3 p[2];
+    edge_ends(s->scene, &s->edges->edges[own], p);
+    const double reach = 0.65 * size; // half a length of the other, and what is between them
+    const double low[3] = {fmin(p[0].x, p[1].x), fmin(p[0].y, p[1].y), fmin(p[0].z, p[1].z)};
+    const double high[3] = {fmax(p[0].x, p[1].x), fmax(p[0].y, p[1].y), fmax(p[0].z, p[1].z)};
+    int64_t begin[3], end[3];
+    for (int k = 0; k < 3; k++) {
+        begin[k] = find_cell(low[k] - reach, size);
+        end[k] = find_cell(high[k] + reach, size);
+    }
+    uint32_t left = LOOK_LIMIT;
+    cell c = {.octave = octave};
+    for (c.x[2] = begin[2]; c.x[2] <= end[2]; c.x[2]++) {
+        for (c.x[1] = begin[1]; c.x[1] <= end[1]; c.x[1]++) {
+            for (c.x[0] = begin[0]; c.x[0] <= end[0]; c.x[0]++) {
+                ALP_TRY(look_in(s, own, &c, &left));
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result search_all(pair_search *s)
+{
+    const alpi_seam_edges *e = s->edges;
+    bool octaves[512] = {false}; // of floats there are 277
+    for (uint32_t i = 0; i < e->count; i++) {
+        octaves[octave_of(&e->edges[i]) + 256] = true;
+    }
+    for (uint32_t i = 0; i < e->count; i++) {
+        if (i % EDGES_PER_TICK == 0) {
+            ALP_TRY(alpi_tick(e->context, "seams", i, e->count));
+        }
+        for (int octave = octave_of(&e->edges[i]); octave <= s->highest; octave++) {
+            if (octaves[octave + 256]) {
+                ALP_TRY(look_around(s, i, octave));
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *edges,
+                                 alpi_seam_pair_fn *each, void *user)
+{
+    uint32_t size = 16;
+    while (size < edges->count && size < 1u << 30) {
+        size *= 2;
+    }
+    pair_search s = {.scene = scene, .edges = edges, .mask = size - 1, .each = each, .user = user};
+    s.first = ALPI_NEW(edges->context, uint32_t, (size_t)size + 1);
+    s.sorted = ALPI_NEW(edges->context, uint32_t, edges->count);
+    uint32_t *buckets = ALPI_NEW(edges->context, uint32_t, edges->count);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    if (s.first != NULL && s.sorted != NULL && buckets != NULL) {
+        result = sort_edges(&s, buckets);
+    }
+    alpi_release(edges->context, buckets);
+    if (result == ALP_OK) {
+        result = search_all(&s);
+    }
+    alpi_release(edges->context, s.first);
+    alpi_release(edges->context, s.sorted);
+    return result;
+}

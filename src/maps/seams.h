@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Seams of a lightmap: places where two look-ups of one point of a surface read different texels,
+// and how far apart what they read is.
+#ifndef ALPI_MAPS_SEAMS_H
+#define ALPI_MAPS_SEAMS_H
+
+#include "maps/lightmap.h"
+
+/// Samples along all seams, two or more to a texel of the finer side. What the two sides of sample
+/// s read differs by Σ weights[i] · texels[i] over i in [first[s], first[s + 1]).
+typedef struct alpi_seams {
+    alp_context *context;
+    uint32_t count; // pairs of edges of triangles
+    double length;  // metres
+    uint32_t sample_count;
+    float *lengths;   // [samples] metres that each stands for
+    float *spans;     // [samples] the same in texels of the finer side, ½ at most
+    uint32_t *first;  // [samples + 1]
+    uint32_t *texels; // [first[samples]] places in `pixels`
+    float *weights;   // [first[samples]] of one side, less those of the other
+    uint32_t pixel_count;
+    size_t *pixels; // [pixel_count] (page · height + y) · width + x: in any footprint
+} alpi_seams;
+
+/// Finds the seams of a lightmap with an atlas: of meshes and between objects that touch, see
+/// seam_edges.h; none where the shading normals of the two sides are more than 3° apart.
+/// @return ALP_OK; OUT_OF_MEMORY; LIMIT (2^32 texels of footprints); CANCELLED by who watches
+alp_result alpi_seams_create(const alp_lightmap *lightmap, alpi_seams *seams);
+void alpi_seams_destroy(alpi_seams *seams);
+
+/// |difference| over the seams, each sample counting by its length; of colours the mean of the
+/// channels. Absolute, 0 without seams.
+typedef struct alpi_seam_step {
+    double mean, p99;
+} alpi_seam_step;
+/// @param pages [page_count] of the lightmap's size
+alp_result alpi_seams_measure(const alp_lightmap *lightmap, const alpi_seams *seams,
+                              float *const *pages, alpi_seam_step *error);
+
+/// Mean of a map over the surface, of channels together; texels of unknown value do not count.
+double alpi_seams_map_mean(const alp_lightmap *lightmap, float *const *pages);
+
+#endif

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Overlapping charts: who lies in which, without folds, the same for any number of workers; and the
+// weights with which they are read.
+#include "atlas_scenes.h"
+
+#include "base/memory.h"
+
+#include "atlas/blend.h"
+#include "atlas/choice.h"
+#include "scene/mesh_builder.h"
+
+static alp_atlas *blend_of(alp_context *context, const alp_scene *scene, uint32_t size,
+                           double density)
+{
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_BLEND;
+    options.size = size;
+    options.texels_per_metre = density;
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    assert_int_equal(alp_atlas_get_info(atlas).mode, ALP_ATLAS_BLEND);
+    return atlas;
+}
+
+static alp_scene *smooth_sphere(alp_context *context)
+{
+    alpi_builder builder;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&builder, context, "sphere");
+    alpi_builder_surface(&builder, "sphere", ALPI_NONE);
+    alpi_builder_ball(&builder,
+                      &(alpi_ball){.radius = 1.0f, .top = 1.0f, .slices = 48, .stacks = 24});
+    ASSERT_OK(context, alpi_builder_finish(&builder, &scene));
+    return scene;
+}
+
+static void corner_cosines(const alp_scene *scene, uint32_t triangle, double cosines[3])
+{
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    const vec3 n = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0, 0, 0});
+    cosines[0] = fabs((double)n.x);
+    cosines[1] = fabs((double)n.y);
+    cosines[2] = fabs((double)n.z);
+}
+
+static void triangles_lie_in_the_charts_of_their_axes(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 256, 0.0);
+    assert_int_equal(alp_atlas_get_info(atlas).charts, 6); // a cap about each end of each axis
+    assert_int_equal(overlapping_texels(atlas), 0);
+    uint32_t counts[4] = {0};
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        double cosines[3];
+        corner_cosines(scene, t, cosines);
+        const uint8_t members = atlas->set_members[t];
+        counts[__builtin_popcount(members)]++;
+        for (int k = 0; k < 3; k++) {
+            // cos 80°; what lies within rounding of it may be either
+            if (fabs(cosines[k] - 0.173648) > 1e-5) {
+                assert_int_equal(members >> k & 1, cosines[k] > 0.173648);
+            }
+            for (int i = 0; i < 6; i++) {
+                const float at = atlas->set_uvs[t][k][i / 2][i % 2];
+                assert_true(at >= 0.0f && at <= 1.0f);
+            }
+        }
+    }
+    assert_int_equal(counts[0], 0);
+    assert_true(counts[1] > 0 && counts[2] > 0 && counts[3] > 0);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void sets_that_a_triangle_is_not_in_repeat_its_strongest(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = scene_cube(context);
+    alp_atlas *atlas = blend_of(context, scene, 64, 0.0);
+    assert_int_equal(alp_atlas_get_info(atlas).charts, 6);
+    const float *sets = alp_atlas_blend_uvs(atlas);
+    for (uint32_t t = 0; t < 12; t++) {
+        assert_int_equal(__builtin_popcount(atlas->set_members[t]), 1);
+        for (int k = 0; k < 3; k++) {
+            assert_memory_equal(sets + 18 * t + 6 * k, alp_atlas_corner_uvs(atlas) + 6 * t,
+                                6 * sizeof *sets);
+        }
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void folds_are_cut(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = scene_spiral(context, 9);
+    alp_atlas *atlas = blend_of(context, scene, 256, 0.0);
+    assert_int_equal(overlapping_texels(atlas), 0);
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        assert_true(atlas->set_members[t] != 0);
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// The point of a texel lies on the triangle and in the texel that it names.
+static void texels_name_triangles_of_the_scene(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 128, 0.0);
+    alpi_texels texels;
+    for (int round = 0; round < 2; round++) { // those at hand, and made anew
+        ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+        assert_int_equal(texels.count, alp_atlas_get_info(atlas).texels);
+        for (uint32_t i = 0; i < texels.count; i++) {
+            assert_true(texels.triangles[i] < scene->triangle_count);
+            const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[texels.faces[i]];
+            for (int k = 0; k < 2; k++) {
+                const double at =
+                    (double)uv[0][k] +
+                    (double)texels.barycentrics[i][0] * (double)(uv[1][k] - uv[0][k]) +
+                    (double)texels.barycentrics[i][1] * (double)(uv[2][k] - uv[0][k]);
+                // .05 texels: points are moved off edges by as much; the rest is rounding of floats
+                ASSERT_NEAR(128.0 * at, texels.pixels[i][k] + 0.5, 0.5 + 0.05 + 1e-3);
+            }
+            // A point of a sphere of 48 slices is nearer than its facets' sag to it, and its normal
+            // that of the place.
+            alpi_receiver_point p;
+            alpi_texels_point(&texels, i, &p);
+            ASSERT_NEAR(vec3_length(p.position), 1.0, 0.01);
+            assert_true(vec3_dot(p.shading_normal, p.position) > 0.98f);
+        }
+        alpi_texels_destroy(context, &texels);
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// A material has one map: on several pages all coordinates of a triangle lie on its own.
+static void pages_keep_triangles_together(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 64, 30.0);
+    assert_true(alp_atlas_get_info(atlas).pages > 1);
+    for (uint32_t f = 0; f < atlas->face_count; f++) {
+        const uint32_t t = atlas->face_triangles[f];
+        bool found = false;
+        for (int k = 0; k < 3; k++) {
+            found = found || memcmp(atlas->set_uvs[t][k], atlas->corner_uvs[f],
+                                    sizeof atlas->corner_uvs[f]) == 0;
+        }
+        if (atlas->triangle_pages[f] == atlas->triangle_pages[t]) {
+            assert_true(found);
+        }
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void weights_are_squares_of_the_normal(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 64, 0.0);
+    for (uint32_t i = 0; i < 4000; i++) {
+        const uint32_t t = i % scene->triangle_count;
+        const float b1 = (float)keyed(i, 0), b2 = (1.0f - b1) * (float)keyed(i, 1);
+        float w[3];
+        alpi_blend_weights(atlas, t, b1, b2, w);
+        ASSERT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-6); // rounding
+        vec3 p = {0, 0, 0}; // the normal of a unit sphere is the place, and so in between
+        const float shares[3] = {1.0f - b1 - b2, b1, b2};
+        for (int k = 0; k < 3; k++) {
+            p = vec3_mad(p, shares[k], vec3_load(scene->positions[scene->triangles[t][k]]));
+        }
+        p = vec3_normalize_or(p, (vec3){0, 0, 0});
+        ASSERT_NEAR(w[0], p.x * p.x, 2e-6);
+        ASSERT_NEAR(w[1], p.y * p.y, 2e-6);
+        ASSERT_NEAR(w[2], p.z * p.z, 2e-6);
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// An object that stands askew is projected along its own axes, unless the world's are asked for.
+static void axes_are_those_of_the_object(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = scene_cube(context); // its faces along the world's axes
+    const float c = 0.70710678f;
+    const float askew[3][3] = {
+        {2 * c, 0, -2 * c}, {0, 2, 0}, {2 * c, 0, 2 * c}}; // 45°, twice as large
+    memcpy(scene->surfaces[0].axes, askew, sizeof askew);
+    for (int world = 0; world < 2; world++) {
+        alp_atlas_options options = alp_atlas_options_default();
+        options.mode = ALP_ATLAS_BLEND;
+        options.size = 64;
+        const alpi_atlas_choice choice = {.world_axes = world != 0};
+        alp_atlas *atlas = NULL;
+        ASSERT_OK(context, alpi_atlas_create(scene, &options, &choice, &atlas));
+        for (uint32_t t = 0; t < 12; t++) {
+            double cosines[3];
+            float w[3];
+            corner_cosines(scene, t, cosines);
+            alpi_blend_weights(atlas, t, 0.2f, 0.3f, w);
+            const bool upright = cosines[1] > 0.5;
+            ASSERT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-6);
+            ASSERT_NEAR(w[1], upright ? 1.0 : 0.0, 1e-6);
+            ASSERT_NEAR(w[0], upright ? 0.0 : world ? cosines[0] * cosines[0] : 0.5, 1e-6);
+            assert_int_equal(__builtin_popcount(atlas->set_members[t]), upright || world ? 1 : 2);
+        }
+        alp_atlas_destroy(atlas);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void is_the_same_for_any_number_of_workers(void **state)
+{
+    (void)state;
+    alp_context *contexts[2] = {test_context(1), test_context(4)};
+    alp_atlas *atlases[2];
+    alp_scene *scenes[2];
+    for (int i = 0; i < 2; i++) {
+        ASSERT_OK(contexts[i], alp_scene_load(contexts[i], "builtin:teapot-room", &scenes[i]));
+        atlases[i] = blend_of(contexts[i], scenes[i], 256, 0.0);
+        assert_int_equal(overlapping_texels(atlases[i]), 0);
+    }
+    assert_int_equal(atlases[0]->info.texels, atlases[1]->info.texels);
+    assert_memory_equal(atlases[0]->set_uvs, atlases[1]->set_uvs,
+                        scenes[0]->triangle_count * sizeof *atlases[0]->set_uvs);
+    for (int i = 0; i < 2; i++) {
+        alp_atlas_destroy(atlases[i]);
+        alp_scene_destroy(scenes[i]);
+        alp_context_destroy(contexts[i]);
+    }
+}
+
+static void running_out_of_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    int left = 1 << 30;
+    alp_context *context = test_context_failing(&left);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_BLEND;
+    options.size = 64;
+    for (int allowed = 0;; allowed++) {
+        alp_atlas *atlas = NULL;
+        left = allowed;
+        const alp_result result = alp_atlas_create(scene, &options, &atlas);
+        left = 1 << 30;
+        alp_atlas_destroy(atlas);
+        if (result == ALP_OK) {
+            break;
+        }
+        assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+        assert_null(atlas);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(triangles_lie_in_the_charts_of_their_axes),
+        cmocka_unit_test(sets_that_a_triangle_is_not_in_repeat_its_strongest),
+        cmocka_unit_test(folds_are_cut),
+        cmocka_unit_test(texels_name_triangles_of_the_scene),
+        cmocka_unit_test(pages_keep_triangles_together),
+        cmocka_unit_test(weights_are_squares_of_the_normal),
+        cmocka_unit_test(axes_are_those_of_the_object),
+        cmocka_unit_test(is_the_same_for_any_number_of_workers),
+        cmocka_unit_test(running_out_of_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

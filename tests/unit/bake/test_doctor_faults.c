@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+// Faults that are planted in geometry: each is found at its object and nothing else is, and the
+// same meshes mended are well.
+#include "test_support.h"
+
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MESH_LIMIT = 8 };
+
+/// Meshes that are built triangle by triangle, without shared vertices and without normals of their
+/// own, so that a scene of them has one finding of itself: `no-normals` and `no-uvs`.
+typedef struct model {
+    float positions[MESH_LIMIT][600][3], normals[MESH_LIMIT][600][3];
+    uint32_t indices[MESH_LIMIT][600];
+    uint32_t vertices[MESH_LIMIT];
+    bool double_sided[MESH_LIMIT];
+    uint32_t count;
+} model;
+
+static void put(model *m, uint32_t mesh, vec3 a, vec3 b, vec3 c)
+{
+    const vec3 corners[3] = {a, b, c};
+    const vec3 normal = vec3_triangle_normal(a, b, c, (vec3){0.0f, 1.0f, 0.0f});
+    for (int k = 0; k < 3; k++) {
+        const uint32_t v = m->vertices[mesh]++;
+        assert_true(v < 600);
+        m->indices[mesh][v] = v;
+        vec3_store(m->positions[mesh][v], corners[k]);
+        vec3_store(m->normals[mesh][v], normal);
+    }
+    m->count = mesh + 1 > m->count ? mesh + 1 : m->count;
+}
+
+static void put_quad(model *m, uint32_t mesh, vec3 from, vec3 along, vec3 across)
+{
+    const vec3 far = vec3_add(vec3_add(from, along), across);
+    put(m, mesh, from, vec3_add(from, along), far);
+    put(m, mesh, from, far, vec3_add(from, across));
+}
+
+/// A box that looks outwards, or inwards.
+static void put_box(model *m, uint32_t mesh, vec3 low, float side, bool inwards)
+{
+    const vec3 axes[3] = {{side, 0, 0}, {0, side, 0}, {0, 0, side}};
+    for (int k = 0; k < 3; k++) {
+        const vec3 a = axes[inwards ? (k + 2) % 3 : (k + 1) % 3];
+        const vec3 b = axes[inwards ? (k + 1) % 3 : (k + 2) % 3];
+        put_quad(m, mesh, low, b, a);
+        put_quad(m, mesh, vec3_add(low, axes[k]), a, b);
+    }
+}
+
+static alp_scene *make(alp_context *context, const model *m)
+{
+    alp_mesh meshes[MESH_LIMIT];
+    for (uint32_t i = 0; i < m->count; i++) {
+        meshes[i] = (alp_mesh){.vertex_count = m->vertices[i],
+                               .positions = m->positions[i][0],
+                               .normals = m->normals[i][0],
+                               .triangle_count = m->vertices[i] / 3,
+                               .indices = m->indices[i],
+                               .double_sided = m->double_sided[i],
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, m->count, &scene));
+    return scene;
+}
+
+/// Fails unless the model has one finding besides its lack of coordinates: of the kind, at the
+/// surface and its triangle; with MESSAGE none.
+static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, uint32_t triangle)
+{
+    alp_context *context = test_context(1);
+    alp_scene *scene = make(context, m);
+    alp_diagnosis *d = NULL;
+    uint32_t others = 0;
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        const alp_finding f = alp_diagnosis_get_finding(d, i);
+        if (f.kind == ALP_FINDING_NO_UVS) {
+            continue;
+        }
+        if (f.kind != kind) {
+            fail_msg("%s: %s: %s", f.code, f.name, f.what);
+        }
+        others++;
+        assert_int_equal(f.place, ALP_PLACE_SURFACE);
+        assert_int_equal(f.index, surface);
+        assert_true(f.spot.known && f.seen[0] != '\0' && f.todo[0] != '\0');
+        assert_int_equal(f.spot.surface, surface);
+        assert_true(triangle == ALPI_NONE || f.spot.triangle == triangle);
+        assert_true(isnan(f.spot.uv[0]));
+        char name[64];
+        snprintf(name, sizeof name, "spot-%s", f.code);
+        assert_string_equal(alp_diagnosis_picture_name(d, 1), name);
+    }
+    assert_int_equal(others, kind != ALP_FINDING_MESSAGE);
+    assert_int_equal(alp_diagnosis_picture_count(d), 1 + others);
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static model *new_model(void)
+{
+    return test_calloc(1, sizeof(model));
+}
+
+// --- T-junctions ---------------------------------------------------------------------------------
+
+/// A long quad of two triangles at z ≤ 0, before it two short ones that meet at x = `cut`, turned
+/// about the edge by an angle; the second one of them is moved off the edge.
+static model *make_strips(float cut, float angle, float off)
+{
+    model *m = new_model();
+    const vec3 before = {0.0f, sinf(angle), cosf(angle)}, moved = vec3_scale(before, off);
+    put_quad(m, 0, (vec3){0, 0, 0}, (vec3){4, 0, 0}, (vec3){0, 0, -1});
+    put_quad(m, 0, before, (vec3){cut, 0, 0}, vec3_scale(before, -1.0f));
+    put_quad(m, 0, vec3_add(vec3_add(before, (vec3){cut, 0, 0}), moved), (vec3){4.0f - cut, 0, 0},
+             vec3_scale(before, -1.0f));
+    return m;
+}
+
+static void vertices_within_edges(void **state)
+{
+    (void)state;
+    static const struct {
+        float cut, angle, off;
+        bool found;
+    } cases[] = {
+        {1.7f, 0.0f, 0.0f, true},   // flat
+        {1.7f, 1.57f, 0.0f, true},  // a corner
+        {1.7f, 3.1f, 0.0f, false},  // folded back upon it
+        {0.02f, 0.0f, 0.0f, false}, // half a hundredth from the end
+        {1.7f, 0.0f, 0.003f, true}, // the first of the two is there still
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        model *m = make_strips(cases[i].cut, cases[i].angle, cases[i].off);
+        // Triangle 0 holds the long edge (0, 0, 0) to (4, 0, 0).
+        has_only(m, cases[i].found ? ALP_FINDING_T_JUNCTIONS : ALP_FINDING_MESSAGE, 0, 0);
+        test_free(m);
+    }
+}
+
+static void a_mended_edge_is_well(void **state)
+{
+    (void)state;
+    model *m = new_model();
+    const vec3 cut = {1.7f, 0, 0}, end = {4, 0, 0}, back = {0, 0, -1}, far = {4, 0, -1};
+    put(m, 0, (vec3){0, 0, 0}, cut, back); // the long quad, fanned
+    put(m, 0, cut, far, back);
+    put(m, 0, cut, end, far);
+    put_quad(m, 0, (vec3){0, 0, 1}, cut, (vec3){0, 0, -1});
+    put_quad(m, 0, (vec3){1.7f, 0, 1}, vec3_sub(end, cut), (vec3){0, 0, -1});
+    has_only(m, ALP_FINDING_MESSAGE, 0, 0);
+    test_free(m);
+}
+
+/// The same faces on two objects are two things that touch.
+static void objects_that_touch_are_well(void **state)
+{
+    (void)state;
+    model *m = new_model();
+    put_quad(m, 0, (vec3){0, 0, 0}, (vec3){4, 0, 0}, (vec3){0, 0, -1});
+    put_quad(m, 1, (vec3){0, 0, 1}, (vec3){1.7f, 0, 0}, (vec3){0, 0, -1});
+    put_quad(m, 1, (vec3){1.7f, 0, 1}, (vec3){2.3f, 0, 0}, (vec3){0, 0, -1});
+    has_only(m, ALP_FINDING_MESSAGE, 0, 0);
+    test_free(m);
+}
+
+// --- inside --------------------------------------------------------------------------------------
+
+static void boxes_in_boxes(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        model *m = new_model();
+        put_box(m, 0, (vec3){0, 0, 0}, 2.0f, false);
+        // Inside; halfway out, as things stand in others; beside it.
+        put_box(m, 1, (vec3){i == 0 ? 0.7f : i == 1 ? 1.7f : 2.5f, 0.7f, 0.7f}, 0.6f, false);
+        has_only(m, i == 0 ? ALP_FINDING_BURIED : ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+        test_free(m);
+    }
+}
+
+/// A room that looks inwards holds what is in it; nothing is buried.
+static void rooms_are_well(void **state)
+{
+    (void)state;
+    model *m = new_model();
+    put_box(m, 0, (vec3){0, 0, 0}, 2.0f, true);
+    put_box(m, 1, (vec3){0.7f, 0.1f, 0.7f}, 0.6f, false);
+    has_only(m, ALP_FINDING_MESSAGE, 0, 0);
+    test_free(m);
+}
+
+// --- sheets --------------------------------------------------------------------------------------
+
+/// A wall before a niche: out there it is light, in here it is dark. The niche's floor, back and
+/// roof are of another, single-sided object.
+static model *make_niche(bool sheet, bool thick)
+{
+    model *m = new_model();
+    put_quad(m, 0, (vec3){-1, 0, -1}, (vec3){0, 0, 1}, (vec3){3, 0, 0});       // floor
+    put_quad(m, 0, (vec3){-1, 0, -1}, (vec3){3, 0, 0}, (vec3){0, 1.2f, 0});    // back
+    put_quad(m, 0, (vec3){-1, 1.2f, 0.0f}, (vec3){0, 0, -1}, (vec3){3, 0, 0}); // roof, from below
+    put_quad(m, 1, (vec3){0, 0.1f, 0}, (vec3){1, 0, 0}, (vec3){0, 1, 0});      // looks out
+    if (thick) {
+        put_quad(m, 1, (vec3){1, 0.1f, -0.1f}, (vec3){-1, 0, 0}, (vec3){0, 1, 0}); // looks in
+    }
+    m->double_sided[0] = m->double_sided[1] = sheet;
+    m->double_sided[0] = false;
+    return m;
+}
+
+static void sheets_between_light_and_dark(void **state)
+{
+    (void)state;
+    model *m = make_niche(true, false);
+    has_only(m, ALP_FINDING_THIN_WALL, 1, ALPI_NONE);
+    test_free(m);
+    m = make_niche(false, true);
+    has_only(m, ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+    test_free(m);
+    m = new_model(); // a sheet in the open has the same sky on both sides
+    put_quad(m, 0, (vec3){0, 0, 0}, (vec3){1, 0, 0}, (vec3){0, 1, 0});
+    m->double_sided[0] = true;
+    has_only(m, ALP_FINDING_MESSAGE, 0, ALPI_NONE);
+    test_free(m);
+    m = new_model(); // into a closed shell looks nobody
+    put_box(m, 0, (vec3){0, 0, 0}, 1.0f, false);
+    m->double_sided[0] = true;
+    has_only(m, ALP_FINDING_MESSAGE, 0, ALPI_NONE);
+    test_free(m);
+}
+
+// --- scale ---------------------------------------------------------------------------------------
+
+static void objects_of_another_unit(void **state)
+{
+    (void)state;
+    static const struct {
+        float side;
+        bool found;
+    } cases[] = {{0.5f, false}, {150.0f, false}, {240.0f, true}, {1.5e-4f, true}, {3e-4f, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        model *m = new_model();
+        for (uint32_t k = 0; k < 5; k++) {
+            put_box(m, k, (vec3){2.0f * (float)k, 0, 0}, 0.2f + 0.01f * (float)k, false);
+        }
+        put_box(m, 5, (vec3){0, 0, 3.0f}, cases[i].side, false);
+        has_only(m, cases[i].found ? ALP_FINDING_SCALE : ALP_FINDING_MESSAGE, 5, 0);
+        test_free(m);
+    }
+}
+
+// --- all -----------------------------------------------------------------------------------------
+
+static void any_number_of_workers_finds_the_same(void **state)
+{
+    (void)state;
+    char texts[2][400];
+    for (int i = 0; i < 2; i++) {
+        alp_context *context = test_context(i == 0 ? 1 : 5);
+        model *m = make_niche(true, false);
+        alp_scene *scene = make(context, m);
+        alp_diagnosis *d = NULL;
+        ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+        const alp_finding f = alp_diagnosis_get_finding(d, 0);
+        snprintf(texts[i], sizeof texts[i], "%s %a %a %u", f.what, f.value, (double)f.spot.at[0],
+                 f.spot.triangle);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+        test_free(m);
+    }
+    assert_string_equal(texts[0], texts[1]);
+}
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    int left = 0, failures = 0;
+    alp_context *context = test_context_failing(&left);
+    model *m = make_strips(1.7f, 0.0f, 0.0f);
+    left = 10000;
+    alp_scene *scene = make(context, m);
+    alp_diagnosis *d = NULL;
+    for (left = 0; alp_scene_diagnose(scene, NULL, &d) != ALP_OK; left = failures) {
+        assert_null(d);
+        assert_true(++failures < 1000);
+    }
+    assert_true(failures > 20);
+    alp_diagnosis_destroy(d);
+    left = 10000;
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    test_free(m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(vertices_within_edges),
+        cmocka_unit_test(a_mended_edge_is_well),
+        cmocka_unit_test(objects_that_touch_are_well),
+        cmocka_unit_test(boxes_in_boxes),
+        cmocka_unit_test(rooms_are_well),
+        cmocka_unit_test(sheets_between_light_and_dark),
+        cmocka_unit_test(objects_of_another_unit),
+        cmocka_unit_test(any_number_of_workers_finds_the_same),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

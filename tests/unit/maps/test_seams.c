@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+// Seams between tiles: where they are, how long they are, and how far apart their sides are.
+#include "maps/seams.h"
+
+#include "base/tasks.h"
+#include "maps/seam_edges.h"
+#include "test_tiles.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SIZE = 128 };
+
+typedef struct fixture {
+    alp_context *context;
+    alp_scene *scene;
+    alp_lightmap *lightmap;
+    alpi_seams seams;
+    float *page;
+} fixture;
+
+static void set_up(fixture *f, const test_tile *tiles, uint32_t count)
+{
+    *f = (fixture){.context = test_context(1)};
+    f->scene = test_tiles_scene(f->context, tiles, count, SIZE);
+    f->lightmap = test_tiles_lightmap(f->scene, SIZE);
+    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, &f->seams));
+}
+
+static void tear_down(fixture *f)
+{
+    free(f->page);
+    alpi_seams_destroy(&f->seams);
+    alp_lightmap_destroy(f->lightmap);
+    alp_scene_destroy(f->scene);
+    alp_context_destroy(f->context);
+}
+
+static alpi_seam_step measure(fixture *f, const test_tile *tiles, uint32_t count,
+                              test_tile_paint *paint, const void *user)
+{
+    free(f->page);
+    f->page = test_tiles_page(f->lightmap, tiles, count, paint, user);
+    alpi_seam_step error;
+    ASSERT_OK(f->context, alpi_seams_measure(f->lightmap, &f->seams, &f->page, &error));
+    return error;
+}
+
+static float linear(const void *user, uint32_t tile, const double p[3])
+{
+    (void)user;
+    (void)tile;
+    return (float)(2.0 + 0.7 * p[0] - 0.4 * p[1] + 0.3 * p[2]);
+}
+
+static float constant(const void *user, uint32_t tile, const double p[3])
+{
+    (void)p;
+    return ((const float *)user)[tile];
+}
+
+/// Two metres square, side by side along x = 1, as coarse as each other or not, one turned.
+static const test_tile pair[2] = {
+    {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {10.3f, 12.2f}, {0, 31}, {30, 0}},
+    {{1, 0, 0}, {0, 0, 1}, {1, 0, 0}, {80.7f, 20.1f}, {11, 13}, {13, -11}}};
+
+static void a_linear_map_has_no_step(void **state)
+{
+    (void)state;
+    fixture f;
+    set_up(&f, pair, 2);
+    assert_int_equal(f.seams.count, 1);
+    ASSERT_NEAR(f.seams.length, 1.0, 1e-6);
+    assert_int_equal(f.seams.sample_count, 62); // two a texel of the finer side's 31
+    const alpi_seam_step error = measure(&f, pair, 2, linear, NULL);
+    // Values are floats below 4, weights and coordinates too: 31 texels of 1/50 each.
+    ASSERT_NEAR(error.mean, 0.0, 2e-6);
+    ASSERT_NEAR(error.p99, 0.0, 4e-6);
+    tear_down(&f);
+}
+
+static void constants_differ_by_their_difference(void **state)
+{
+    (void)state;
+    fixture f;
+    set_up(&f, pair, 2);
+    const alpi_seam_step error = measure(&f, pair, 2, constant, (float[]){0.25f, 0.75f});
+    ASSERT_NEAR(error.mean, 0.5, 1e-6);
+    ASSERT_NEAR(error.p99, 0.5, 1e-6);
+    tear_down(&f);
+}
+
+/// The mean of three channels, each by itself: differences of other signs do not cancel.
+static void channels_are_averaged(void **state)
+{
+    (void)state;
+    fixture f;
+    set_up(&f, pair, 2);
+    measure(&f, pair, 2, constant, (float[]){0.0f, 1.0f});
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        f.page[4 * i + 1] *= -0.5f;
+        f.page[4 * i + 2] = 0.3f;
+    }
+    alpi_seam_step error;
+    ASSERT_OK(f.context, alpi_seams_measure(f.lightmap, &f.seams, &f.page, &error));
+    ASSERT_NEAR(error.mean, 0.5, 1e-6);
+    tear_down(&f);
+}
+
+static float rough(const void *user, uint32_t tile, const double p[3])
+{
+    (void)user;
+    return (float)(0.5 + 0.5 * sin(40.0 * p[0] + 23.0 * p[2] + 9.0 * tile));
+}
+
+/// What is compared is what alpi_lightmap_sample reads.
+static void look_ups_are_those_of_the_lightmap(void **state)
+{
+    (void)state;
+    fixture f;
+    set_up(&f, pair, 2);
+    const alpi_seam_step error = measure(&f, pair, 2, rough, NULL);
+    f.lightmap->pages = &f.page;
+    double sum = 0.0;
+    const uint32_t samples = 62;
+    for (uint32_t i = 0; i < samples; i++) {
+        // z = s on tile 0 along its edge p + v to p + u + v (triangle 1: corners 0, 2, 3), and on
+        // tile 1 along p to p + u (triangle 2: corners 0, 1, 2).
+        const float s = ((float)i + 0.5f) / (float)samples;
+        float a[3], b[3];
+        alpi_lightmap_sample(f.lightmap, 1, s, 1.0f - s, a);
+        alpi_lightmap_sample(f.lightmap, 2, s, 0.0f, b);
+        sum += fabs((double)a[0] - (double)b[0]);
+    }
+    f.lightmap->pages = NULL;
+    assert_true(error.mean > 0.1);
+    ASSERT_NEAR(error.mean, sum / samples, 1e-4); // coordinates are floats there
+    tear_down(&f);
+}
+
+static uint32_t count_seams(const test_tile *tiles, uint32_t count, double *length)
+{
+    fixture f;
+    set_up(&f, tiles, count);
+    const uint32_t seams = f.seams.count;
+    *length = f.seams.length;
+    tear_down(&f);
+    return seams;
+}
+
+/// Light steps at a crease by itself.
+static void a_crease_is_no_seam(void **state)
+{
+    (void)state;
+    const double degree = 3.14159265358979 / 180.0, angles[] = {0.0, 2.9, 3.1, 30.0, 90.0};
+    const uint32_t wanted[] = {1, 1, 0, 0, 0};
+    for (int i = 0; i < 5; i++) {
+        test_tile tiles[2] = {pair[0], pair[1]};
+        tiles[1].v[0] = (float)cos(angles[i] * degree);
+        tiles[1].v[1] = (float)sin(angles[i] * degree);
+        double length = 0.0;
+        assert_int_equal(count_seams(tiles, 2, &length), wanted[i]);
+        ASSERT_NEAR(length, wanted[i], 1e-6);
+    }
+}
+
+/// Two tiles at the long side of one, one of them beyond its end by 0.4 m: a T-junction.
+static void partly_overlapping_edges_count_their_overlap(void **state)
+{
+    (void)state;
+    const test_tile tiles[3] = {{{0, 0, 0}, {0, 0, 2}, {1, 0, 0}, {4, 4}, {0, 60}, {30, 0}},
+                                {{1, 0, 0.4f}, {0, 0, 1}, {1, 0, 0}, {40, 4}, {0, 25}, {25, 0}},
+                                {{1, 0, 1.4f}, {0, 0, 1}, {1, 0, 0}, {80, 4}, {0, 25}, {25, 0}}};
+    fixture f;
+    set_up(&f, tiles, 3);
+    assert_int_equal(f.seams.count, 3); // and the two along each other
+    ASSERT_NEAR(f.seams.length, 1.0 + 0.6 + 1.0, 1e-5);
+    // Steps of 1, 3 and 2 along 1 m, 0.6 m and 1 m.
+    const alpi_seam_step error = measure(&f, tiles, 3, constant, (float[]){0.0f, 1.0f, 3.0f});
+    ASSERT_NEAR(error.mean, (1.0 + 3.0 * 0.6 + 2.0) / 2.6, 1e-4);
+    ASSERT_NEAR(error.p99, 3.0, 1e-6);
+    tear_down(&f);
+}
+
+static void gaps_of_less_than_a_tenth_of_a_texel_are_none(void **state)
+{
+    (void)state;
+    const double texel = 1.0 / 31.0, gaps[] = {0.0, 0.09, 0.11, 1.0};
+    const uint32_t wanted[] = {1, 1, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        test_tile tiles[2] = {pair[0], pair[1]};
+        tiles[1].p[0] += (float)(gaps[i] * texel);
+        double length = 0.0;
+        assert_int_equal(count_seams(tiles, 2, &length), wanted[i]);
+    }
+}
+
+/// Surfaces over each other, face to face, or meeting in a corner do not go on into each other.
+static void what_only_touches_is_no_seam(void **state)
+{
+    (void)state;
+    double length = 0.0;
+    test_tile tiles[2] = {pair[0], pair[1]};
+    tiles[1].p[0] = 0.5f; // over each other
+    assert_int_equal(count_seams(tiles, 2, &length), 0);
+    tiles[1].u[2] = -1.0f; // in one place, seen from below
+    tiles[1].p[2] = 1.0f;
+    tiles[1].p[0] = 0.0f;
+    assert_int_equal(count_seams(tiles, 2, &length), 0);
+    tiles[1] = pair[1];
+    tiles[1].p[2] = 1.0f; // by the corner
+    assert_int_equal(count_seams(tiles, 2, &length), 0);
+}
+
+/// Edges inside of tiles, whose coordinates go on, are none; neither are tiles that read one place
+/// of the page from both sides.
+static void coordinates_that_go_on_make_no_seam(void **state)
+{
+    (void)state;
+    double length = 0.0;
+    test_tile tiles[2] = {pair[0], pair[0]};
+    assert_int_equal(count_seams(tiles, 1, &length), 0);
+    tiles[1].p[0] = 1.0f;
+    tiles[1].at[0] += 30.0f;
+    assert_int_equal(count_seams(tiles, 2, &length), 0);
+}
+
+/// A floor of tiles with side walls, as modular sets have them: four triangles at every edge that
+/// two tiles share. Walls of neighbours face each other and are no seams.
+static void tiles_with_walls_meet_once(void **state)
+{
+    (void)state;
+    enum { SIDE = 3, FACES = 3 };
+    test_tile tiles[SIDE * SIDE * FACES];
+    uint32_t count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const float x = (float)(i % SIDE), z = (float)(i / SIDE), down = 0.2f;
+        const float at[2] = {4.0f + 40.0f * x, 4.0f + 40.0f * z};
+        tiles[count++] =
+            (test_tile){{x, 0, z}, {0, 0, 1}, {1, 0, 0}, {at[0], at[1]}, {0, 12}, {12, 0}};
+        tiles[count++] =
+            (test_tile){{x, 0, z}, {0, -down, 0}, {0, 0, 1}, {at[0] + 16, at[1]}, {0, 4}, {12, 0}};
+        tiles[count++] = (test_tile){
+            {x + 1, 0, z}, {0, 0, 1}, {0, -down, 0}, {at[0] + 16, at[1] + 16}, {12, 0}, {0, 4}};
+    }
+    double length = 0.0;
+    // Tops meet along 12 edges of 1 m. Walls in one plane meet at their ends: 6 rows of walls, each
+    // of 2 ends between 3 walls; in x between tiles, two walls back to back, whose like sides meet.
+    assert_int_equal(count_seams(tiles, count, &length), 12 + 12);
+    ASSERT_NEAR(length, 12.0 + 12.0 * 0.2, 1e-4);
+}
+
+static bool stop(void *user, const alp_progress *progress)
+{
+    (void)progress;
+    return ++*(int *)user < 2;
+}
+
+static void it_can_be_cancelled(void **state)
+{
+    (void)state;
+    fixture f;
+    set_up(&f, pair, 2);
+    int asked = 1;
+    const alpi_watch former =
+        alpi_set_watch(f.context, (alpi_watch){.callback = stop, .user = &asked});
+    alpi_seams seams;
+    assert_int_equal(alpi_seams_create(f.lightmap, &seams), ALP_ERROR_CANCELLED);
+    assert_null(seams.first);
+    alpi_set_watch(f.context, former);
+    tear_down(&f);
+}
+
+static void memory_that_ends_is_said(void **state)
+{
+    (void)state;
+    int left = 1000000;
+    alp_context *context = test_context_failing(&left);
+    alp_scene *scene = test_tiles_scene(context, pair, 2, SIZE);
+    alp_lightmap *lightmap = test_tiles_lightmap(scene, SIZE);
+    float *page = test_tiles_page(lightmap, pair, 2, linear, NULL);
+    alpi_seams seams = {0};
+    alpi_seam_step error;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    int allocations = 0;
+    for (; result == ALP_ERROR_OUT_OF_MEMORY; allocations++) {
+        left = allocations;
+        result = alpi_seams_create(lightmap, &seams);
+        if (result == ALP_OK) {
+            result = alpi_seams_measure(lightmap, &seams, &page, &error);
+        }
+        alpi_seams_destroy(&seams);
+    }
+    ASSERT_OK(context, result);
+    assert_true(allocations > 8);
+    left = 1000000;
+    free(page);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_linear_map_has_no_step),
+        cmocka_unit_test(constants_differ_by_their_difference),
+        cmocka_unit_test(channels_are_averaged),
+        cmocka_unit_test(look_ups_are_those_of_the_lightmap),
+        cmocka_unit_test(a_crease_is_no_seam),
+        cmocka_unit_test(partly_overlapping_edges_count_their_overlap),
+        cmocka_unit_test(gaps_of_less_than_a_tenth_of_a_texel_are_none),
+        cmocka_unit_test(what_only_touches_is_no_seam),
+        cmocka_unit_test(coordinates_that_go_on_make_no_seam),
+        cmocka_unit_test(tiles_with_walls_meet_once),
+        cmocka_unit_test(it_can_be_cancelled),
+        cmocka_unit_test(memory_that_ends_is_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
