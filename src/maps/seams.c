@@ -284,8 +284,8 @@ double alpi_seams_map_mean(const alp_lightmap *lightmap, float *const *pages)
         const size_t at = (size_t)t->pixels[i][1] * lightmap->width + t->pixels[i][0];
         const float *value = pages[t->pages[i]] + 4 * at;
         const double mean = ((double)value[0] + (double)value[1] + (double)value[2]) / 3.0;
-        sum += (double)t->areas[i] * mean;
-        area += (double)t->areas[i];
+        sum += (double)alpi_texels_area(t, i) * mean;
+        area += (double)alpi_texels_area(t, i);
     }
     return area > 0.0 ? sum / area : 0.0;
 }
