@@ -20,7 +20,7 @@ typedef enum alp_atlas_mode {
     ALP_ATLAS_VERTEX = 3,
     /// Overlapping charts and three coordinate sets, one for each axis of the object (of the world,
     /// where the scene or what is written has no objects): set k has the triangles whose normals
-    /// have a part of axis k, up to 80° from it, projected along it. A shader reads all three and
+    /// have a part of axis k, up to 87° from it, projected along it. A shader reads all three and
     /// adds them up weighted by the squares of the unit normal's components, which sum to 1
     ///
     ///     value = Σ_k n_k² · L(uv_k),   n = the interpolated normal in the object's frame, unit

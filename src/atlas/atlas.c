@@ -332,6 +332,7 @@ void alp_atlas_destroy(alp_atlas *atlas)
         alpi_release(context, atlas->triangle_charts);
         alpi_release(context, atlas->factors);
         alpi_release(context, atlas->face_triangles);
+        alpi_release(context, atlas->face_axes);
         alpi_release(context, atlas->set_uvs);
         alpi_release(context, atlas->set_members);
         alpi_release(context, atlas);
