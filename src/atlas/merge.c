@@ -89,6 +89,7 @@ static alp_result collect_pairs(merger *m)
     const alp_scene *scene = m->atlas->scene;
     const uint32_t *charts = m->atlas->triangle_charts;
     size_t count = 0;
+    ALP_TRY(alpi_grow(scene->context, (void **)&m->pairs, &m->pair_capacity, 1, sizeof *m->pairs));
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         for (int k = 0; k < 3 && charts[t] != ALPI_NONE; k++) {
             const uint32_t across = m->neighbours[t][k];
