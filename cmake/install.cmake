@@ -20,6 +20,9 @@ if(TARGET alpenglow_manual)
     install(DIRECTORY ${printed}/bash-completion ${printed}/zsh ${printed}/fish
             DESTINATION ${CMAKE_INSTALL_DATADIR})
 endif()
+# What viewers need to show maps of --atlas blend.
+install(FILES web/blend.glsl web/three-blend.js
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/alpenglow)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # find_package(alpenglow). A static library needs its libraries found again; a shared one does not.

@@ -23,6 +23,7 @@ struct alp_atlas {
     // Faces: the triangles in their order, and behind them, BLEND alone, those that lie in further
     // charts once more. NULL, 0: as many faces as triangles.
     uint32_t *face_triangles; // [face_count]
+    uint8_t *face_axes;       // [face_count] of whose charts they are in
     uint32_t face_count;
     float (*set_uvs)[3][3][2];  // BLEND: [triangle_count][set][corner], else NULL
     uint8_t *set_members;       // BLEND: [triangle_count] bit k: it is in a chart of axis k, else
@@ -50,6 +51,18 @@ static inline bool alpi_atlas_may_keep(const alp_atlas_options *options)
             options->densities == NULL);
 }
 
+/// Coordinate sets that a look-up reads, and those of a triangle's corners in one of them.
+static inline int alpi_atlas_set_count(const alp_atlas *atlas)
+{
+    return atlas->set_uvs != NULL ? 3 : 1;
+}
+static inline const float *alpi_atlas_set_uv(const alp_atlas *atlas, uint32_t triangle, int set,
+                                             int corner)
+{
+    return atlas->set_uvs != NULL ? atlas->set_uvs[triangle][set][corner]
+                                  : atlas->corner_uvs[triangle][corner];
+}
+
 /// What is special about a texel.
 enum {
     ALPI_TEXEL_NO_LIFT = 1 // its points stay on their triangles: the lift to the smooth surface
@@ -68,6 +81,7 @@ typedef struct alpi_texels {
     float (*normals)[3];      // [count] shading normal there, unit
     float *areas;             // [count] world area of the chart inside the texel, m²
     float *coverages;         // [count] share of the texel inside its chart(s), (0, 1]
+    float *shares;            // [count] of areas that count, where charts overlap; NULL: 1
     uint32_t *charts;         // [count]
     uint32_t *page_first;     // [pages + 1] first texel of each page
     uint8_t *flags;           // [count] ALPI_TEXEL_…; 0 as made
@@ -83,6 +97,14 @@ typedef struct alpi_texels {
 
     const alp_atlas *atlas; // must outlive the texels
 } alpi_texels;
+
+/// What a texel counts in sums over the surface, m²: overlapping charts have each place up to three
+/// times, with weights that sum to 1.
+static inline float alpi_texels_area(const alpi_texels *texels, uint32_t texel)
+{
+    return texels->shares != NULL ? texels->areas[texel] * texels->shares[texel]
+                                  : texels->areas[texel];
+}
 
 /// A texel is covered when a usable triangle has area inside it. Its representative point lies at
 /// its centre where the centre is inside a triangle, else at the centroid of the largest piece of a
@@ -186,8 +208,10 @@ void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float squ
 // --- the stages, each alone in its file ----------------------------------------------------------
 
 /// neighbours[t][k] = triangle across edge (corner k, corner k+1), or ALPI_NONE: border, unusable,
-/// or an edge that more than two triangles share. Vertices are equal where their positions are
-/// (−0 equals +0). Linear in triangles: hashed. [triangle_count][3], released by the caller.
+/// or an edge where it cannot be told. Where more than two triangles share an edge, those of one
+/// node are paired by their winding, the nearest normals first, if as many run one way as the
+/// other. Vertices are equal where their positions are (−0 equals +0). Linear in triangles: hashed.
+/// [triangle_count][3], released by the caller.
 alp_result alpi_adjacency_create(const alp_scene *scene, uint32_t (**neighbours)[3]);
 
 /// Triangles that can be projected together on one plane without folding.

@@ -5,17 +5,16 @@
 #define ALPI_ATLAS_BLEND_H
 
 #include "atlas/stages.h"
+#include "scene/blend_weights.h"
 
 enum { ALPI_BLEND_SETS = 3 };
 
-/// The axes of a surface's object, world, unit; the world's own where it asks for those or where
-/// the object's lie too near one plane to project on.
-void alpi_blend_axes(const alpi_surface *surface, bool world, vec3 axes[ALPI_BLEND_SETS]);
-
-/// n_k² of the unit normal in the frame of the triangle's object, interpolated between its corners
-/// as a shader does; they sum to 1.
+/// alpi_surface_weights in the frame of the atlas.
 void alpi_blend_weights(const alp_atlas *atlas, uint32_t triangle, float b1, float b2,
                         float weights[ALPI_BLEND_SETS]);
+
+/// How much of what is read at a point of a triangle comes from the chart of one of its faces.
+float alpi_blend_share(const alp_atlas *atlas, uint32_t face, const float barycentrics[2]);
 
 /// A triangle's place in a chart of an axis.
 typedef struct alpi_blend_face {

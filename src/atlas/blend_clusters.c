@@ -227,7 +227,7 @@ static alpi_plane plane_of(const grower *g, uint32_t seed_face, vec3 *normal)
     const alpi_blend_face *face = &g->faces->faces[seed_face];
     vec3 axes[ALPI_BLEND_SETS], corners[3];
     const uint32_t surface = g->view->triangle_surface[seed_face];
-    alpi_blend_axes(&g->view->surfaces[surface], g->world, axes);
+    alpi_surface_axes(&g->view->surfaces[surface], g->world, axes);
     alpi_triangle_corners(g->view, seed_face, corners);
     *normal = vec3_scale(axes[face->axis], face->negative ? -1.0f : 1.0f);
     return alpi_plane_make(*normal, corners[0]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The covered texels of an atlas as arrays: joined from what the bands of its pages hold.
+#include "atlas/blend.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -143,8 +144,10 @@ static alp_result find_triangles(const alp_atlas *atlas, alpi_texels *texels)
     }
     texels->triangles = NULL;
     ALPI_TRY_NEW(atlas->context, texels->triangles, texels->count);
+    ALPI_TRY_NEW(atlas->context, texels->shares, texels->count);
     for (uint32_t i = 0; i < texels->count; i++) {
         texels->triangles[i] = atlas->face_triangles[texels->faces[i]];
+        texels->shares[i] = alpi_blend_share(atlas, texels->faces[i], texels->barycentrics[i]);
     }
     return ALP_OK;
 }
@@ -192,6 +195,7 @@ void alpi_texels_destroy(alp_context *context, alpi_texels *texels)
     alpi_release(context, texels->barycentrics);
     alpi_release(context, texels->normals);
     alpi_release(context, texels->areas);
+    alpi_release(context, texels->shares);
     alpi_release(context, texels->coverages);
     alpi_release(context, texels->charts);
     alpi_release(context, texels->page_first);

@@ -16,8 +16,8 @@ static void sum_areas(const void *user, uint32_t begin, uint32_t end, double sum
     const alpi_lattice *l = user;
     for (uint32_t i = begin; i < end; i++) {
         if (l->states[i] != ALPI_TEXEL_OPEN) {
-            sums[0] += (double)l->texels->areas[i] * (double)l->values[i];
-            sums[1] += (double)l->texels->areas[i];
+            sums[0] += (double)alpi_texels_area(l->texels, i) * (double)l->values[i];
+            sums[1] += (double)alpi_texels_area(l->texels, i);
         }
     }
 }

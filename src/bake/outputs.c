@@ -112,11 +112,10 @@ static alp_result check_dae_options(const alpi_bake_job *job)
     const alp_bake_options *o = &job->options;
     const bool lit_otherwise =
         o->lightmap_as != ALP_LIGHTMAP_AS_NONE && o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE;
-    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX  ? "values at vertices"
-                       : o->atlas.mode == ALP_ATLAS_BLEND ? "three coordinate sets"
-                       : o->ao_into == ALP_AO_INTO_ORM    ? "occlusion packed into an image"
-                       : lit_otherwise                    ? "a light map other than emission"
-                                                          : NULL;
+    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
+                       : o->ao_into == ALP_AO_INTO_ORM   ? "occlusion packed into an image"
+                       : lit_otherwise                   ? "a light map other than emission"
+                                                         : NULL;
     return what == NULL
                ? ALP_OK
                : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
@@ -333,6 +332,11 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
     if (job->options.lightmap_as != ALP_LIGHTMAP_AS_NONE) {
         json_object_set_new(object, "light", describe_light(job));
     }
+    if (job->report.atlas.mode == ALP_ATLAS_BLEND) { // which sets: said where they are
+        json_object_set_new(
+            object, "blend",
+            json_pack("{s:i, s:s, s:s}", "sets", 3, "weights", "n*n", "frame", "object"));
+    }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         replace_pages(job, json_object_get(object, "occlusion"));
     }
@@ -474,7 +478,6 @@ static alp_result add_asset(const alpi_bake_job *job, const encoded_page *pages,
             .corner_uvs = keep ? NULL : (const float(*)[3][2])atlas->corner_uvs,
             .kept_uv_set = 1,
             .set_uvs = (const float(*)[3][3][2])atlas->set_uvs,
-            .world_frame = atlas->world_axes,
             .triangle_pages = atlas->triangle_pages,
             .originals = job->originals,
             .page_pngs = (job->options.maps & ALP_MAP_AO) != 0 ? pngs : NULL,

@@ -18,6 +18,7 @@
 
 /// Marks what several share, in place of whose it is.
 #define ALPI_COLLADA_SHARED UINT32_MAX
+enum { ALPI_COLLADA_SETS = 3 }; // of coordinates that are blended
 
 /// A material symbol of a geometry whose triangles lie on one page.
 typedef struct alpi_collada_symbol {
@@ -108,9 +109,9 @@ bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada
                                uint32_t *number, const xmlNode **source);
 /// Whether the document says that we wrote it.
 bool alpi_collada_was_baked(const alpi_collada_document *document);
-/// The first set from `number` on that nothing else than our maps reads anywhere: a texture bound
-/// to a set that is not there must not come to read ours.
-uint32_t alpi_collada_free_set(alpi_collada_patcher *patcher, uint32_t number);
+/// The first of `count` sets in a row, from `number` on, that nothing else than our maps reads
+/// anywhere: a texture bound to a set that is not there must not come to read ours.
+uint32_t alpi_collada_free_set(alpi_collada_patcher *patcher, uint32_t number, uint32_t count);
 /// The <input> of a primitive's highest TEXCOORD where an earlier bake wrote it and its indices are
 /// read by no other; NULL else.
 const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,

@@ -82,11 +82,15 @@ static bool others_read(alpi_collada_patcher *p, uint32_t number)
     return number >= SET_LIMIT || (p->foreign_sets >> number & 1) != 0;
 }
 
-uint32_t alpi_collada_free_set(alpi_collada_patcher *p, uint32_t number)
+uint32_t alpi_collada_free_set(alpi_collada_patcher *p, uint32_t number, uint32_t count)
 {
     find_foreign_sets(p);
-    while (number < SET_LIMIT && (p->foreign_sets >> number & 1) != 0) {
-        number++;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t set = number + k;
+        if (set < SET_LIMIT && (p->foreign_sets >> set & 1) != 0) {
+            number = set + 1; // all of them behind it
+            k = UINT32_MAX;
+        }
     }
     return number >= SET_LIMIT && number < p->foreign_set_end ? p->foreign_set_end : number;
 }

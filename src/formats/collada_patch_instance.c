@@ -10,12 +10,29 @@
 
 // --- one instance --------------------------------------------------------------------------------
 
-static void print_set(const alpi_collada_symbol *symbol, alpi_bytes *text)
+// The further two of sets that are blended; no <texture> names them, but a shader may.
+static const char *const semantics[ALPI_COLLADA_SETS] = {
+    ALPI_COLLADA_BAKED_UV, ALPI_COLLADA_BAKED_UV "_1", ALPI_COLLADA_BAKED_UV "_2"};
+
+static void print_set(const alpi_collada_patcher *p, const alpi_collada_symbol *symbol,
+                      alpi_bytes *text)
 {
-    alpi_bytes_print(text,
-                     "<bind_vertex_input semantic=\"" ALPI_COLLADA_BAKED_UV
-                     "\" input_semantic=\"TEXCOORD\" input_set=\"%u\"/>",
-                     symbol->input_set);
+    const uint32_t count = p->patch->set_uvs != NULL ? ALPI_COLLADA_SETS : 1;
+    for (uint32_t k = 0; k < count; k++) {
+        alpi_bytes_print(text,
+                         "<bind_vertex_input semantic=\"%s\" input_semantic=\"TEXCOORD\" "
+                         "input_set=\"%u\"/>",
+                         semantics[k], symbol->input_set + k);
+    }
+}
+
+static bool is_ours(const char *semantic)
+{
+    bool ours = false;
+    for (int k = 0; k < ALPI_COLLADA_SETS; k++) {
+        ours |= semantic != NULL && strcmp(semantic, semantics[k]) == 0;
+    }
+    return ours;
 }
 
 /// What an <instance_material> holds, without a set that an earlier bake bound.
@@ -23,7 +40,7 @@ static void print_bindings(const alpi_collada_patcher *p, const xmlNode *binding
 {
     for (const xmlNode *e = alpi_xml_child(binding, NULL); e != NULL; e = alpi_xml_next(e, NULL)) {
         const char *semantic = alpi_xml_attribute(e, "semantic");
-        if (semantic == NULL || strcmp(semantic, ALPI_COLLADA_BAKED_UV) != 0) {
+        if (!is_ours(semantic)) {
             const alpi_xml_span *span = alpi_xml_span_of(p->document, e);
             alpi_bytes_add(text, p->document->text + span->begin, span->end - span->begin);
         }
@@ -51,7 +68,7 @@ static void print_material(const alpi_collada_patcher *p, const xmlNode *old,
         alpi_bytes_print(text, "\" target=\"%s\">", (const char *)value.bytes);
     }
     print_bindings(p, old, text);
-    print_set(symbol, text);
+    print_set(p, symbol, text);
     if (same) {
         alpi_xml_print_end(p->document, old, text);
     } else {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bake coordinates of a geometry: one new source for all its primitives, and an index more for
-// each corner. A primitive whose corners have two coordinates, or whose triangles lie on several
-// pages, is written anew; polygons without either stay polygons.
+// The bake coordinates of a geometry: one new source for all its primitives, or three of sets that
+// are blended, and an index more for each corner. A primitive whose corners have two coordinates,
+// or whose triangles lie on several pages, is written anew; polygons without either stay polygons.
 #include "formats/collada_patch.h"
 
 #include "base/hash.h"
@@ -12,8 +12,8 @@
 
 /// Different coordinates of a geometry.
 typedef struct uv_pool {
-    float (*uvs)[2];
-    uint32_t *slots; // [size] index, ALPI_NONE = free
+    float (*uvs)[2 * ALPI_COLLADA_SETS]; // those of sets that are not there are 0
+    uint32_t *slots;                     // [size] index, ALPI_NONE = free
     uint32_t count;
     size_t size;
 } uv_pool;
@@ -73,20 +73,43 @@ static alp_result make_pool(work *w, uint64_t corner_count)
     return ALP_OK;
 }
 
-static uint32_t find_uv(uv_pool *pool, const float uv[2])
+static uint32_t find_uv(uv_pool *pool, const float uv[2 * ALPI_COLLADA_SETS])
 {
-    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, uv, 2 * sizeof *uv);
+    const size_t size = 2 * ALPI_COLLADA_SETS * sizeof *uv;
+    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, uv, size);
     hash ^= hash >> 32;
     size_t slot = (size_t)hash & (pool->size - 1);
     for (; pool->slots[slot] != ALPI_NONE; slot = (slot + 1) & (pool->size - 1)) {
         const float *other = pool->uvs[pool->slots[slot]];
-        if (other[0] == uv[0] && other[1] == uv[1]) {
+        bool same = true;
+        for (int i = 0; i < 2 * ALPI_COLLADA_SETS; i++) {
+            same &= other[i] == uv[i];
+        }
+        if (same) {
             return pool->slots[slot];
         }
     }
     pool->slots[slot] = pool->count;
-    memcpy(pool->uvs[pool->count], uv, 2 * sizeof *uv);
+    memcpy(pool->uvs[pool->count], uv, size);
     return pool->count++;
+}
+
+static uint32_t count_sets(const alpi_collada_patcher *p)
+{
+    return p->patch->set_uvs != NULL ? ALPI_COLLADA_SETS : 1;
+}
+
+/// Coordinates of a corner of the scene's triangle as they are written.
+static void read_corner(const alpi_collada_patcher *p, uint32_t triangle, uint32_t corner,
+                        float out[2 * ALPI_COLLADA_SETS])
+{
+    memset(out, 0, 2 * ALPI_COLLADA_SETS * sizeof *out);
+    for (uint32_t k = 0; k < count_sets(p); k++) {
+        const float *uv = p->patch->set_uvs != NULL ? p->patch->set_uvs[triangle][k][corner]
+                                                    : p->patch->corner_uvs[triangle][corner];
+        out[2 * k] = uv[0] + 0.0f;     // no −0
+        out[2 * k + 1] = 1.0f - uv[1]; // t counts upwards
+    }
 }
 
 /// Coordinates of all corners; a triangle without area takes what its neighbours give.
@@ -106,11 +129,11 @@ static alp_result find_corner_uvs(work *w, part *a)
             }
             for (uint32_t k = 0; k < 3; k++) {
                 const uint32_t place = s->mirrored ? (3 - k) % 3 : k;
-                const float *uv = p->patch->corner_uvs[scene_triangle][place];
-                const float flipped[2] = {uv[0] + 0.0f, 1.0f - uv[1]}; // no −0; t counts upwards
+                float uv[2 * ALPI_COLLADA_SETS];
+                read_corner(p, scene_triangle, place, uv);
                 uint32_t *of_corner = &a->uv_of_corner[a->faces.triangles[t][k]];
                 const bool known = pass == 1 && *of_corner != ALPI_NONE;
-                const uint32_t index = known ? *of_corner : find_uv(&w->pool, flipped);
+                const uint32_t index = known ? *of_corner : find_uv(&w->pool, uv);
                 a->agreed &= *of_corner == ALPI_NONE || *of_corner == index;
                 *of_corner = index;
                 a->corner_uvs[t][k] = index;
@@ -120,32 +143,46 @@ static alp_result find_corner_uvs(work *w, part *a)
     return ALP_OK;
 }
 
-static void print_source(const work *w, alpi_bytes *text)
+/// id of the source of set k: "ID", "ID-1", "ID-2".
+static void print_source_id(const work *w, uint32_t k, alpi_bytes *text)
 {
-    const char *id = (const char *)w->source_id.bytes;
+    alpi_bytes_print(text, "%s", (const char *)w->source_id.bytes);
+    if (k > 0) {
+        alpi_bytes_print(text, "-%u", k);
+    }
+}
+
+static void print_source(const work *w, uint32_t k, alpi_bytes *text)
+{
+    alpi_bytes name = alpi_bytes_create(w->patcher->context);
+    print_source_id(w, k, &name);
+    text->failed |= name.failed;
+    const char *id = name.failed ? "" : (const char *)name.bytes;
     alpi_bytes_print(text, "<source id=\"%s\"><float_array id=\"%s-array\" count=\"%u\">", id, id,
                      2 * w->pool.count);
     for (uint32_t i = 0; i < w->pool.count; i++) {
         alpi_bytes_add(text, " ", i > 0);
-        alpi_bytes_float(text, w->pool.uvs[i][0]);
+        alpi_bytes_float(text, w->pool.uvs[i][2 * k]);
         alpi_bytes_add(text, " ", 1);
-        alpi_bytes_float(text, w->pool.uvs[i][1]);
+        alpi_bytes_float(text, w->pool.uvs[i][2 * k + 1]);
     }
     alpi_bytes_print(text,
                      "</float_array><technique_common><accessor source=\"#%s-array\" count=\"%u\" "
                      "stride=\"2\"><param name=\"S\" type=\"float\"/><param name=\"T\" "
                      "type=\"float\"/></accessor></technique_common></source>",
                      id, w->pool.count);
+    alpi_bytes_destroy(&name);
 }
 
 // --- primitives ----------------------------------------------------------------------------------
 
 static void print_input(const work *w, const part *a, alpi_bytes *text)
 {
-    if (w->patcher->patch->corner_uvs != NULL) {
-        alpi_bytes_print(text,
-                         "<input semantic=\"TEXCOORD\" source=\"#%s\" offset=\"%u\" set=\"%u\"/>",
-                         (const char *)w->source_id.bytes, a->new_offset, w->uv_number);
+    const uint32_t count = w->patcher->patch->corner_uvs != NULL ? count_sets(w->patcher) : 0;
+    for (uint32_t k = 0; k < count; k++) { // one index stands for all
+        alpi_bytes_print(text, "<input semantic=\"TEXCOORD\" source=\"#");
+        print_source_id(w, k, text);
+        alpi_bytes_print(text, "\" offset=\"%u\" set=\"%u\"/>", a->new_offset, w->uv_number + k);
     }
 }
 
@@ -506,7 +543,8 @@ static alp_result find_number(work *w)
         corners += 3 * (uint64_t)p->scene->surfaces[s].triangle_count;
     }
     w->again = alpi_collada_find_own_set(p, w->class_of, &w->again_number, &w->old_source);
-    w->uv_number = w->again ? w->again_number : alpi_collada_free_set(p, w->uv_number);
+    w->uv_number =
+        w->again ? w->again_number : alpi_collada_free_set(p, w->uv_number, count_sets(p));
     return p->patch->corner_uvs != NULL ? make_pool(w, corners) : ALP_OK;
 }
 
@@ -539,7 +577,9 @@ static alp_result patch_geometry(work *w)
         alpi_xml_child(alpi_xml_child(w->class_of->geometry, "mesh"), "vertices");
     if (p->patch->corner_uvs != NULL && vertices != NULL) {
         alpi_bytes text = alpi_bytes_create(p->context);
-        print_source(w, &text);
+        for (uint32_t k = 0; k < count_sets(p); k++) {
+            print_source(w, k, &text);
+        }
         w->edits->inserted.failed |= text.failed;
         if (!text.failed) {
             alpi_xml_insert(w->edits, alpi_xml_span_of(p->document, vertices)->begin,

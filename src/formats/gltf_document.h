@@ -48,6 +48,8 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document); // NULL does noth
 
 /// extras.alpenglow of a material that a bake gave to a primitive without one.
 #define ALPI_GLTF_NO_MATERIAL "no material"
+/// In the extras of a material: the three sets that its maps are read with.
+#define ALPI_GLTF_BLEND "alpenglow_blend"
 
 // --- typed access to the tree; all check, none trusts -------------------------------------------
 

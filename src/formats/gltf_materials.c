@@ -194,6 +194,28 @@ static bool stands_for_none(const source *from)
     return json_is_string(mark) && strcmp(json_string_value(mark), ALPI_GLTF_NO_MATERIAL) == 0;
 }
 
+/// A map of charts that overlap. Where not all of its sets were kept, the first alone is read,
+/// which is a map too.
+static void read_blend(const source *from, alpi_material *material)
+{
+    json_t *blend = json_object_get(json_object_get(from->object, "extras"), ALPI_GLTF_BLEND);
+    json_t *maps = json_object_get(blend, "maps"), *sets = json_object_get(blend, "sets");
+    bool known = false;
+    for (size_t i = 0; i < json_array_size(maps); i++) {
+        const char *name = json_string_value(json_array_get(maps, i));
+        known = known || (name != NULL && strcmp(name, "occlusionTexture") == 0);
+    }
+    for (size_t k = 0; k < 3 && known; k++) {
+        static const char word[] = "TEXCOORD_";
+        const char *name = json_string_value(json_array_get(sets, k));
+        known = name != NULL && strncmp(name, word, sizeof word - 1) == 0 &&
+                name[sizeof word - 1] >= '0' && name[sizeof word - 1] <= '3' &&
+                name[sizeof word] == '\0';
+        material->occlusion_sets[k] = known ? (uint32_t)(name[sizeof word - 1] - '0') : 0;
+    }
+    material->occlusion_blended = known;
+}
+
 static alp_result read_material(const source *from, alpi_material *material)
 {
     char *name = alpi_gltf_copy_name(from->reader->context, from->object);
@@ -213,6 +235,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     ALP_TRY(read_emission(from, material));
     ALP_TRY(read_alpha(from, material));
     ALP_TRY(read_transmission(from, material));
+    read_blend(from, material);
     return read_occlusion(from, material);
 }
 

@@ -206,7 +206,6 @@ alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 // --- sets that are blended -----------------------------------------------------------------------
 
-#define ALPI_GLTF_BLEND "alpenglow_blend" // in the extras of materials
 enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
 /// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
 /// viewers know, else _ALPENGLOW_UV_k.
@@ -220,8 +219,10 @@ typedef struct alpi_gltf_inside {
 /// Sets them; false where the outer one is there and no object.
 bool alpi_patcher_set_inside(alpi_gltf_patcher *patcher, size_t material,
                              const alpi_gltf_inside *inside, alpi_edits *edits);
-/// What the extras of a material say of them, a JSON object.
-void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, uint32_t first, alpi_bytes *text);
+/// What the extras of a material say of them, a JSON object: their names in the order of the axes
+/// of the mesh, and which of its maps are read with them.
+void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, uint32_t first, bool occluded,
+                              bool lit, alpi_bytes *text);
 /// Adds it to a material of the document.
 void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
                                  alpi_edits *edits);

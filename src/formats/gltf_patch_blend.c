@@ -16,16 +16,26 @@ void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRI
     }
 }
 
-void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, alpi_bytes *text)
+void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, bool occluded, bool lit,
+                              alpi_bytes *text)
 {
+    static const char *const lights[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
+                                         [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
+                                         [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
     alpi_bytes_print(text, "{\"sets\":[");
     for (uint32_t k = 0; k < ALPI_GLTF_BLEND_SETS; k++) {
         char name[ALPI_GLTF_ATTRIBUTE_SIZE];
         alpi_patcher_set_name(first, k, name);
         alpi_bytes_print(text, "%s\"%s\"", k > 0 ? "," : "", name);
     }
-    alpi_bytes_print(text, "],\"weights\":\"n*n\",\"frame\":\"%s\"}",
-                     p->patch->world_frame ? "world" : "object");
+    alpi_bytes_print(text, "],\"weights\":\"n*n\",\"frame\":\"object\",\"maps\":[");
+    if (occluded) {
+        alpi_bytes_print(text, "\"occlusionTexture\"%s", lit ? "," : "");
+    }
+    if (lit) {
+        alpi_bytes_quote(text, lights[p->patch->light->form]);
+    }
+    alpi_bytes_print(text, "]}");
 }
 
 bool alpi_patcher_set_inside(alpi_gltf_patcher *p, size_t material, const alpi_gltf_inside *inside,

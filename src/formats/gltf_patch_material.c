@@ -224,7 +224,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
     alpi_bytes sets = alpi_bytes_create(p->context);
     if (p->patch->set_uvs != NULL) {
-        alpi_patcher_print_blend(p, n->uv_set, &sets);
+        alpi_patcher_print_blend(p, n->uv_set, n->occluded, n->lit, &sets);
     }
     const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
     alpi_bytes text = alpi_bytes_create(p->context);

@@ -159,10 +159,14 @@ static void sample_page(const alp_lightmap *lightmap, float *page, const float (
     memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
 
-/// Shares of the three sets of a triangle, which sum to 1.
-static void blend_weights(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
+void alpi_lightmap_shares(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
                           float weights[3])
 {
+    if (lightmap->atlas->set_uvs == NULL) {
+        weights[0] = 1.0f;
+        weights[1] = weights[2] = 0.0f;
+        return;
+    }
     if (lightmap->blend == ALP_BLEND_NORMAL) {
         alpi_blend_weights(lightmap->atlas, triangle, b1, b2, weights);
         return;
@@ -187,7 +191,7 @@ static void sample_pages(const alp_lightmap *lightmap, float *const *pages, uint
         return;
     }
     float weights[3];
-    blend_weights(lightmap, triangle, b1, b2, weights);
+    alpi_lightmap_shares(lightmap, triangle, b1, b2, weights);
     rgb[0] = rgb[1] = rgb[2] = 0.0f;
     for (int k = 0; k < 3; k++) {
         float value[3];

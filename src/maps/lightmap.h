@@ -60,6 +60,11 @@ alp_result alpi_lightmap_sampling_image(const alp_lightmap *lightmap, uint32_t p
 /// Whether the surface of a triangle has values: not those that a bake left out.
 bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle);
 
+/// How much of a look-up comes from each coordinate set; they sum to 1, and to all of the first
+/// where there is but one.
+void alpi_lightmap_shares(const alp_lightmap *lightmap, uint32_t triangle, float b1, float b2,
+                          float weights[3]);
+
 /// Bilinear look-up at a point of a triangle that the lightmap holds, blended where its charts
 /// overlap, or linear between the values
 /// at its vertices; 1 without any.

@@ -247,7 +247,7 @@ static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
             s->texels[left++] = t;
             continue;
         }
-        area += (double)p->texels->areas[t];
+        area += (double)alpi_texels_area(p->texels, t);
         p->blocks[t] = p->block_count;
         p->block_ends[*placed] = (float)area;
         p->block_texels[(*placed)++] = t;

@@ -336,7 +336,8 @@ static double light_of(const alpi_radiosity *r, uint32_t receiver)
         p->block_areas[b] * (sum_of(r->bounced[receiver].mean) + sum_of(r->skies[receiver]));
     for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
         const uint32_t t = p->block_texels[k];
-        sum += (double)p->texels->areas[t] * sum_of(r->direct[back * p->texels->count + t].mean);
+        sum += (double)alpi_texels_area(p->texels, t) *
+               sum_of(r->direct[back * p->texels->count + t].mean);
     }
     return sum;
 }
@@ -431,7 +432,7 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
                                                                  r->patches.texels->triangles[t]);
     const alpi_patches *p = &r->patches;
-    const double area = (double)p->texels->areas[t];
+    const double area = (double)alpi_texels_area(p->texels, t);
     const float *direct = r->direct[back * p->texels->count + t].mean;
     const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
     const double escaped = (double)r->lost[receiver][0], behind = (double)r->lost[receiver][1];

@@ -33,17 +33,21 @@ static int find_opposite(const alp_scene *scene, uint32_t triangle, const float 
     return -1;
 }
 
-/// Whether corner j of one triangle and corner k of another read the same place, and are lit alike.
+/// Whether corner j of one triangle and corner k of another read the same place in all sets, and
+/// are lit alike.
 static bool is_same_corner(const alp_lightmap *l, const uint32_t triangles[2], int j, int k)
 {
     const float uv_limit = 1e-3f; // texels
-    const float *p = l->atlas->corner_uvs[triangles[0]][j];
-    const float *q = l->atlas->corner_uvs[triangles[1]][k];
     const vec3 m = vec3_load(l->scene->normals[l->scene->triangles[triangles[0]][j]]);
     const vec3 n = vec3_load(l->scene->normals[l->scene->triangles[triangles[1]][k]]);
-    return fabsf(p[0] - q[0]) * (float)l->width <= uv_limit &&
-           fabsf(p[1] - q[1]) * (float)l->height <= uv_limit &&
-           (double)vec3_dot(m, n) >= ALPI_SEAM_COSINE;
+    bool same = (double)vec3_dot(m, n) >= ALPI_SEAM_COSINE;
+    for (int set = 0; set < alpi_atlas_set_count(l->atlas) && same; set++) {
+        const float *p = alpi_atlas_set_uv(l->atlas, triangles[0], set, j);
+        const float *q = alpi_atlas_set_uv(l->atlas, triangles[1], set, k);
+        same = fabsf(p[0] - q[0]) * (float)l->width <= uv_limit &&
+               fabsf(p[1] - q[1]) * (float)l->height <= uv_limit;
+    }
+    return same;
 }
 
 /// Whether a look-up goes on from one triangle to the other across edge k of the first.

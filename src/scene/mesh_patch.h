@@ -50,9 +50,8 @@ typedef struct alpi_mesh_patch {
     const float (*corner_uvs)[3][2]; // [triangle_count]
     uint32_t kept_uv_set;
     /// Coordinates of three sets, of charts that overlap, [triangle][set][corner], which a shader
-    /// blends by the normal; NULL: one set, corner_uvs.
+    /// blends by the normal of the written mesh; NULL: one set, corner_uvs.
     const float (*set_uvs)[3][3][2]; // [triangle_count]
-    bool world_frame;                // of that normal: the world, not the object
     /// [triangle_count] page of each; NULL = all on page 0. A surface whose triangles have
     /// ALPI_NONE gets no map and stays as it is.
     const uint32_t *triangle_pages;

@@ -41,6 +41,8 @@ typedef struct alpi_material {
     bool double_sided;
     alpi_texture occlusion_texture; // channel R, linear: accessibility
     float occlusion_strength;       // [0, 1]: 1 + strength (R − 1)
+    bool occlusion_blended;         // it is read in the three sets below, blended by the normal
+    uint32_t occlusion_sets[3];     // of the object's axes
     float transmission; // [0, 1]: share of light that passes through, KHR_materials_transmission
     alpi_texture transmission_texture; // channel R, linear
 } alpi_material;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a surface is made of at a point: texture coordinates, alpha, transmission, albedo, emission.
+#include "scene/blend_weights.h"
 #include "scene/lighting.h"
 #include "scene/scene.h"
 
@@ -207,10 +208,24 @@ bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1,
                             float *accessibility)
 {
     const alpi_material *material = material_of(scene, triangle);
-    float texel[4];
-    if (material == NULL || !read_texture(scene, &material->occlusion_texture,
-                                          (surface_point){triangle, b1, b2}, false, texel)) {
+    const surface_point point = {triangle, b1, b2};
+    float texel[4], value = 0.0f;
+    if (material == NULL ||
+        !read_texture(scene, &material->occlusion_texture, point, false, texel)) {
         return false;
+    }
+    if (material->occlusion_blended) {
+        float weights[3];
+        alpi_surface_weights(scene, false, triangle, b1, b2, weights);
+        for (int k = 0; k < 3; k++) {
+            alpi_texture texture = material->occlusion_texture;
+            texture.uv_set = material->occlusion_sets[k];
+            if (!read_texture(scene, &texture, point, false, texel)) {
+                return false;
+            }
+            value += weights[k] * texel[0];
+        }
+        texel[0] = value;
     }
     *accessibility = 1.0f + material->occlusion_strength * (texel[0] - 1.0f);
     return true;

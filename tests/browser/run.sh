@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# run.sh PROGRAM ALPENGLOW: lets both write a scene with its lightmap, opens that in a browser and
-# compares pixels. 77 = skipped.
+# run.sh PROGRAM ALPENGLOW BLEND: lets them write scenes with their maps, opens those in a browser
+# and compares pixels. 77 = skipped.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 for tool in node "${CHROMIUM:-chromium}"; do
@@ -29,3 +29,5 @@ cmp "$folder/command.json" "$folder/cornell.json" # the bake whose pixels are kn
 bake cornell.babylon babylon
 bake cornell.glb emissive
 node "$here/compare.mjs" "$folder"
+"$3" "$folder"
+node "$here/blend.mjs" "$folder"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // In the browser: a file through the loader that a user would take, into a picture of floats.
 import * as THREE from 'three';
+import { blendScene } from '/web/three-blend.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 async function load(kind, url) {
@@ -8,6 +9,22 @@ async function load(kind, url) {
   const scene = new THREE.Scene();
   scene.add((await new GLTFLoader().loadAsync(url)).scene);
   return scene;
+}
+
+/// White surfaces under light that makes a picture of the occlusion map alone; 'blend light' shows
+/// it as a light map. Patched, but for 'plain ao'.
+function showMap(scene, kind) {
+  const asLight = kind === 'blend light';
+  scene.traverse((object) => {
+    if (!object.isMesh) return;
+    const { aoMap, userData } = object.material;
+    object.material = new THREE.MeshLambertMaterial(asLight ? { lightMap: aoMap, lightMapIntensity: Math.PI } : { aoMap });
+    object.material.userData = userData;
+    if (asLight) object.material.userData.alpenglow_blend.maps = ['lightmap'];
+  });
+  for (const camera of scene.getObjectsByProperty('isCamera', true)) camera.removeFromParent(); // the given one is meant
+  if (!asLight) scene.add(new THREE.AmbientLight(0xffffff, Math.PI));
+  if (kind !== 'plain ao') blendScene(scene, THREE.ShaderChunk);
 }
 
 function firstCamera(scene, given) {
@@ -31,6 +48,7 @@ function flip(pixels, side) {
 window.show = async (kind, folder, file, side, given) => {
   const start = performance.now();
   const scene = await load(kind, folder + file);
+  if (/^blend|^plain/.test(kind)) showMap(scene, kind);
   const camera = firstCamera(scene, given);
   camera.aspect = 1;
   camera.updateProjectionMatrix();

@@ -11,7 +11,8 @@ const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/ja
 
 /// Opens a browser; `show(kind, file, side, camera)` gives { pixels, seconds, faults }: pixels
 /// [side][side][4] with rows from the top, seen by the file's first camera, or where it has none by
-/// `camera`: { position, target, up, fov in radians }. kind: 'three' (Object JSON), 'babylon', 'glb'.
+/// `camera`: { position, target, up, fov in radians }. kind: 'three' (Object JSON), 'babylon', 'glb';
+/// 'blend ao', 'blend light', 'plain ao': the occlusion map of a .glb alone.
 export async function openViewer() {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
@@ -24,6 +25,7 @@ export async function openViewer() {
 function place(url, folder) {
   const name = decodeURIComponent(new URL(url).pathname);
   if (name.startsWith('/scene/')) return path.join(folder, name.slice('/scene/'.length));
+  if (name.startsWith('/web/')) return path.join(here, '../..', name);
   if (name.startsWith('/packages/')) return path.join(here, 'node_modules', name.slice('/packages/'.length));
   return path.join(here, name);
 }

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Assets with overlapping charts: the three sets that were made come back from the file, where no
+// set is free as attributes of their own, and what has no place for them is refused.
+#include "quad_asset.h"
+
+#include "atlas/atlas.h"
+#include "maps/lightmap.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static alp_scene *load(alp_context *context, const char *path)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    return scene;
+}
+
+static alp_bake_options blend_options(const char *output)
+{
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.mode = ALP_ATLAS_BLEND;
+    options.atlas.size = 64;
+    options.occlusion.samples = 8;
+    options.output = output;
+    return options;
+}
+
+static alp_lightmap *bake(const alp_scene *scene, const char *output)
+{
+    const alp_bake_options options = blend_options(output);
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(scene->context, alp_bake(scene, &options, &lightmap, NULL));
+    return lightmap;
+}
+
+/// Sets first, first + 1 … of a written scene hold those of the map, to `tolerance`.
+static void check_sets(const alp_scene *written, const alp_lightmap *lightmap, uint32_t first,
+                       int count, double tolerance)
+{
+    assert_int_equal(written->triangle_count, lightmap->scene->triangle_count);
+    for (uint32_t t = 0; t < written->triangle_count; t++) {
+        for (int i = 0; i < 6 * count; i++) {
+            const int k = i / 6, corner = i % 6 / 2, axis = i % 2;
+            assert_non_null(written->uvs[first + (uint32_t)k]);
+            const uint32_t v = written->triangles[t][corner];
+            ASSERT_NEAR(written->uvs[first + (uint32_t)k][v][axis],
+                        lightmap->atlas->set_uvs[t][k][corner][axis], tolerance);
+        }
+    }
+}
+
+/// What a written scene reads of its own map is what the map gave, to half a step of eight bits.
+static void check_blend(const alp_scene *written, const alp_lightmap *lightmap)
+{
+    for (uint32_t t = 0; t < written->triangle_count; t++) {
+        float value = -1.0f, rgb[3];
+        assert_true(alpi_surface_occlusion(written, t, 0.3f, 0.5f, &value));
+        alpi_lightmap_sample(lightmap, t, 0.3f, 0.5f, rgb);
+        ASSERT_NEAR(value, rgb[0], 0.5 / 255.0 + 1e-5); // and rounding
+    }
+}
+
+static bool file_has(const char *path, const char *words)
+{
+    size_t size;
+    unsigned char *bytes = test_read_file(path, &size);
+    const size_t length = strlen(words);
+    bool found = false;
+    for (size_t i = 0; i + length <= size && !found; i++) {
+        found = memcmp(bytes + i, words, length) == 0;
+    }
+    free(bytes);
+    return found;
+}
+
+static void three_sets_come_back(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    const char *folder = quad_folder();
+    const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_lightmap *lightmap = bake(scene, once);
+    alp_scene *written = load(context, once);
+    assert_int_equal(alp_scene_get_surface(written, 0).uv_sets, 3);
+    check_sets(written, lightmap, 0, 3, 0.0);
+    assert_true(file_has(once, "\"alpenglow_blend\":{\"sets\":[\"TEXCOORD_0\",\"TEXCOORD_1\","
+                               "\"TEXCOORD_2\"],\"weights\":\"n*n\",\"frame\":\"object\","
+                               "\"maps\":[\"occlusionTexture\"]}"));
+    check_blend(written, lightmap);
+    alp_lightmap_destroy(lightmap);
+    // Once more: one set is free still.
+    lightmap = bake(written, twice);
+    alp_scene *last = load(context, twice);
+    check_sets(last, lightmap, 3, 1, 0.0);
+    assert_true(
+        file_has(twice, "\"sets\":[\"TEXCOORD_3\",\"_ALPENGLOW_UV_1\",\"_ALPENGLOW_UV_2\"]"));
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(last);
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
+    quad_list(once, twice);
+    alp_context_destroy(context);
+}
+
+static void collada_has_three_sets(void **state)
+{
+    (void)state;
+    const char *path = test_shared("scenes/collada/sphere.dae");
+    if (path == NULL) {
+        skip();
+    }
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, path);
+    const char *output = test_path(test_folder(), "sphere.dae");
+    const uint32_t first = alp_scene_get_surface(scene, 0).uv_sets;
+    alp_lightmap *lightmap = bake(scene, output);
+    alp_scene *written = load(context, output);
+    assert_int_equal(alp_scene_get_surface(written, 0).uv_sets, first + 3);
+    check_sets(written, lightmap, first, 3, 1e-6); // v is turned over: rounding
+    assert_true(file_has(output, "ALPENGLOW_2"));
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void what_has_one_set_is_refused(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_bake_options options = blend_options(test_path(test_folder(), "a.obj"));
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(alp_context_message(context), "three coordinate sets"));
+    options.output = test_path(test_folder(), "a.json");
+    options.maps = ALP_MAP_LIGHT;
+    options.lightmap_as = ALP_LIGHTMAP_AS_THREE;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(alp_context_message(context), "--atlas blend three"));
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// Sums over the surface count each place once, however many charts it is in.
+static void light_and_occlusion_keep_their_sums(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:cornell");
+    alp_bake_report reports[2];
+    for (int i = 0; i < 2; i++) {
+        alp_bake_options options = blend_options(NULL);
+        options.atlas.mode = i == 0 ? ALP_ATLAS_CHARTS : ALP_ATLAS_BLEND;
+        options.occlusion.samples = 64;
+        options.maps = ALP_MAP_AO | ALP_MAP_LIGHT;
+        options.light.samples = 64;
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, &reports[i]));
+    }
+    const alp_light_energy *charts = &reports[0].light_energy, *blend = &reports[1].light_energy;
+    assert_true(charts->known && blend->known);
+    // The lamp is flat: all of it in one chart, but for the areas of texels at its rim, in floats.
+    ASSERT_NEAR(blend->emitted, charts->emitted, 1e-4 * charts->emitted);
+    // What is lost is of rays and of texels that see in part: a hundredth at 64² and 64 rays.
+    ASSERT_NEAR(blend->absorbed + blend->escaped + blend->behind + blend->unshot, blend->emitted,
+                0.02 * blend->emitted);
+    ASSERT_NEAR(reports[1].ao_mean, reports[0].ao_mean, 0.01);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(three_sets_come_back),
+        cmocka_unit_test(collada_has_three_sets),
+        cmocka_unit_test(what_has_one_set_is_refused),
+        cmocka_unit_test(light_and_occlusion_keep_their_sums),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
