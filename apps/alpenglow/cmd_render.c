@@ -94,6 +94,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--show", OPTION_SHOW, HEMICUBE},
                    {"--hemicube", OPTION_HEMICUBE, HEMICUBE},
                    {"--size", OPTION_SIZE, TEXELS},
+                   {"--atlas", OPTION_ATLAS, LIGHTMAP},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
                    {"--bounces", OPTION_BOUNCES, LIT},
                    {"--sun", OPTION_SUN, LIT},
@@ -213,6 +214,16 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
+// Of --atlas, in its order.
+static const struct {
+    alp_atlas_mode mode;
+    alp_blend blend;
+} layouts[] = {{ALP_ATLAS_AUTO, ALP_BLEND_NORMAL},
+               {ALP_ATLAS_KEEP, ALP_BLEND_NORMAL},
+               {ALP_ATLAS_CHARTS, ALP_BLEND_NORMAL},
+               {ALP_ATLAS_BLEND, ALP_BLEND_NORMAL},
+               {ALP_ATLAS_BLEND, ALP_BLEND_AVERAGE}};
+
 /// The map that --with lightmap shows: irradiance alone, baked as bake --samples does it.
 static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
                              alp_lightmap **lightmap)
@@ -220,13 +231,16 @@ static alp_result bake_light(session *s, const command_line *a, const alp_render
     alp_bake_options bake = alp_bake_options_default();
     bake.maps = ALP_MAP_LIGHT;
     bake.atlas = o->atlas;
+    bake.atlas.mode = layouts[a->values[OPTION_ATLAS].choice].mode;
     bake.occlusion = o->occlusion;
     bake.light.lighting = o->lighting;
     bake.light.bounces = o->bounces;
     bake.light.samples = (uint32_t)a->values[OPTION_TEXEL_SAMPLES].whole;
     bake.progress = session_progress;
     bake.progress_user = s;
-    return alp_bake(s->scene, &bake, lightmap, NULL);
+    const alp_result result = alp_bake(s->scene, &bake, lightmap, NULL);
+    alp_lightmap_set_blend(*lightmap, layouts[a->values[OPTION_ATLAS].choice].blend);
+    return result;
 }
 
 static alp_result make_picture(session *s, const command_line *a, alp_render_options *o,

@@ -55,6 +55,16 @@ static const option rows[] = {
              "refused. Warns where triangles are too large for it. blend: charts that overlap "
              "and three coordinate sets, for a shader that blends them by the normal and shows no "
              "seams (docs/blend.md)."},
+    {.id = OPTION_ATLAS,
+     .commands = IN_RENDER,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--atlas",
+     .value = "auto|keep|charts|blend|average",
+     .choices = "auto|keep|charts|blend|average",
+     .initial = "auto",
+     .help = "Of --with lightmap: the map's layout, as in bake. average: the charts of blend, each "
+             "that a triangle is in counting alike, for comparison."},
     {.id = OPTION_VERTEX_ATTRIBUTE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,

@@ -387,6 +387,9 @@ ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake
                                           alp_lightmap **lightmap, alp_bake_report *report);
 
 ALP_API void alp_lightmap_destroy(alp_lightmap *lightmap); ///< NULL does nothing
+/// How alp_render reads maps of ALP_ATLAS_BLEND from now on; other maps are read as ever. NULL does
+/// nothing.
+ALP_API void alp_lightmap_set_blend(alp_lightmap *lightmap, alp_blend blend);
 ALP_API uint32_t alp_lightmap_page_count(const alp_lightmap *lightmap);
 /// A page as floats [height][width][4]: accessibility in R = G = B, coverage in A (1 where a texel
 /// is covered, 0 elsewhere; uncovered texels near a chart hold its nearest value). NULL where light

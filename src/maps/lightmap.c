@@ -138,6 +138,13 @@ alp_result alpi_lightmap_store_vectors(alp_lightmap *lightmap, const float (*val
     return fill_pages(lightmap, (const float *)values, 3, *pages);
 }
 
+void alp_lightmap_set_blend(alp_lightmap *lightmap, alp_blend blend)
+{
+    if (lightmap != NULL) {
+        lightmap->blend = blend;
+    }
+}
+
 bool alpi_lightmap_holds(const alp_lightmap *lightmap, uint32_t triangle)
 {
     return lightmap->vertex_values != NULL ||
