@@ -51,8 +51,8 @@ static alp_result make_hills(alp_context *context, uint32_t triangles, alp_scene
     return result;
 }
 
-/// Pieces of one triangle, each a mesh of its own, in a lattice of 0.1 m; a third of them are alike,
-/// the others get thinner with their number.
+/// Pieces of one triangle, each a mesh of its own, in a lattice of 0.1 m; a third of them are
+/// alike, the others get thinner with their number.
 static alp_result make_pieces(alp_context *context, uint32_t count, alp_scene **scene)
 {
     float(*positions)[3][3] = bench_allocate(count, sizeof *positions);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Writes docs/speed.md and docs/accuracy.md anew from measurements, in a quarter of an hour.
+# Writes docs/speed.md, docs/accuracy.md and the tables of docs/atlas.md anew from measurements, in
+# half an hour.
 #
 #   scripts/make_docs.sh [COMMAND [TESTS]]
 #
@@ -72,3 +73,4 @@ trap 'rm -rf "$folder"' EXIT
 speed >"$folder/speed.md"
 accuracy >"$folder/accuracy.md"
 cp "$folder"/*.md docs/
+tests/truth/atlas_table.py "$(dirname "$command")/alpenglow-bench" --document docs/atlas.md

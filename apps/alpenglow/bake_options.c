@@ -47,7 +47,8 @@ static int check_vertex_options(const option_value *values)
                    {OPTION_KEEP_PARTIAL, "--keep-partial"},
                    {OPTION_AO_BLEED, "--ao-bleed"},
                    {OPTION_MAPS_FOLDER, "--maps-dir"},
-                   {OPTION_MAPS_AS, "--maps-as"}};
+                   {OPTION_MAPS_AS, "--maps-as"},
+                   {OPTION_STITCH, "--stitch"}};
     bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
         if (values[of_maps[i].id].given) {
@@ -432,6 +433,7 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     o->output = values[OPTION_OUTPUT].text;
     o->maps_folder = values[OPTION_MAPS_FOLDER].text;
     o->overwrite = values[OPTION_FORCE].given;
+    o->stitch = values[OPTION_STITCH].choice == 1;
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;

@@ -136,12 +136,16 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
-/// How far the sides of seams are apart, of one map. @param separator before it
-static void print_seam_error(const char *separator, const char *map, const alp_seam_error *e)
+/// How far the sides of seams are apart, of one map.
+static void print_seam_error(const alp_seam_report *s, const char *map, const alp_seam_error *e)
 {
     if (isfinite(e->mean)) {
-        printf("%s%s %.2g %% of the mean, 99 %% within %.2g %%", separator, map, 100.0 * e->mean,
+        printf("; %s %.2g %% of the mean, 99 %% within %.2g %%", map, 100.0 * e->mean,
                100.0 * e->p99);
+    }
+    if (isfinite(e->mean) && s->stitched) {
+        printf(", stitched %.2g %%, within %.2g %%", 100.0 * e->stitched_mean,
+               100.0 * e->stitched_p99);
     }
 }
 
@@ -154,13 +158,13 @@ static void print_seams(const alp_bake_report *r)
     }
     printf("seams      %.4g m along %u edges", s->length, s->count);
     if ((r->maps & ALP_MAP_AO) != 0) {
-        print_seam_error("; ", "occlusion", &s->ao);
+        print_seam_error(s, "occlusion", &s->ao);
     }
     if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        print_seam_error("; ", "obscurance", &s->obscurance);
+        print_seam_error(s, "obscurance", &s->obscurance);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        print_seam_error("; ", "light", &s->light);
+        print_seam_error(s, "light", &s->light);
     }
     printf("\n");
 }

@@ -69,6 +69,7 @@ typedef enum option_id {
     OPTION_DIRECT,
     OPTION_LAYERS,
     OPTION_DENOISE,
+    OPTION_STITCH,
     OPTION_SKY,
     OPTION_SKY_TURN,
     OPTION_SKY_STRENGTH,

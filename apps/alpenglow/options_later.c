@@ -9,7 +9,6 @@
     }
 
 static const option rows[] = {
-    LATER(IN_BAKE, "--stitch", "on|off", "charts are not stitched"),
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
 };

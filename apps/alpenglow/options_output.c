@@ -108,7 +108,8 @@ static const option rows[] = {
          "Also draw there: scene.png, the scene in even light (red: normals that look to the "
          "back, orange: backs of single-sided surfaces); uv0.png and so on, each set of texture "
          "coordinates, row 0 is v = 0 (islands in colours of their own, red where triangles "
-         "overlap, orange lines outside of the unit square). DIR is made if missing."},
+         "overlap, orange lines outside of the unit square); spot-CODE.png, the worst place of a "
+         "kind of finding, ringed. DIR is made if missing."},
     {.id = OPTION_HEATMAP,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,

@@ -69,6 +69,18 @@ static const option rows[] = {
          "those whose neighbours d texels apart differ by no more than 1 - A^d; 0.5 is a draft, "
          "0.98 careful. off: none. Of light it is bounced light that is interpolated, by auto for "
          "any number."},
+    {.id = OPTION_STITCH,
+     .commands = IN_BAKE,
+     .group = GROUP_STOP,
+     .kind = KIND_CHOICE,
+     .name = "--stitch",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "on: values beside seams are moved by least squares until both sides show the same, "
+             "across charts and from one object to the next where they touch and their normals "
+             "agree. Those of noisy texels are moved first; away from seams nothing changes. off: "
+             "the steps at seams are told alone."},
     {.id = OPTION_KEEP_PARTIAL,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

@@ -177,11 +177,17 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
-static void add_seam_error(json_t *maps, const char *map, const alp_seam_error *e)
+static void add_seam_error(json_t *maps, const char *map, bool stitched, const alp_seam_error *e)
 {
-    json_object_set_new(
-        maps, map,
-        json_pack("{s:o, s:o}", "mean", json_number(e->mean), "p99", json_number(e->p99)));
+    json_t *object =
+        json_pack("{s:o, s:o}", "mean", json_number(e->mean), "p99", json_number(e->p99));
+    if (stitched) {
+        json_object_set_new(object, "stitched_mean", json_number(e->stitched_mean));
+        json_object_set_new(object, "stitched_p99", json_number(e->stitched_p99));
+        json_object_set_new(object, "change_rms", json_number(e->change_rms));
+        json_object_set_new(object, "change_max", json_number(e->change_max));
+    }
+    json_object_set_new(maps, map, object);
 }
 
 /// How far the sides of seams are apart, over the mean of each map.
@@ -189,13 +195,13 @@ static json_t *make_seams(const alp_bake_report *r)
 {
     json_t *maps = json_object();
     if ((r->maps & ALP_MAP_AO) != 0) {
-        add_seam_error(maps, "ao", &r->seams.ao);
+        add_seam_error(maps, "ao", r->seams.stitched, &r->seams.ao);
     }
     if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        add_seam_error(maps, "obscurance", &r->seams.obscurance);
+        add_seam_error(maps, "obscurance", r->seams.stitched, &r->seams.obscurance);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        add_seam_error(maps, "irradiance", &r->seams.light);
+        add_seam_error(maps, "irradiance", r->seams.stitched, &r->seams.light);
     }
     return json_pack("{s:I, s:o, s:o}", "edges", (json_int_t)r->seams.count, "length",
                      json_number(r->seams.length), "maps", maps);

@@ -47,7 +47,10 @@ typedef struct alp_atlas_options {
     double
         texels_per_metre; ///< texel density; 0 (default) = the highest at which all fits one page
     uint32_t padding;     ///< free texels between neighbouring charts, [0, 64]; default 2
-    float max_angle; ///< radians between a triangle and its chart's plane, (0, 1.2]; default π/4
+    /// Radians between a triangle and the plane that it is projected on, (0, 1.2]; default π/4.
+    /// Below 0.35 charts stay as they are projected; else those that meet where the surface is
+    /// smooth, and tiny ones, are merged and unfolded together.
+    float max_angle;
     alp_progress_fn *progress;
     void *progress_user;
     /// Side of the blocks of a texture compression, [1, 64]; default 1: none. No block of
@@ -70,16 +73,21 @@ typedef struct alp_atlas_options {
 } alp_atlas_options;
 ALP_API alp_atlas_options alp_atlas_options_default(void);
 
-/// Makes an atlas: adjacency by position → clusters grown breadth-first while the normal stays
-/// within max_angle of the cluster's plane → planar projection, turned to its tightest box → packed
-/// pages. Charts are packed by their shapes, turned by quarters and never mirrored, into holes too.
-/// The same scene and options give the same atlas on any number of workers.
+/// Makes an atlas: adjacency by position → clusters whose normals stay within max_angle of their
+/// plane, with short outlines that lie in creases → planar projection → clusters that meet are
+/// unfolded together, as rigid as possible, where no triangle flips or lies over another, none has
+/// an L2 stretch above 1.75 (Sander et al. 2001, each chart having the area of its triangles) and
+/// their box does not grow → turned to the tightest box → packed pages. Charts are packed by their
+/// shapes, turned by quarters and never mirrored, into holes too. The same scene and options give
+/// the same atlas on any number of workers.
 /// @param scene must outlive the atlas
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
 ///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
 ///         4096 pages); OUT_OF_MEMORY; CANCELLED
 /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
-/// 2007.
+/// 2007; M. Garland, A. Willmott, P. S. Heckbert. Hierarchical Face Clustering on Polygonal
+/// Surfaces. I3D, 2001; L. Liu, L. Zhang, Y. Xu, C. Gotsman, S. J. Gortler. A Local/Global Approach
+/// to Mesh Parameterization. SGP, 2008.
 ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
                                                   const alp_atlas_options *options,
                                                   alp_atlas **atlas);

@@ -241,6 +241,11 @@ typedef struct alp_bake_options {
     /// nodes of a mesh share one map; the distance limit is in metres of the one that is baked.
     /// Automatic distance: one fifth of the diagonal of the object's own box. Excludes `occluders`.
     bool ao_self;
+    /// Values beside seams are moved, by least squares, so that what both sides show agrees: not
+    /// far beyond their standard error, unless the seam itself shows that they are wrong; all
+    /// others keep their bits. Every map; layers still add up. Default true. ALP_ATLAS_VERTEX: not
+    /// read. Based on: M. Iwanicki. Lighting Technology of The Last of Us. SIGGRAPH 2013 talks.
+    bool stitch;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Which surfaces get a map, by name: NULL (default) = all; else patterns with commas between.
     /// A surface is named like its node (like the mesh of a node without a name, "node N" without
@@ -285,8 +290,12 @@ typedef struct alp_light_energy {
 /// How far apart the values are that a map shows on the two sides of its seams: |difference| of
 /// bilinear look-ups, of colours the mean of the channels, over the area-weighted mean of the map.
 typedef struct alp_seam_error {
-    double mean; ///< along all seams; NaN where the map is black
-    double p99;  ///< that 99 % of their length do not exceed
+    double mean;                        ///< along all seams; NaN where the map is black
+    double p99;                         ///< that 99 % of their length do not exceed
+    double stitched_mean, stitched_p99; ///< the same after alp_bake_options.stitch
+    /// How far that moved texels beside seams, root mean square and largest: over their standard
+    /// errors, of which less than 0.2 % of the map's mean counts as that.
+    double change_rms, change_max;
 } alp_seam_error;
 
 /// Seams: where a surface goes on across edges of triangles, whole or in part, in one object or
@@ -294,8 +303,9 @@ typedef struct alp_seam_error {
 /// more than 3°, light steps by itself, and nothing is a seam. Edges meet within a tenth of a
 /// texel.
 typedef struct alp_seam_report {
-    uint32_t count;                       ///< pairs of edges of triangles; 0 with ALP_ATLAS_VERTEX
-    double length;                        ///< metres
+    uint32_t count; ///< pairs of edges of triangles; 0 with ALP_ATLAS_VERTEX
+    double length;  ///< metres
+    bool stitched;  ///< as alp_bake_options.stitch asked; else what tells of it is 0
     alp_seam_error ao, obscurance, light; ///< of those that were asked for
 } alp_seam_report;
 

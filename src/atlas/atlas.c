@@ -3,6 +3,7 @@
 #include "atlas/blend.h"
 #include "atlas/choice.h"
 #include "atlas/factors.h"
+#include "atlas/repeats.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -139,18 +140,53 @@ static void place_unusable(alp_atlas *atlas)
     }
 }
 
+/// Clusters and charts of what is usable in `view`.
+static alp_result chart_view(alp_atlas *atlas, const alp_scene *view,
+                             const uint32_t (*neighbours)[3], alpi_atlas_clock *clock,
+                             alpi_charts *charts)
+{
+    alpi_clusters clusters;
+    ALP_TRY(alpi_clusters_create(view, neighbours, atlas->options.max_angle, clock, &clusters));
+    const alp_scene *scene = atlas->scene;
+    atlas->scene = view;
+    alp_result result = alpi_charts_create(atlas, neighbours, &clusters, charts);
+    result = result == ALP_OK ? alpi_charts_merge(atlas, neighbours, charts) : result;
+    atlas->scene = scene;
+    alpi_clusters_destroy(atlas->context, &clusters);
+    return result;
+}
+
+/// Charts of all: those of meshes that are repeated are made once and copied.
+static alp_result chart_all(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                            alpi_atlas_clock *clock, alpi_charts *charts)
+{
+    alpi_repeats repeats;
+    ALP_TRY(alpi_repeats_create(atlas->scene, &repeats));
+    alp_result result;
+    if (repeats.count == 0) {
+        result = chart_view(atlas, atlas->scene, neighbours, clock, charts);
+    } else {
+        alp_scene view;
+        result = alpi_repeats_view(atlas->scene, &repeats, &view);
+        result = result == ALP_OK ? chart_view(atlas, &view, neighbours, clock, charts) : result;
+        alpi_release(atlas->context, view.triangle_usable);
+        result = result == ALP_OK ? alpi_repeats_copy(atlas, &repeats, charts) : result;
+    }
+    alpi_repeats_destroy(atlas->context, &repeats);
+    return result;
+}
+
 static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                               alpi_atlas_clock *clock)
 {
-    alpi_clusters clusters;
-    ALP_TRY(
-        alpi_clusters_create(atlas->scene, neighbours, atlas->options.max_angle, clock, &clusters));
-    alpi_charts charts;
-    alp_result result = alpi_charts_create(atlas, neighbours, &clusters, &charts);
-    alpi_clusters_destroy(atlas->context, &clusters);
+    alpi_charts charts = {0};
+    alp_result result = chart_all(atlas, neighbours, clock, &charts);
     if (result == ALP_OK) {
         alpi_factors_apply(atlas, &charts);
         result = alpi_layout(atlas, &charts, clock);
+    }
+    if (result == ALP_OK) {
+        alpi_widen_slivers(atlas);
     }
     atlas->info.mode = ALP_ATLAS_CHARTS;
     atlas->info.charts = charts.count;

@@ -143,9 +143,7 @@ static alp_result group_triangles(alp_atlas *atlas, const alpi_clusters *cluster
     return ALP_OK;
 }
 
-/// Turns all charts to their tightest boxes, at the size that they have in the world.
-static alp_result turn_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
-                              alpi_charts *charts)
+alp_result alpi_charts_turn(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts)
 {
     turner turn = {.context = atlas->context};
     alp_result result = ALP_OK;
@@ -168,9 +166,7 @@ alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     for (uint32_t c = 0; c < charts->count; c++) {
         project_chart(atlas, &charts->charts[c], charts->triangles, clusters->planes[c]);
     }
-    ALP_TRY(turn_charts(atlas, neighbours, charts));
-    ALP_TRY(alpi_charts_merge(atlas, neighbours, charts));
-    return turn_charts(atlas, neighbours, charts);
+    return alpi_charts_turn(atlas, neighbours, charts);
 }
 
 void alpi_charts_destroy(alp_context *context, alpi_charts *charts)

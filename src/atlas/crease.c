@@ -16,9 +16,22 @@ bool alpi_share_node(const alp_scene *scene, uint32_t a, uint32_t b)
     return first->node == second->node && first->instance == second->instance;
 }
 
-int alpi_edge_back(const uint32_t (*neighbours)[3], uint32_t triangle, uint32_t across)
+int alpi_edge_back(const alp_scene *scene, const uint32_t (*neighbours)[3], uint32_t triangle,
+                   int k)
 {
-    return neighbours[across][0] == triangle ? 0 : neighbours[across][1] == triangle ? 1 : 2;
+    const uint32_t across = neighbours[triangle][k];
+    int back = 0;
+    for (int j = 0; j < 3; j++) {
+        const float *end = scene->positions[scene->triangles[across][(j + 1) % 3]];
+        const float *begin = scene->positions[scene->triangles[triangle][k]];
+        if (neighbours[across][j] == triangle) {
+            back = j;
+            if (end[0] == begin[0] && end[1] == begin[1] && end[2] == begin[2]) {
+                break;
+            }
+        }
+    }
+    return back;
 }
 
 static float angle_of(float cosine)
@@ -36,7 +49,7 @@ static vec3 normal_of(const alp_scene *scene, uint32_t triangle)
 float alpi_crease(const alp_scene *scene, const uint32_t (*neighbours)[3], uint32_t triangle, int k)
 {
     const uint32_t across = neighbours[triangle][k];
-    const int back = alpi_edge_back(neighbours, triangle, across);
+    const int back = alpi_edge_back(scene, neighbours, triangle, k);
     const float fold = angle_of(vec3_dot(normal_of(scene, triangle), normal_of(scene, across)));
     float step = 0.0f;
     for (int end = 0; end < 2; end++) {

@@ -2,6 +2,7 @@
 // How many texels a metre gets and where each chart goes: the highest density at which all charts
 // fit one page, or a given density and as many pages as that takes.
 #include "atlas/frame.h"
+#include "atlas/pack.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -11,12 +12,19 @@
 #include <string.h>
 
 enum {
-    PACKING_LIMIT = 20, // of the search for the density
+    PACKING_LIMIT = 20,    // of the search for the density
+    SEARCHED_CHARTS = 512, // more of them fill their page in any order
+    STALE_ROUNDS = 24,     // of other orders without a better one
+    MOST_ROUNDS = 64,      // in all; fewer on large pages and with many charts:
+    ROUND_CHARTS = 128,    // this many halve them
     CHARTS_PER_RANGE = 64
 };
 
 // Of the page, charts and gaps, at the first density that is tried.
 static const double LIKELY_UTILISATION = 0.85;
+static const double ROUND_TEXELS = 64.0 * 1024 * 1024; // of all rounds' pages
+static const double FULL_PAGE = 0.85;     // of its texels in charts: gaps are most of the rest
+static const double DENSITY_STEP = 1.004; // by which other orders must be better
 
 typedef struct layout {
     alp_atlas *atlas;
@@ -180,6 +188,56 @@ static alp_result search_density(layout *l, double *density)
     return ALP_OK;
 }
 
+/// Rounds of other orders until all fits, or it does not get better.
+static alp_result search_orders(layout *l, alpi_pack_search *search, uint32_t *rounds, bool *fits)
+{
+    const alpi_pack_variant *best = &search->variants[ALPI_PACK_VARIANTS];
+    uint64_t least = UINT64_MAX;
+    for (uint32_t stale = 0; *rounds > 0 && stale < STALE_ROUNDS && !*fits; --*rounds) {
+        ALP_TRY(alpi_atlas_tick(l->clock, "packing", PACKING_LIMIT - 1, PACKING_LIMIT));
+        ALP_TRY(alpi_pack_search_round(search, l->items, least == UINT64_MAX, fits));
+        stale = best->left_texels < least ? 0 : stale + 1;
+        least = best->left_texels;
+    }
+    return ALP_OK;
+}
+
+static alp_result raise_density(layout *l, alpi_pack_search *search, double *density)
+{
+    const extent all = measure_charts(l);
+    const double most = most_density(l, &all), size = l->rules.size;
+    uint32_t rounds = (uint32_t)fmin(MOST_ROUNDS, ROUND_TEXELS / (size * size));
+    rounds = rounds * ROUND_CHARTS / (ROUND_CHARTS + l->charts->count);
+    rounds = all.area * *density * *density > FULL_PAGE * size * size ? 0 : rounds;
+    while (rounds > 0 && *density * DENSITY_STEP <= most) {
+        bool large, fits = false;
+        ALP_TRY(make_items(l, *density * DENSITY_STEP, &large));
+        if (!large) {
+            ALP_TRY(search_orders(l, search, &rounds, &fits));
+        }
+        if (!fits) {
+            break;
+        }
+        *density *= DENSITY_STEP;
+        memcpy(l->best, l->items, l->charts->count * sizeof *l->best);
+    }
+    return ALP_OK;
+}
+
+/// Denser yet by other orders, where charts are so few that the order decides.
+static alp_result improve_density(layout *l, double *density)
+{
+    if (l->charts->count < 2 || l->charts->count > SEARCHED_CHARTS) {
+        return ALP_OK;
+    }
+    alpi_pack_search search;
+    alp_result result =
+        alpi_pack_search_create(l->atlas->context, &l->rules, l->best, l->charts->count, &search);
+    result = result == ALP_OK ? raise_density(l, &search, density) : result;
+    alpi_pack_search_destroy(&search);
+    return result;
+}
+
 // --- placing -------------------------------------------------------------------------------------
 
 /// Metres → page coordinates.
@@ -238,6 +296,7 @@ static alp_result fill_page(layout *l)
     double density;
     ALP_TRY(search_density(l, &density));
     if (density > 0.0) {
+        ALP_TRY(improve_density(l, &density));
         memcpy(l->items, l->best, l->charts->count * sizeof *l->items);
         l->atlas->info.pages = 1;
         place_all(l, density);

@@ -19,6 +19,8 @@ static const double TINY_TEXELS = 100.0, TINY_WIDTH = 4.0;
 // leaves room that others cannot use. And a chart of more than LARGE of the scene fills at least
 // LARGE_FILL of its box: few large discs fill a page badly.
 static const double BOX_GROWTH = 1.2, LARGE = 0.125, LARGE_FILL = 0.8;
+// Who wants charts to be flatter than this gets them as they are projected.
+static const float LEAST_ANGLE = 0.35f; // radians
 // Share of a page that charts fill, about: to know how many texels a metre there will be.
 static const double FILL = 0.7;
 // What is unwrapped at once is bounded, and so is how often a triangle is: the whole is linear.
@@ -87,6 +89,7 @@ static alp_result collect_pairs(merger *m)
     const alp_scene *scene = m->atlas->scene;
     const uint32_t *charts = m->atlas->triangle_charts;
     size_t count = 0;
+    ALP_TRY(alpi_grow(scene->context, (void **)&m->pairs, &m->pair_capacity, 1, sizeof *m->pairs));
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         for (int k = 0; k < 3 && charts[t] != ALPI_NONE; k++) {
             const uint32_t across = m->neighbours[t][k];
@@ -378,6 +381,9 @@ static alp_result close_ranks(merger *m)
 
 alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts)
 {
+    if (atlas->options.max_angle < LEAST_ANGLE) {
+        return ALP_OK;
+    }
     merger m = {.atlas = atlas, .neighbours = neighbours, .charts = charts};
     alp_result result = begin(&m);
     result = result == ALP_OK ? run_rounds(&m) : result;
@@ -387,5 +393,5 @@ alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3], 
     alpi_release(atlas->context, m.pairs);
     alpi_release(atlas->context, m.attempts);
     alpi_release(atlas->context, m.failed);
-    return result;
+    return result == ALP_OK ? alpi_charts_turn(atlas, neighbours, charts) : result;
 }

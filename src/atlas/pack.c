@@ -29,7 +29,8 @@ typedef struct packer {
     alpi_pack_page *pages;
     size_t page_capacity;
     uint32_t page_count;
-    bool quiet; // no message when the pages are full
+    bool quiet;     // no message when the pages are full
+    bool by_middle; // see alpi_pack_variant
     alpi_shapes shapes;
     hint hints[CLASSES][CLASSES];
 } packer;
@@ -40,17 +41,18 @@ typedef struct place {
 } place;
 
 typedef struct order_entry {
-    uint32_t longer, shorter, item;
+    uint64_t area; // of the box: a slender or hollow shape takes much room with it
+    uint32_t longer, item;
 } order_entry;
 
 static int compare_entries(const void *a, const void *b)
 {
     const order_entry *p = a, *q = b;
+    if (p->area != q->area) {
+        return p->area > q->area ? -1 : 1;
+    }
     if (p->longer != q->longer) {
         return p->longer > q->longer ? -1 : 1;
-    }
-    if (p->shorter != q->shorter) {
-        return p->shorter > q->shorter ? -1 : 1;
     }
     return p->item < q->item ? -1 : 1;
 }
@@ -64,13 +66,20 @@ static uint32_t class_of_side(uint32_t side)
     return EXACT_SIDES + 4 * (octave - 4) + (side >> (octave - 2) & 3u);
 }
 
-/// Whether the upper side ends lower, or as low and the middle lies further left: what it leaves
-/// free is on the right, where the next goes.
+/// How far the middle of what is placed lies up (axis 1) or to the right (0), times its texels.
+static uint64_t middle(const packer *p, const place *at, int axis)
+{
+    const uint64_t corner = axis == 0 ? at->x : at->y;
+    return 2 * corner * p->shapes.texels + p->shapes.turned[at->turns].moment[axis];
+}
+
+/// Whether the upper side (or the middle) lies lower, or as low and the middle further left: what
+/// is left free is on the right, where the next goes.
 static bool is_better(const packer *p, const place *a, const place *b)
 {
-    return a->top < b->top || (a->top == b->top &&
-                               2 * a->x * p->shapes.texels + p->shapes.turned[a->turns].moment <
-                                   2 * b->x * p->shapes.texels + p->shapes.turned[b->turns].moment);
+    const uint64_t low = p->by_middle ? middle(p, a, 1) : a->top;
+    const uint64_t other = p->by_middle ? middle(p, b, 1) : b->top;
+    return low < other || (low == other && middle(p, a, 0) < middle(p, b, 0));
 }
 
 /// The place whose upper side ends lowest, of equal ones the leftmost middle, from row `from` on.
@@ -82,7 +91,7 @@ static place find_place(const packer *p, const alpi_pack_page *on, uint32_t from
         if (!p->shapes.differs[turns] || shape->width > on->size || shape->height > on->size) {
             continue;
         }
-        const uint32_t end = best.found ? best.top : on->size;
+        const uint32_t end = best.found && !p->by_middle ? best.top : on->size;
         for (uint32_t y = from, x; y + shape->height <= end; y++) {
             if (alpi_pack_page_find(on, shape, y, &x)) {
                 const place at = {x, y, y + shape->height, turns, true};
@@ -138,7 +147,26 @@ static alp_result place_item(packer *p, alpi_pack_item *item)
     return ALP_OK;
 }
 
-static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, order_entry *order)
+alp_result alpi_pack_order(alp_context *context, const alpi_pack_item *items, uint32_t count,
+                           uint32_t *order)
+{
+    order_entry *entries = ALPI_NEW(context, order_entry, count);
+    if (entries == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t w = items[i].width, h = items[i].height;
+        entries[i] = (order_entry){(uint64_t)w * h, w > h ? w : h, i};
+    }
+    qsort(entries, count, sizeof *entries, compare_entries);
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] = entries[i].item;
+    }
+    alpi_release(context, entries);
+    return ALP_OK;
+}
+
+static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, uint32_t *order)
 {
     const uint32_t size = p->rules->size;
     for (uint32_t i = 0; i < count; i++) {
@@ -148,26 +176,53 @@ static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, or
                              "a chart of %u x %u texels does not fit a page of %u texels", w, h,
                              size);
         }
-        order[i] = (order_entry){w > h ? w : h, w > h ? h : w, i};
     }
-    qsort(order, count, sizeof *order, compare_entries);
+    ALP_TRY(alpi_pack_order(p->context, items, count, order));
     for (uint32_t i = 0; i < count; i++) {
-        ALP_TRY(place_item(p, &items[order[i].item]));
+        ALP_TRY(place_item(p, &items[order[i]]));
     }
     return ALP_OK;
+}
+
+static void packer_destroy(packer *p)
+{
+    for (uint32_t i = 0; i < p->page_count; i++) {
+        alpi_pack_page_destroy(p->context, &p->pages[i]);
+    }
+    alpi_release(p->context, p->pages);
+    alpi_shapes_destroy(&p->shapes);
 }
 
 static alp_result pack(packer *p, alpi_pack_item *items, uint32_t count)
 {
     p->shapes.context = p->context;
-    order_entry *order = ALPI_NEW(p->context, order_entry, count);
+    uint32_t *order = ALPI_NEW(p->context, uint32_t, count);
     alp_result result = order == NULL ? ALP_ERROR_OUT_OF_MEMORY : place_all(p, items, count, order);
-    for (uint32_t i = 0; i < p->page_count; i++) {
-        alpi_pack_page_destroy(p->context, &p->pages[i]);
-    }
-    alpi_release(p->context, p->pages);
     alpi_release(p->context, order);
-    alpi_shapes_destroy(&p->shapes);
+    packer_destroy(p);
+    return result;
+}
+
+alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules,
+                              alpi_pack_variant *variant, uint32_t count)
+{
+    packer p = {.context = context,
+                .rules = rules,
+                .page_limit = 1,
+                .quiet = true,
+                .by_middle = variant->by_middle,
+                .shapes.context = context};
+    alp_result result = ALP_OK;
+    for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
+        const uint32_t item = variant->order[i];
+        result = place_item(&p, &variant->items[item]);
+        if (result == ALP_ERROR_LIMIT) {
+            variant->left[item] = true;
+            variant->left_texels += p.shapes.texels;
+            result = ALP_OK;
+        }
+    }
+    packer_destroy(&p);
     return result;
 }
 

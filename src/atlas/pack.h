@@ -13,7 +13,7 @@ typedef struct alpi_run {
 /// What an item covers when it is turned in one of the four ways.
 typedef struct alpi_shape {
     uint32_t width, height;
-    uint64_t moment; // twice the sum of its texels' middles, x
+    uint64_t moment[2]; // twice the sums of its texels' middles, x and y
     uint32_t run_count;
     size_t capacity;
     alpi_run *runs; // [run_count] those first that are most likely to hit something
@@ -49,5 +49,43 @@ bool alpi_pack_page_find(const alpi_pack_page *page, const alpi_shape *shape, ui
 /// Blocks what no other chart may cover once the shape is at (x, y).
 void alpi_pack_page_take(alpi_pack_page *page, const alpi_shape *shape, uint32_t x, uint32_t y,
                          const alpi_pack_rules *rules);
+
+// --- other orders --------------------------------------------------------------------------------
+
+enum { ALPI_PACK_VARIANTS = 8 }; // of a round; not by workers: the same for any number of them
+
+/// A packing of one page in an order of its own.
+typedef struct alpi_pack_variant {
+    uint32_t *order;       // [count] items, in turn
+    alpi_pack_item *items; // [count]
+    bool *left;            // [count] by item: found no room
+    uint64_t left_texels;  // of those
+    bool by_middle;        // to where the middle comes lowest, not the upper side
+} alpi_pack_variant;
+
+typedef struct alpi_pack_search {
+    alp_context *context;
+    const alpi_pack_rules *rules;
+    const alpi_pack_item *items;
+    uint32_t count, round;
+    alpi_pack_variant variants[ALPI_PACK_VARIANTS + 1]; // the last is the best known
+} alpi_pack_search;
+
+/// The order in which items are packed without a search: the largest boxes first.
+alp_result alpi_pack_order(alp_context *context, const alpi_pack_item *items, uint32_t count,
+                           uint32_t *order);
+/// Packs one page in the variant's order, and marks what finds no room.
+alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules,
+                              alpi_pack_variant *variant, uint32_t count);
+/// On failure the caller destroys what was made.
+alp_result alpi_pack_search_create(alp_context *context, const alpi_pack_rules *rules,
+                                   const alpi_pack_item *items, uint32_t count,
+                                   alpi_pack_search *search);
+void alpi_pack_search_destroy(alpi_pack_search *search);
+/// Tries changes of the best order known, on all workers.
+/// @param first the items are of another density than in the round before
+/// @param items in: none larger than a page; out, where they fit: their places
+alp_result alpi_pack_search_round(alpi_pack_search *search, alpi_pack_item *items, bool first,
+                                  bool *fits);
 
 #endif

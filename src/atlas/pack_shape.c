@@ -76,14 +76,14 @@ static alp_result turn_quarter(alpi_shapes *s, const alpi_shape *from, alpi_shap
     return read_runs(s, s->bits, to);
 }
 
-static uint64_t moment_of(const alpi_shape *shape)
+static void measure_moments(alpi_shape *shape)
 {
-    uint64_t moment = 0;
+    shape->moment[0] = shape->moment[1] = 0;
     for (uint32_t i = 0; i < shape->run_count; i++) {
         const uint64_t begin = shape->runs[i].begin, end = shape->runs[i].end;
-        moment += (end - begin) * (end + begin);
+        shape->moment[0] += (end - begin) * (end + begin);
+        shape->moment[1] += (end - begin) * (2 * (uint64_t)shape->runs[i].row + 1);
     }
-    return moment;
 }
 
 /// By two quarters: the stretches in the opposite order.
@@ -152,7 +152,7 @@ alp_result alpi_shapes_make(alpi_shapes *s, const alpi_pack_item *item)
     s->differs[2] = !looks_like(&turned[2], &turned[0]);
     s->differs[3] = !looks_like(&turned[3], &turned[1]) && !looks_like(&turned[3], &turned[0]);
     for (int i = 0; i < 4; i++) {
-        turned[i].moment = moment_of(&turned[i]);
+        measure_moments(&turned[i]);
         ALP_TRY(order_runs(s, &turned[i]));
     }
     return ALP_OK;

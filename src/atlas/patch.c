@@ -37,7 +37,8 @@ static void number_vertices(alpi_patch *patch, const alpi_patch_source *source, 
             const bool inside = j < patch->count && source->triangles[j] == across;
             patch->open[i] = patch->open[i] || !inside;
             if (inside && j > i) {
-                const uint32_t back = (uint32_t)alpi_edge_back(source->neighbours, t, across);
+                const uint32_t back =
+                    (uint32_t)alpi_edge_back(source->scene, source->neighbours, t, (int)k);
                 join(parent, 3 * i + k, 3 * j + (back + 1) % 3);
                 join(parent, 3 * i + (k + 1) % 3, 3 * j + back);
             }

@@ -21,8 +21,9 @@ void alpi_regions_destroy(alp_context *context, alpi_regions *regions);
 
 /// Whether one node shows both triangles, in one instance of its mesh.
 bool alpi_share_node(const alp_scene *scene, uint32_t a, uint32_t b);
-/// The edge of `across` that `triangle` lies beyond.
-int alpi_edge_back(const uint32_t (*neighbours)[3], uint32_t triangle, uint32_t across);
+/// The edge of the triangle across edge k that is this one. Two triangles may have two in common.
+int alpi_edge_back(const alp_scene *scene, const uint32_t (*neighbours)[3], uint32_t triangle,
+                   int k);
 /// How sharply the light steps across edge k of a triangle that has a neighbour there: the angle
 /// between the shading normals on its two sides, or the fold of the surface where that is more than
 /// normals of a round surface hide. Radians, 0 on a smooth surface.

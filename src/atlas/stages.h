@@ -51,12 +51,15 @@ typedef struct alpi_charts {
     uint32_t *triangles; // [usable triangles] grouped by chart
 } alpi_charts;
 
-/// Projects every cluster on its plane, merges those that unwrap well together, turns each to its
-/// tightest box and writes corner_uvs (metres) and triangle_charts. A chart has the area of its
-/// triangles in the world. On failure the caller destroys what was made.
+/// Projects every cluster on its plane, turns it to its tightest box and writes corner_uvs (metres)
+/// and triangle_charts. A chart has the area of its triangles in the world. On failure the caller
+/// destroys what was made.
 alp_result alpi_charts_create(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                               const alpi_clusters *clusters, alpi_charts *charts);
-/// Merges charts that meet, where both have one good unwrapping; corner_uvs are in metres already.
+/// Gives all charts the area of their triangles and turns them to their tightest boxes; corner_uvs
+/// are in metres already.
+alp_result alpi_charts_turn(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts);
+/// Merges charts that meet, where both have one good unwrapping, and turns them again.
 alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                              alpi_charts *charts);
 /// Cuts every chart that is larger than a page at `density` texels per metre into pieces that fit.
@@ -67,6 +70,10 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 /// Finds the density, packs, and turns corner_uvs from metres into page coordinates; sets
 /// triangle_pages and info.pages.
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
+
+/// Gives triangles that are thinner than the steps of floats on their page some steps of width, so
+/// that none is flat or flipped there.
+void alpi_widen_slivers(alp_atlas *atlas);
 
 /// Packs into one page, or says that it cannot; that is no failure and leaves no message.
 alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,

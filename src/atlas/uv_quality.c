@@ -101,8 +101,9 @@ static alp_result find_tiny(const alp_atlas *layout, alpi_uv_quality *q)
 
 // --- space between islands -----------------------------------------------------------------------
 
-/// Texels with their nearest island: found in two passes over the page, which are exact where steps
-/// count alike in all eight directions.
+/// Texels with their nearest island, as one pass over the page finds it, in steps that count alike
+/// in all eight directions. Half of the directions will do: of two islands the upper one comes down
+/// to the row of the lower one, which comes the rest of the way along it.
 /// Based on: A. Rosenfeld, J. L. Pfaltz. Distance Functions on Digital Pictures. Pattern
 /// Recognition 1, 1968.
 typedef struct nearest {
@@ -124,21 +125,18 @@ static alp_result note_texels(void *user, const alpi_band *band)
     return ALP_OK;
 }
 
-/// One of the passes: from the first row down, or from the last one up.
-static void spread_nearest(const nearest *n, bool up)
+static void spread_nearest(const nearest *n)
 {
     const int64_t width = n->width, count = width * n->height;
-    for (int64_t k = 0; k < count; k++) {
-        const int64_t i = up ? count - 1 - k : k, x = i % width, way = up ? 1 : -1;
-        const int64_t from[4] = {i + way, i + way * width - 1, i + way * width,
-                                 i + way * width + 1};
-        const bool left = x > 0, right = x + 1 < width;
-        const bool there[4] = {up ? right : left, left, true, right};
-        for (int j = 0; j < 4; j++) {
-            if (there[j] && from[j] >= 0 && from[j] < count && n->triangles[from[j]] != ALPI_NONE &&
-                (n->triangles[i] == ALPI_NONE || n->steps[from[j]] + 1 < n->steps[i])) {
-                n->triangles[i] = n->triangles[from[j]];
-                n->steps[i] = (uint16_t)(n->steps[from[j]] + 1);
+    for (int64_t i = 0; i < count; i++) {
+        const bool left = i % width > 0, right = i % width + 1 < width;
+        const int64_t from[4] = {i - 1, i - width - 1, i - width, i - width + 1};
+        const bool there[4] = {left, left, true, right};
+        for (int k = 0; k < 4; k++) {
+            if (there[k] && from[k] >= 0 && n->triangles[from[k]] != ALPI_NONE &&
+                (n->triangles[i] == ALPI_NONE || n->steps[from[k]] + 1 < n->steps[i])) {
+                n->triangles[i] = n->triangles[from[k]];
+                n->steps[i] = (uint16_t)(n->steps[from[k]] + 1);
             }
         }
     }
@@ -156,8 +154,9 @@ static void look_between(const alp_atlas *layout, const nearest *n, size_t here,
         q->free = between;
         q->near[0] = a;
         q->near[1] = b;
-        q->gap[0] = ((float)(here % n->width) + 0.5f) / (float)n->width;
-        q->gap[1] = ((float)(here / n->width) + 0.5f) / (float)n->height;
+        const size_t x = here % n->width, y = here / n->width;
+        q->gap[0] = ((float)x + 0.5f) / (float)n->width;
+        q->gap[1] = ((float)y + 0.5f) / (float)n->height;
     }
 }
 
@@ -170,8 +169,7 @@ static alp_result measure_gaps(const alp_atlas *layout, nearest *n, alpi_uv_qual
         n->triangles[i] = ALPI_NONE;
     }
     ALP_TRY(alpi_raster(layout, 0, 1, note_texels, n));
-    spread_nearest(n, false);
-    spread_nearest(n, true);
+    spread_nearest(n);
     for (size_t i = 0; i < count; i++) {
         const bool left = i % n->width > 0, right = i % n->width + 1 < n->width;
         const bool below = i + n->width < count;

@@ -20,7 +20,8 @@ alp_bake_options alp_bake_options_default(void)
                                         .samples = 256,
                                         .hemicube = 64},
                               .maps = ALP_MAP_AO,
-                              .sampling = {.accuracy = ALP_ADAPTIVE_AUTO}};
+                              .sampling = {.accuracy = ALP_ADAPTIVE_AUTO},
+                              .stitch = true};
 }
 
 static alp_result check_options(const alpi_bake_job *job)

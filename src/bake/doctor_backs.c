@@ -28,7 +28,7 @@ typedef struct survey {
     const alp_scene *scene;
     const alpi_tracer *tracer;
     alpi_area_point points[POINTS];
-    uint32_t hits[POINTS][RAYS]; // surface met from behind, or one of these
+    uint32_t hits[POINTS][RAYS]; // triangle met from behind, or one of these
 } survey;
 static const uint32_t NOTHING = ALPI_NONE, FRONT = ALPI_NONE - 1;
 
@@ -55,7 +55,7 @@ static uint32_t judge(const alp_scene *scene, const alpi_hits *hits, int lane, v
     const uint32_t surface = scene->triangle_surface[triangle];
     return vec3_dot(face, direction) > 0.0f && !alpi_surface_is_double_sided(scene, triangle) &&
                    !alpi_surface_is_pane(scene, surface)
-               ? surface
+               ? triangle
                : FRONT;
 }
 
@@ -92,8 +92,9 @@ static alp_result look_range(void *user, uint32_t begin, uint32_t end, uint32_t 
     return ALP_OK;
 }
 
-/// Adds up what was seen; of backs, `counts` has each surface's.
-static void add_up(const survey *s, uint32_t *counts, uint32_t *seen, uint32_t *backs)
+/// Adds up what was seen; of backs, `counts` has each surface's, `first` a triangle of it.
+static void add_up(const survey *s, uint32_t *counts, uint32_t *first, uint32_t *seen,
+                   uint32_t *backs)
 {
     for (uint32_t p = 0; p < POINTS; p++) {
         uint32_t own = 0;
@@ -104,7 +105,8 @@ static void add_up(const survey *s, uint32_t *counts, uint32_t *seen, uint32_t *
             const uint32_t hit = s->hits[p][i];
             *seen += hit != NOTHING;
             if (hit < FRONT) {
-                counts[hit]++;
+                const uint32_t surface = s->scene->triangle_surface[hit];
+                first[surface] = counts[surface]++ == 0 ? hit : first[surface];
                 *backs += 1;
             }
         }
@@ -115,12 +117,15 @@ static alp_result tell(alp_diagnosis *d, const survey *s)
 {
     const alp_scene *scene = d->scene;
     uint32_t *counts = ALPI_NEW(d->context, uint32_t, scene->surface_count);
-    if (counts == NULL) {
+    uint32_t *first = ALPI_NEW(d->context, uint32_t, scene->surface_count);
+    if (counts == NULL || first == NULL) {
+        alpi_release(d->context, counts);
+        alpi_release(d->context, first);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     uint32_t seen = 0, backs = 0, most = 0;
     alp_result result = ALP_OK;
-    add_up(s, counts, &seen, &backs);
+    add_up(s, counts, first, &seen, &backs);
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         most = counts[i] > counts[most] ? i : most;
     }
@@ -132,8 +137,12 @@ static alp_result tell(alp_diagnosis *d, const survey *s)
                                     "%.3g %% of what surfaces see of others are backs of "
                                     "single-sided ones, this one most of all",
                                     100.0 * share);
+        if (result == ALP_OK) {
+            alpi_diagnosis_mark_triangle(d, first[most]);
+        }
     }
     alpi_release(d->context, counts);
+    alpi_release(d->context, first);
     return result;
 }
 

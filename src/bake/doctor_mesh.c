@@ -90,6 +90,7 @@ typedef struct twins {
     size_t mask;
     uint32_t *same, *opposite; // [surface_count] triangles
     uint32_t *with;            // [surface_count] surface of the first twin
+    uint32_t *first[2];        // [surface_count] triangle: the first of the same, of the opposite
 } twins;
 
 /// Finds the triangle that was there first, or puts this one in.
@@ -122,6 +123,8 @@ static alp_result find_twins(const alp_scene *scene, twins *w)
     ALPI_TRY_NEW(scene->context, w->same, scene->surface_count);
     ALPI_TRY_NEW(scene->context, w->opposite, scene->surface_count);
     ALPI_TRY_NEW(scene->context, w->with, scene->surface_count);
+    ALPI_TRY_NEW(scene->context, w->first[0], scene->surface_count);
+    ALPI_TRY_NEW(scene->context, w->first[1], scene->surface_count);
     memset(w->table, 0xFF, size * sizeof *w->table);
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         ALP_TRY(t % 65536 == 0 ? alpi_tick(scene->context, "diagnose", t, scene->triangle_count)
@@ -137,7 +140,9 @@ static alp_result find_twins(const alp_scene *scene, twins *w)
             if (w->same[s] + w->opposite[s] == 0) {
                 w->with[s] = scene->triangle_surface[there];
             }
-            *(turned ? &w->opposite[s] : &w->same[s]) += 1;
+            uint32_t *count = turned ? &w->opposite[s] : &w->same[s];
+            w->first[turned][s] = *count == 0 ? t : w->first[turned][s];
+            *count += 1;
         }
     }
     return ALP_OK;
@@ -158,6 +163,7 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             ALP_TRY(alpi_diagnosis_add(
                 d, facts, "%u of %u triangle%s in the very place of others, of %.60s", w->same[s],
                 surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
+            alpi_diagnosis_mark_triangle(d, w->first[0][s]);
         }
         if (w->opposite[s] > 0) {
             facts.kind = ALP_FINDING_BACK_TO_BACK;
@@ -166,6 +172,7 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             ALP_TRY(alpi_diagnosis_add(
                 d, facts, "%u of %u triangle%s back to back with others, of %.60s", w->opposite[s],
                 surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
+            alpi_diagnosis_mark_triangle(d, w->first[1][s]);
         }
     }
     return ALP_OK;
@@ -182,15 +189,19 @@ static alp_result look_for_twins(alp_diagnosis *d)
     alpi_release(d->context, w.same);
     alpi_release(d->context, w.opposite);
     alpi_release(d->context, w.with);
+    alpi_release(d->context, w.first[0]);
+    alpi_release(d->context, w.first[1]);
     return result;
 }
 
 // --- normals -------------------------------------------------------------------------------------
 
 /// Share of a surface's area on which all three normals look to the back of the triangle.
-static double reversed_share(const alp_scene *scene, const alpi_surface *surface, uint32_t *count)
+/// @param largest out: of those triangles, where there are any
+static double reversed_share(const alp_scene *scene, const alpi_surface *surface, uint32_t *count,
+                             uint32_t *largest)
 {
-    double area = 0.0, reversed = 0.0;
+    double area = 0.0, reversed = 0.0, most = 0.0;
     *count = 0;
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         const uint32_t t = surface->first_triangle + i;
@@ -207,6 +218,8 @@ static double reversed_share(const alp_scene *scene, const alpi_surface *surface
         const double own = vec3_triangle_area(c[0], c[1], c[2]);
         area += own;
         reversed += back ? own : 0.0;
+        *largest = back && own > most ? t : *largest;
+        most = back ? fmax(most, own) : most;
         *count += back;
     }
     return area > 0.0 ? reversed / area : 0.0;
@@ -216,8 +229,8 @@ static alp_result look_for_reversed(alp_diagnosis *d)
 {
     for (uint32_t s = 0; s < d->scene->surface_count; s++) {
         const alpi_surface *surface = &d->scene->surfaces[s];
-        uint32_t count;
-        const double share = reversed_share(d->scene, surface, &count);
+        uint32_t count, largest = ALPI_NONE;
+        const double share = reversed_share(d->scene, surface, &count, &largest);
         if (share > REVERSED_SHARE) {
             const alpi_finding_facts facts = {ALP_FINDING_REVERSED_NORMALS, ALP_PLACE_SURFACE, s,
                                               count, share};
@@ -225,6 +238,7 @@ static alp_result look_for_reversed(alp_diagnosis *d)
                                        "the normals of %u of %u triangles, %.3g %% of the area, "
                                        "look to their backs",
                                        count, surface->triangle_count, 100.0 * share));
+            alpi_diagnosis_mark_triangle(d, largest);
         }
     }
     return ALP_OK;

@@ -72,7 +72,8 @@ static void add_hit(const sides *s, uint32_t own, const alpi_hits *hits, int lan
 }
 
 /// @param sign 1 = the front, −1 = the back
-static side look_to(const sides *s, uint32_t point, float sign)
+/// @param all  false: a side that sees the sky need not be looked at further
+static side look_to(const sides *s, uint32_t point, float sign, bool all)
 {
     const alpi_area_point *at = &s->points[point];
     vec3 c[3], t, b, directions[ALPI_PACKET];
@@ -84,7 +85,7 @@ static side look_to(const sides *s, uint32_t point, float sign)
     p = vec3_mad(p, alpi_receiver_offset(p, c), normal);
     side seen = {.around = ALPI_NONE};
     vec3_frame(normal, &t, &b);
-    for (uint32_t first = 0; first < RAYS; first += ALPI_PACKET) {
+    for (uint32_t first = 0; first < RAYS && (all || seen.open == 0); first += ALPI_PACKET) {
         alpi_rays rays;
         alpi_hits hits;
         alpi_rays_clear(&rays);
@@ -126,10 +127,11 @@ static alp_result look_range(void *user, uint32_t begin, uint32_t end, uint32_t 
     sides *s = user;
     (void)worker;
     for (uint32_t i = begin; i < end; i++) {
-        const side front = look_to(s, i, 1.0f);
+        const bool sheet = is_sheet(s->scene, s->points[i].triangle);
+        const side front = look_to(s, i, 1.0f, sheet);
         s->inside[i] = front.open == 0 && front.backs >= BACKS_INSIDE ? front.around : ALPI_NONE;
-        if (is_sheet(s->scene, s->points[i].triangle)) {
-            const side back = look_to(s, i, -1.0f);
+        if (sheet) {
+            const side back = look_to(s, i, -1.0f, true);
             s->thin[i] = are_apart(&front, &back);
         }
     }

@@ -13,7 +13,7 @@
 
 enum { POINTS = 128, DIRECT_SAMPLES = 16, PATHS = 16, STREAM_PILOT = 90 };
 // Measured on the truth table (docs/conventions.md, "Estimates").
-static const double PAGE_SHARE = 0.75; // of a page that its charts leave for texels
+static const double PAGE_SHARE = 0.9; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
 // share falls with the side of a map.

@@ -98,7 +98,8 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
 /// Stores them in the lightmap, whose states are known.
 alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 
-/// Measures the seams of the stored maps; fills the report.
+/// Measures the seams of the stored maps, and stitches these if that is asked for; fills the
+/// report.
 alp_result alpi_bake_seams(alpi_bake_job *job);
 
 /// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the

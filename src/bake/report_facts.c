@@ -109,13 +109,19 @@ static void put_energy(alpi_page *page, const alp_light_energy *e)
                      alpi_significant(e->unshot, 2).text);
 }
 
-static void put_seam_error(alpi_page *page, const char *name, const alp_seam_error *e)
+static void put_seam_error(alpi_page *page, const char *name, bool stitched,
+                           const alp_seam_error *e)
 {
-    if (isfinite(e->mean)) {
-        alpi_page_format(
-            page, "<dt>%s</dt><dd>%s of the mean; 99\u00A0%% of their length within %s</dd>\n",
-            name, alpi_percent(e->mean).text, alpi_percent(e->p99).text);
+    if (!isfinite(e->mean)) {
+        return;
     }
+    alpi_page_format(page, "<dt>%s</dt><dd>%s of the mean; 99\u00A0%% of their length within %s",
+                     name, alpi_percent(e->mean).text, alpi_percent(e->p99).text);
+    if (stitched) {
+        alpi_page_format(page, "; stitched %s and %s", alpi_percent(e->stitched_mean).text,
+                         alpi_percent(e->stitched_p99).text);
+    }
+    alpi_page_put(page, "</dd>\n");
 }
 
 /// How far the sides of seams are apart.
@@ -128,13 +134,13 @@ static void put_seams(alpi_page *page, const alp_bake_report *r)
     alpi_page_format(page, "<dt>Seams</dt><dd>%s m, along %s edges</dd>\n",
                      alpi_significant(s->length, 4).text, alpi_grouped(s->count).text);
     if (s->count > 0 && (r->maps & ALP_MAP_AO) != 0) {
-        put_seam_error(page, "Steps of occlusion at seams", &s->ao);
+        put_seam_error(page, "Steps of occlusion at seams", s->stitched, &s->ao);
     }
     if (s->count > 0 && (r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        put_seam_error(page, "Steps of obscurance at seams", &s->obscurance);
+        put_seam_error(page, "Steps of obscurance at seams", s->stitched, &s->obscurance);
     }
     if (s->count > 0 && (r->maps & ALP_MAP_LIGHT) != 0) {
-        put_seam_error(page, "Steps of irradiance at seams", &s->light);
+        put_seam_error(page, "Steps of irradiance at seams", s->stitched, &s->light);
     }
 }
 

@@ -151,6 +151,27 @@ static alp_result add_pair(void *user, const alpi_seam_pair *pair)
     return ALP_OK;
 }
 
+/// Which texels of the footprints have a value of their own.
+static alp_result find_owners(const builder *b)
+{
+    const alp_lightmap *l = b->lightmap;
+    alpi_seams *s = b->seams;
+    const size_t page_size = (size_t)l->width * l->height;
+    ALPI_TRY_NEW(s->context, s->owners, s->pixel_count);
+    for (uint32_t i = 0; i < s->pixel_count; i++) {
+        s->owners[i] = ALPI_NONE;
+    }
+    for (uint32_t t = 0; t < l->texels.count; t++) {
+        const uint16_t *pixel = l->texels.pixels[t];
+        const uint32_t place =
+            b->places[l->texels.pages[t] * page_size + (size_t)pixel[1] * l->width + pixel[0]];
+        if (place > 0 && l->states[t] != ALPI_TEXEL_OPEN) {
+            s->owners[place - 1] = t;
+        }
+    }
+    return ALP_OK;
+}
+
 static alp_result build(builder *b)
 {
     const alp_lightmap *l = b->lightmap;
@@ -164,6 +185,9 @@ static alp_result build(builder *b)
     }
     if (result == ALP_OK) {
         result = alpi_seam_pairs_visit(l->scene, &edges, add_pair, b);
+    }
+    if (result == ALP_OK) {
+        result = find_owners(b);
     }
     alpi_release(l->context, b->places);
     alpi_seam_edges_destroy(&edges);
@@ -190,6 +214,7 @@ void alpi_seams_destroy(alpi_seams *seams)
         alpi_release(seams->context, seams->texels);
         alpi_release(seams->context, seams->weights);
         alpi_release(seams->context, seams->pixels);
+        alpi_release(seams->context, seams->owners);
     }
     *seams = (alpi_seams){0};
 }
@@ -206,20 +231,18 @@ static int compare_steps(const void *a, const void *b)
     return (x->difference > y->difference) - (x->difference < y->difference);
 }
 
-/// What the sides of a sample read differs by.
-static double find_difference(const alp_lightmap *l, const alpi_seams *s, uint32_t sample,
-                              float *const *pages)
+void alpi_seams_difference(const alp_lightmap *lightmap, const alpi_seams *seams, uint32_t sample,
+                           float *const *pages, double difference[3])
 {
-    const size_t page_size = (size_t)l->width * l->height;
-    double sums[3] = {0.0, 0.0, 0.0};
-    for (uint32_t i = s->first[sample]; i < s->first[sample + 1]; i++) {
-        const size_t at = s->pixels[s->texels[i]];
+    const size_t page_size = (size_t)lightmap->width * lightmap->height;
+    difference[0] = difference[1] = difference[2] = 0.0;
+    for (uint32_t i = seams->first[sample]; i < seams->first[sample + 1]; i++) {
+        const size_t at = seams->pixels[seams->texels[i]];
         const float *value = pages[at / page_size] + 4 * (at % page_size);
         for (int k = 0; k < 3; k++) {
-            sums[k] += (double)s->weights[i] * (double)value[k];
+            difference[k] += (double)seams->weights[i] * (double)value[k];
         }
     }
-    return (fabs(sums[0]) + fabs(sums[1]) + fabs(sums[2])) / 3.0;
 }
 
 alp_result alpi_seams_measure(const alp_lightmap *lightmap, const alpi_seams *seams,
@@ -232,7 +255,9 @@ alp_result alpi_seams_measure(const alp_lightmap *lightmap, const alpi_seams *se
     }
     double sum = 0.0, length = 0.0;
     for (uint32_t i = 0; i < seams->sample_count; i++) {
-        const double difference = find_difference(lightmap, seams, i, pages);
+        double d[3];
+        alpi_seams_difference(lightmap, seams, i, pages, d);
+        const double difference = (fabs(d[0]) + fabs(d[1]) + fabs(d[2])) / 3.0;
         steps[i] = (step){(float)difference, seams->lengths[i]};
         sum += difference * (double)seams->lengths[i];
         length += (double)seams->lengths[i];

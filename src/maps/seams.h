@@ -19,7 +19,8 @@ typedef struct alpi_seams {
     uint32_t *texels; // [first[samples]] places in `pixels`
     float *weights;   // [first[samples]] of one side, less those of the other
     uint32_t pixel_count;
-    size_t *pixels; // [pixel_count] (page · height + y) · width + x: in any footprint
+    size_t *pixels;   // [pixel_count] (page · height + y) · width + x: in any footprint
+    uint32_t *owners; // [pixel_count] the covered texel of known value; ALPI_NONE: a gap's
 } alpi_seams;
 
 /// Finds the seams of a lightmap with an atlas: of meshes and between objects that touch, see
@@ -36,6 +37,10 @@ typedef struct alpi_seam_step {
 /// @param pages [page_count] of the lightmap's size
 alp_result alpi_seams_measure(const alp_lightmap *lightmap, const alpi_seams *seams,
                               float *const *pages, alpi_seam_step *error);
+
+/// What the sides of a sample read differs by, in each channel.
+void alpi_seams_difference(const alp_lightmap *lightmap, const alpi_seams *seams, uint32_t sample,
+                           float *const *pages, double difference[3]);
 
 /// Mean of a map over the surface, of channels together; texels of unknown value do not count.
 double alpi_seams_map_mean(const alp_lightmap *lightmap, float *const *pages);

@@ -2,7 +2,7 @@
 # a disk that gets full: the reason is told, what was there stays, and nothing else is left. A limit
 # on the size of files stands for the disk; the pipe keeps it from the messages
 . "$(dirname "$0")/../scenes.bash"
-quick="--size 16 --ao-samples 4 --progress off -q"
+quick="--size 12 --ao-samples 4 --progress off -q"
 room '{"pbrMetallicRoughness":{"metallicFactor":0},"emissiveFactor":[1,1,1]}' '' '' >room.gltf
 alpenglow bake room.gltf $quick -o in.glb --maps-dir in
 small() { # KiB, command

@@ -4,6 +4,8 @@
 #include "atlas_scenes.h"
 #include "page_owners.h"
 
+#include "atlas/pack.h"
+
 #include <stdlib.h>
 
 static bool covers(const alpi_pack_item *item, uint32_t x, uint32_t y)
@@ -246,6 +248,46 @@ static void gaps_are_as_small_as_they_can_be(void **state)
     alp_context_destroy(context);
 }
 
+/// Other orders never leave more than the best before, what they say to fit does, and any number of
+/// workers finds the same.
+static void other_orders_are_no_worse(void **state)
+{
+    (void)state;
+    enum { COUNT = 24, ROUNDS = 12 };
+    uint64_t left[2][ROUNDS], first[ROUNDS] = {0};
+    uint32_t fitted = 0;
+    for (int k = 0; k < 2; k++) {
+        alp_context *context = test_context(k == 0 ? 1 : 5);
+        for (uint32_t size = 40; size < 72; size += 4) {
+            const alpi_pack_rules rules = {.size = size, .padding = 1};
+            alpi_pack_item items[COUNT] = {0};
+            for (uint32_t i = 0; i < COUNT; i++) {
+                items[i].width = 2 + (uint32_t)(18.0 * keyed(77, 2 * i));
+                items[i].height = 2 + (uint32_t)(18.0 * keyed(77, 2 * i + 1));
+            }
+            alpi_pack_search search;
+            bool fits = false;
+            ASSERT_OK(context, alpi_pack_search_create(context, &rules, items, COUNT, &search));
+            for (uint32_t r = 0; r < ROUNDS && !fits; r++) {
+                ASSERT_OK(context, alpi_pack_search_round(&search, items, r == 0, &fits));
+                const uint64_t now = search.variants[ALPI_PACK_VARIANTS].left_texels;
+                assert_true(r == 0 || now <= left[k][r - 1]);
+                assert_true(k == 0 || size > 40 || now == first[r]);
+                left[k][r] = now;
+                first[r] = k == 0 && size == 40 ? now : first[r];
+                assert_int_equal(fits, now == 0);
+            }
+            if (fits) {
+                check_places(&rules, items, COUNT, 1);
+                fitted++;
+            }
+            alpi_pack_search_destroy(&search);
+        }
+        alp_context_destroy(context);
+    }
+    assert_true(fitted > 0 && fitted < 16 && fitted % 2 == 0);
+}
+
 static void pages_are_added(void **state)
 {
     (void)state;
@@ -309,6 +351,7 @@ int main(void)
         cmocka_unit_test(a_hole_is_used),
         cmocka_unit_test(earlier_pages_are_filled),
         cmocka_unit_test(gaps_are_as_small_as_they_can_be),
+        cmocka_unit_test(other_orders_are_no_worse),
         cmocka_unit_test(pages_are_added),
         cmocka_unit_test(turning_helps),
         cmocka_unit_test(sides_at_their_ends),

@@ -303,14 +303,144 @@ static void a_fan_of_many_falls_apart(void **state)
     assert_int_equal(charts_of_corners((const float(*)[3])corners, 5), 5);
 }
 
+static void sheets_on_each_other_stay_whole(void **state)
+{
+    (void)state;
+    // A square of two triangles, four times: twice as it is, twice from behind. Eight triangles
+    // share its diagonal.
+    static const float square[2][3][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                          {{1, 1, 0}, {0, 1, 0}, {0, 0, 0}}};
+    float corners[24][3];
+    for (uint32_t i = 0; i < 8; i++) {
+        for (uint32_t k = 0; k < 3; k++) {
+            memcpy(corners[3 * i + k], square[i % 2][i < 4 ? k : 2 - k], sizeof corners[0]);
+        }
+    }
+    assert_int_equal(charts_of_corners((const float(*)[3])corners, 4), 2);
+    assert_int_equal(charts_of_corners((const float(*)[3])corners, 8), 4);
+}
+
+static void loose_triangles_have_a_chart_each(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = scene_confetti(context, 300);
+    alp_atlas *atlas = charts_of_size(context, scene, 512);
+    check_atlas(atlas);
+    assert_int_equal(atlas->info.charts, scene->usable_count);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+static void slivers_keep_a_width(void **state)
+{
+    (void)state;
+    // Thinner than a float can say on the page: 1e-8 of it, and each with a neighbour.
+    float corners[60][3] = {{0}};
+    for (uint32_t i = 0; i < 10; i++) {
+        const float y = (float)i, high = 1e-7f * (float)(i + 1);
+        const float six[6][3] = {{0, y, 0},        {9, y, 0}, {4, y + high, 0},
+                                 {4, y + high, 0}, {9, y, 0}, {9, y + 0.9f, 0}};
+        memcpy(corners[6 * i], six, sizeof six);
+    }
+    charts_of_corners((const float(*)[3])corners, 20);
+}
+
+// --- meshes that repeat --------------------------------------------------------------------------
+
+enum { COPIES = 4, SIDE = 6, COPY_VERTICES = (SIDE + 1) * (SIDE + 1) };
+
+/// Places a copy: 1 turned and twice as large, 2 stretched, 3 mirrored.
+static void place_copy(uint32_t copy, const float p[3], float out[3])
+{
+    const float far = 10.0f * (float)copy;
+    out[0] = copy == 1 ? 2.0f * p[2] : copy == 3 ? -p[0] : p[0];
+    out[1] = copy == 1 ? 2.0f * p[1] : copy == 2 ? 3.0f * p[1] : p[1];
+    out[2] = far + (copy == 1 ? -2.0f * p[0] : p[2]);
+}
+
+static alp_scene *scene_of_copies(alp_context *context)
+{
+    static float positions[COPIES][COPY_VERTICES][3];
+    static uint32_t indices[COPIES][2 * SIDE * SIDE][3];
+    alp_mesh meshes[COPIES];
+    for (uint32_t c = 0; c < COPIES; c++) {
+        for (uint32_t v = 0; v < COPY_VERTICES; v++) {
+            float p[3];
+            place_at_random((double)(v / (SIDE + 1)) / SIDE, (double)(v % (SIDE + 1)) / SIDE, 1, p);
+            place_copy(c, p, positions[c][v]);
+        }
+        for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            const uint32_t at = i / SIDE * (SIDE + 1) + i % SIDE, below = at + SIDE + 1;
+            const uint32_t two[2][3] = {{at, below, below + 1}, {at, below + 1, at + 1}};
+            memcpy(indices[c][2 * i], two, sizeof two);
+            for (int k = 0; c == 3 && k < 2; k++) { // as a reader does for mirrored nodes
+                indices[c][2 * i + (uint32_t)k][1] = two[k][2];
+                indices[c][2 * i + (uint32_t)k][2] = two[k][1];
+            }
+        }
+        meshes[c] = (alp_mesh){.vertex_count = COPY_VERTICES,
+                               .positions = &positions[c][0][0],
+                               .triangle_count = 2 * SIDE * SIDE,
+                               .indices = &indices[c][0][0]};
+    }
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, COPIES, &scene));
+    for (uint32_t c = 0; c < COPIES; c++) { // four nodes that show one mesh
+        scene->surfaces[c].mesh = scene->surfaces[c].primitive = 0;
+        scene->surfaces[c].mirrored = c == 3;
+    }
+    return scene;
+}
+
+static void a_mesh_that_repeats_is_cut_alike(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = scene_of_copies(context);
+    alp_atlas *atlas = charts_of_size(context, scene, 512);
+    check_atlas(atlas);
+    const uint32_t n = 2 * SIDE * SIDE;
+    bool stretched_alike = true;
+    for (uint32_t t = 0; t < n; t++) {
+        // Twice as large, four times the texels: but for page coordinates in floats, 2⁻²⁴ of 512
+        // texels on triangles of some texels' width.
+        const double area = texel_area(atlas, t);
+        ASSERT_NEAR(texel_area(atlas, n + t), 4.0 * area, 1e-3 * area + 1e-3);
+        for (uint32_t u = 0; u < n; u++) {
+            assert_int_equal(atlas->triangle_charts[n + t] == atlas->triangle_charts[n + u],
+                             atlas->triangle_charts[t] == atlas->triangle_charts[u]);
+        }
+        for (uint32_t c = 1; c < COPIES; c++) { // each has a region of its own
+            assert_true(atlas->triangle_charts[c * n + t] != atlas->triangle_charts[t]);
+        }
+        stretched_alike =
+            stretched_alike && fabs(texel_area(atlas, 2 * n + t) - area) < 1e-3 * area;
+    }
+    assert_false(stretched_alike);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cylinder_is_unrolled),  cmocka_unit_test(a_cone_is_unrolled),
-        cmocka_unit_test(a_torus_is_cut_into_few), cmocka_unit_test(a_twisted_band_is_cut),
-        cmocka_unit_test(a_sphere_has_few),        cmocka_unit_test(a_spiral_does_not_fold),
-        cmocka_unit_test(random_sheets_hold),      cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(an_l_is_two_walls),       cmocka_unit_test(a_fan_of_many_falls_apart),
+        cmocka_unit_test(a_cylinder_is_unrolled),
+        cmocka_unit_test(a_cone_is_unrolled),
+        cmocka_unit_test(a_torus_is_cut_into_few),
+        cmocka_unit_test(a_twisted_band_is_cut),
+        cmocka_unit_test(a_sphere_has_few),
+        cmocka_unit_test(a_spiral_does_not_fold),
+        cmocka_unit_test(random_sheets_hold),
+        cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(an_l_is_two_walls),
+        cmocka_unit_test(a_fan_of_many_falls_apart),
+        cmocka_unit_test(sheets_on_each_other_stay_whole),
+        cmocka_unit_test(loose_triangles_have_a_chart_each),
+        cmocka_unit_test(slivers_keep_a_width),
+        cmocka_unit_test(a_mesh_that_repeats_is_cut_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

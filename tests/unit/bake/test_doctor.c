@@ -162,6 +162,8 @@ static void triangles_in_one_place(void **state)
             assert_string_equal(f.name, "mesh 1");
             assert_non_null(strstr(f.what, "mesh 0"));
             ASSERT_NEAR(f.value, 1.0, 0.0);
+            assert_true(f.spot.known);
+            assert_int_equal(f.spot.surface, 1);
         }
         alp_diagnosis_destroy(d);
         alp_scene_destroy(scene);

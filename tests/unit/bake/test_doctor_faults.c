@@ -260,6 +260,62 @@ static void objects_of_another_unit(void **state)
 
 // --- all -----------------------------------------------------------------------------------------
 
+/// What has hardly anything to look at.
+static void scenes_of_one_triangle(void **state)
+{
+    (void)state;
+    static const float ends[] = {1.0f, 1e-6f, 1e-18f, 1e14f, NAN, INFINITY};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        alp_context *context = test_context(1);
+        model *m = new_model();
+        put(m, 0, (vec3){0, 0, 0}, (vec3){ends[i], 0, 0}, (vec3){0, 0, -ends[i]});
+        put(m, 1, (vec3){0, 1, 0}, (vec3){0, 1, 1}, (vec3){0, 2, 0});
+        alp_scene *scene = make(context, m);
+        alp_diagnosis *d = NULL;
+        ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+        for (uint32_t k = 0; k < alp_diagnosis_finding_count(d); k++) {
+            const alp_finding f = alp_diagnosis_get_finding(d, k);
+            assert_true(f.kind == ALP_FINDING_NO_UVS || f.kind == ALP_FINDING_SIZE);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+        test_free(m);
+    }
+}
+
+/// Many pieces of a soup in one place: not each of them is held against all others.
+static void soups_take_no_square_of_time(void **state)
+{
+    (void)state;
+    enum { PIECES = 100000 };
+    alp_context *context = test_context(1);
+    float(*positions)[3] = test_calloc(3 * (size_t)PIECES, sizeof *positions);
+    uint32_t *indices = test_calloc(3 * (size_t)PIECES, sizeof *indices);
+    for (uint32_t i = 0; i < 3 * PIECES; i++) {
+        const uint32_t hash = (i / 3 * 2654435761u) >> 8; // Knuth's multiplicative hash
+        indices[i] = i;
+        positions[i][0] = (float)(hash % 256) / 256.0f + (i % 3 == 1 ? 1e-4f : 0.0f);
+        positions[i][1] = (float)(hash / 256 % 256) / 256.0f + (i % 3 == 2 ? 1e-4f : 0.0f);
+        positions[i][2] = (float)(hash / 65536) / 256.0f;
+    }
+    positions[0][0] = 1e7f; // a long edge makes the mean long, and all others lie in one cell
+    const alp_mesh mesh = {.vertex_count = 3 * PIECES,
+                           .positions = positions[0],
+                           .triangle_count = PIECES,
+                           .indices = indices,
+                           .base_color = {0.5f, 0.5f, 0.5f}};
+    alp_scene *scene = NULL;
+    alp_diagnosis *d = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d)); // 10¹⁰ looks would be minutes
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    test_free(positions);
+    test_free(indices);
+}
+
 static void any_number_of_workers_finds_the_same(void **state)
 {
     (void)state;
@@ -312,6 +368,8 @@ int main(void)
         cmocka_unit_test(rooms_are_well),
         cmocka_unit_test(sheets_between_light_and_dark),
         cmocka_unit_test(objects_of_another_unit),
+        cmocka_unit_test(scenes_of_one_triangle),
+        cmocka_unit_test(soups_take_no_square_of_time),
         cmocka_unit_test(any_number_of_workers_finds_the_same),
         cmocka_unit_test(every_allocation_may_fail),
     };

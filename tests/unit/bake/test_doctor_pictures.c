@@ -31,18 +31,19 @@ static alp_scene *make(alp_context *context, const float (*uvs)[2], const float 
 
 /// Pixels of the reds of a fault and of its orange; of whites in `white`.
 typedef struct tally {
-    uint32_t red, orange, white;
+    uint32_t red, orange, white, magenta;
 } tally;
 
 static tally count_colors(alp_image *image)
 {
     const alp_image_info info = alp_image_get_info(image);
     const uint8_t *bytes = alp_image_bytes(image);
-    tally t = {0, 0, 0};
+    tally t = {0, 0, 0, 0};
     for (size_t i = 0; i < (size_t)info.width * info.height; i++) {
         const int r = bytes[3 * i], g = bytes[3 * i + 1], b = bytes[3 * i + 2];
         t.red += r > 90 && g < r / 2 && b < r / 2 && g < 90;
         t.orange += r > 150 && g > r / 2 && g < 3 * r / 4 && b < g / 2;
+        t.magenta += r > 150 && g < r / 3 && b > r / 2;
         t.white += r == 240 && g == 240 && b == 240;
     }
     return t;
@@ -115,6 +116,49 @@ static void the_scene_shows_turned_normals(void **state)
     assert_true(red[1] > 10000); // the two squares fill some of the picture
 }
 
+/// A triangle whose normals look to its back has a picture of its own, in which it is magenta, and
+/// is ringed; a mended one has none.
+static void spots_are_shown_from_nearby(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, APART, i == 0 ? UP : DOWN);
+        alp_diagnosis *d = diagnose(context, scene);
+        assert_int_equal(alp_diagnosis_picture_count(d), 3 + i);
+        if (i == 1) {
+            assert_string_equal(alp_diagnosis_picture_name(d, 3), "spot-reversed-normals");
+            alp_image *image = draw(d, 3);
+            const tally t = count_colors(image);
+            // The ring alone has 2 π 42 · 4 = 1056 pixels; the triangle is near.
+            assert_true(t.magenta > 20000 && t.magenta < 960 * 720 / 2);
+            alp_image_destroy(image);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+/// Islands that overlap have a ring in the picture of their set.
+static void spots_of_sets_are_ringed(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, i == 0 ? APART : ACROSS, UP);
+        alp_diagnosis *d = diagnose(context, scene);
+        alp_image *image = draw(d, 2);
+        // Half of the ring's width is magenta: 2 π 42 · 4 pixels, to a pixel on both rims.
+        ASSERT_NEAR(count_colors(image).magenta, i == 0 ? 0.0 : 2.0 * 3.1416 * 42.0 * 4.0,
+                    i == 0 ? 0.0 : 2.0 * 2.0 * 3.1416 * 42.0);
+        alp_image_destroy(image);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 static void any_number_of_workers_draws_the_same(void **state)
 {
     (void)state;
@@ -183,6 +227,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_show_their_faults),
         cmocka_unit_test(the_scene_shows_turned_normals),
+        cmocka_unit_test(spots_are_shown_from_nearby),
+        cmocka_unit_test(spots_of_sets_are_ringed),
         cmocka_unit_test(any_number_of_workers_draws_the_same),
         cmocka_unit_test(what_is_not_there_is_not_drawn),
         cmocka_unit_test(every_allocation_may_fail),

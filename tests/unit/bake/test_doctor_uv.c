@@ -2,6 +2,7 @@
 // The doctor's look at UV sets: shares of closed form, and the same verdict as --atlas keep.
 #include "test_support.h"
 
+#include "base/random.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -191,6 +192,36 @@ static void space_between_islands(void **state)
     }
 }
 
+/// Rectangles of whole texels anywhere on a page: the larger of what is free along u and along v.
+static void space_between_any_islands(void **state)
+{
+    (void)state;
+    enum { PAGE = 64, PAIRS = 60 };
+    for (uint32_t i = 0, key = 1; i < PAIRS; i++) {
+        rectangles r;
+        int free = 0;
+        do {
+            for (int k = 0; k < 4; k++) { // of each axis and rectangle: low < high
+                const int one = (int)(alpi_hash32(key++) % (PAGE + 1));
+                const int other = (int)(alpi_hash32(key++) % PAGE);
+                const int high = other >= one ? other + 1 : other;
+                r.of[k / 2][k % 2] = (float)(one < high ? one : high) / PAGE;
+                r.of[k / 2][k % 2 + 2] = (float)(one < high ? high : one) / PAGE;
+            }
+            const float *a = r.of[0], *b = r.of[1];
+            const float u = fmaxf(a[0] - b[2], b[0] - a[2]), v = fmaxf(a[1] - b[3], b[1] - a[3]);
+            free = (int)(fmaxf(u, v) * PAGE);
+        } while (free <= 0);
+        alp_context *context = test_context(1);
+        alp_scene *scene = make(context, &r);
+        alp_diagnosis *d = diagnose(scene, PAGE);
+        assert_int_equal(alp_diagnosis_get_uv_set(d, 1).free_texels, free);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 /// Squares of 2 m as rectangles of the set with sides of 1 : r have √((r + 1/r) / 2).
 static void islands_that_are_stretched(void **state)
 {
@@ -301,6 +332,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_judged),
         cmocka_unit_test(space_between_islands),
+        cmocka_unit_test(space_between_any_islands),
         cmocka_unit_test(islands_that_are_stretched),
         cmocka_unit_test(islands_below_a_texel),
         cmocka_unit_test(nodes_of_one_mesh_share),
