@@ -3,7 +3,7 @@
 # triangles for other unwrappers. The hash does not change with the number of workers.
 bench=$(dirname "$(command -v alpenglow)")/alpenglow-bench
 hash_of() { sed 's/.*"hash": "\([0-9a-f]*\)".*/\1/'; }
-"$bench" measure-atlas hills:200 --size 64 | tr ',' '\n' | sed -E 's/[0-9.]+/0/; s/"[0-9a-f]{16}"/HASH/'
+"$bench" measure-atlas hills:200 --size 64 | tr ',' '\n' | sed -E 's/"[0-9a-f]{16}"/HASH/; s/[0-9.]+/0/'
 [ "$("$bench" measure-atlas hills:2000 --size 64 --threads 1 | hash_of)" = \
     "$("$bench" measure-atlas hills:2000 --size 64 --threads 3 | hash_of)" ] && echo same
 "$bench" measure-atlas pieces:100 --size 64 | grep -oE '"(charts|uncovered|flipped|overlapping)": [0-9]+'
