@@ -38,7 +38,7 @@ CASES = [
     ("alpenglow compare --", "{options of compare}"),
     ("alpenglow bake --max-r", ""),  # of another command
     ("alpenglow bake --chec", ""),  # in the contract, not built
-    ("alpenglow bake --atlas b", ""),  # a choice of the contract, not built
+    ("alpenglow bake --atlas b", "blend"),
     ("alpenglow bake --ao-falloff ", "none linear smooth exp"),
     ("alpenglow bake --ao-falloff s", "smooth"),
     ("alpenglow bake --ao-falloff=s", "smooth"),
