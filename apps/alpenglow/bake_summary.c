@@ -206,9 +206,10 @@ void bake_summary_print(const session *s, const command_line *a, const alp_light
     if (r->atlas.mode != ALP_ATLAS_VERTEX) {
         print_seams(r);
     }
-    printf("time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, write %.2f",
-           s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
-           r->seconds_bake, r->seconds_write);
+    printf(
+        "time       %.2f s: load %.2f, atlas %.2f, build %.2f, rays %.2f, seams %.2f, write %.2f",
+        s->load_seconds + r->seconds_total, s->load_seconds, r->seconds_atlas, r->seconds_build,
+        r->seconds_bake, r->seconds_seams, r->seconds_write);
     if (r->seconds_bake > 0.0 && (r->maps & ALP_MAP_LIGHT) == 0) { // paths are several rays each
         printf("; %.3g Mrays/s", 1e-6 * (double)r->rays / r->seconds_bake);
     }

@@ -126,10 +126,10 @@ static json_t *make_atlas(const alp_atlas_info *atlas)
 
 static json_t *make_seconds(const alp_bake_report *r, double load)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "load", json_number(load), "atlas",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "load", json_number(load), "atlas",
                      json_number(r->seconds_atlas), "build", json_number(r->seconds_build), "bake",
-                     json_number(r->seconds_bake), "write", json_number(r->seconds_write), "total",
-                     json_number(load + r->seconds_total));
+                     json_number(r->seconds_bake), "seams", json_number(r->seconds_seams), "write",
+                     json_number(r->seconds_write), "total", json_number(load + r->seconds_total));
 }
 
 /// Texels by how they got their value, and whether sampling came to its end.

@@ -336,7 +336,8 @@ typedef struct alp_bake_report {
     float light_changes[64];
     alp_light_energy light_energy;
     alp_seam_report seams;
-    double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_write, seconds_total;
+    double seconds_load, seconds_atlas, seconds_build, seconds_bake, seconds_seams, seconds_write;
+    double seconds_total;
     /// Rays of occlusion, plus what light took: the rays of direct light, of all passes of
     /// radiosity and of the texels that gathered; of ALP_GATHER_PATHS its paths, each of which is
     /// several rays. A ray that goes on behind a pane is not counted again.

@@ -124,7 +124,9 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(make_atlas(job));
     ALP_TRY(alpi_bake_check_outputs(job, job->report.atlas.pages));
     ALP_TRY(alpi_bake_occlusion(job));
+    const double seams_started = alpi_seconds();
     ALP_TRY(alpi_bake_seams(job));
+    job->report.seconds_seams = alpi_seconds() - seams_started;
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_pack_images(job));

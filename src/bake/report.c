@@ -242,12 +242,13 @@ static void put_passes(alpi_page *page, const alp_bake_report *r)
 static void put_stages(alpi_page *page, const alp_bake_report *r)
 {
     const double total = r->seconds_load + r->seconds_total;
-    const double told =
-        r->seconds_load + r->seconds_atlas + r->seconds_build + r->seconds_bake + r->seconds_write;
+    const double told = r->seconds_load + r->seconds_atlas + r->seconds_build + r->seconds_bake +
+                        r->seconds_seams + r->seconds_write;
     const alpi_report_stage stages[] = {
-        {"Load", r->seconds_load, "#8b93a7"},   {"Atlas", r->seconds_atlas, "#3d5a98"},
-        {"Build", r->seconds_build, "#6b3f96"}, {"Rays", r->seconds_bake, "#cd446a"},
-        {"Write", r->seconds_write, "#f69e54"}, {"Other", fmax(total - told, 0.0), "#d8d2c4"}};
+        {"Load", r->seconds_load, "#8b93a7"},         {"Atlas", r->seconds_atlas, "#3d5a98"},
+        {"Build", r->seconds_build, "#6b3f96"},       {"Rays", r->seconds_bake, "#cd446a"},
+        {"Seams", r->seconds_seams, "#e8825d"},       {"Write", r->seconds_write, "#f69e54"},
+        {"Other", fmax(total - told, 0.0), "#d8d2c4"}};
     alpi_page_put(page, "<section id=\"time\"><h2>Time</h2>\n");
     alpi_plot_stages(page, stages, sizeof stages / sizeof *stages, fmax(total, told));
     alpi_page_put(page, "</section>\n");
