@@ -171,6 +171,7 @@ static alp_result choose_attempts(merger *m)
             m->pairs[kept++] = m->pairs[i];
         }
     }
+    m->pair_count = kept; // a round after one without merges begins with these
     qsort(m->pairs, kept, sizeof *m->pairs, by_score);
     for (uint32_t c = 0; c < m->charts->count; c++) {
         m->facts[c].busy = m->facts[c].changed = false;
