@@ -171,15 +171,6 @@ static void merge(gatherer *g, uint32_t a, uint32_t b, const meeting *m)
 
 // --- rounds --------------------------------------------------------------------------------------
 
-static int by_cost(const void *left, const void *right)
-{
-    const meeting *a = left, *b = right;
-    if (a->cost != b->cost) {
-        return a->cost < b->cost ? -1 : 1;
-    }
-    return a->a != b->a ? (a->a < b->a ? -1 : 1) : (a->b > b->b) - (a->b < b->b);
-}
-
 static int by_regions(const void *left, const void *right)
 {
     const meeting *a = left, *b = right;
@@ -189,7 +180,19 @@ static int by_regions(const void *left, const void *right)
     if (a->b != b->b) {
         return a->b < b->b ? -1 : 1;
     }
-    return (a->length > b->length) - (a->length < b->length); // sums in one order
+    if (a->length != b->length) { // sums in one order
+        return a->length < b->length ? -1 : 1;
+    }
+    return (a->crease > b->crease) - (a->crease < b->crease);
+}
+
+static int by_cost(const void *left, const void *right)
+{
+    const meeting *a = left, *b = right;
+    if (a->cost != b->cost) {
+        return a->cost < b->cost ? -1 : 1;
+    }
+    return by_regions(left, right);
 }
 
 /// Meetings of what regions are now: one for each pair, none inside a region.

@@ -228,7 +228,10 @@ typedef struct step {
 static int compare_steps(const void *a, const void *b)
 {
     const step *x = a, *y = b;
-    return (x->difference > y->difference) - (x->difference < y->difference);
+    if (x->difference != y->difference) {
+        return x->difference < y->difference ? -1 : 1;
+    }
+    return (x->length > y->length) - (x->length < y->length); // sums in one order
 }
 
 void alpi_seams_difference(const alp_lightmap *lightmap, const alpi_seams *seams, uint32_t sample,
