@@ -119,10 +119,11 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--density",
      .value = "GLOB=FACTOR",
-     .help = "Surfaces with more texels per metre than others, or fewer: patterns of names as in "
-             "--only, or material:GLOB for names of materials, each with its factor in "
-             "[0.001, 1000]; several with commas between, whose factors are multiplied. Makes new "
-             "charts."},
+     .help =
+         "Surfaces with more texels per metre than others, or fewer: patterns of names as in "
+         "--only, or material:GLOB for names of materials, each with its factor in "
+         "[0.001, 1000]; several with commas between, whose factors are multiplied, the product in "
+         "the same range. Makes new charts."},
     {.id = OPTION_ONLY,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,

@@ -66,7 +66,8 @@ typedef struct alp_atlas_options {
     uint32_t mips;
     /// Factors by which surfaces have more texels per metre: "PATTERN=FACTOR" with commas between,
     /// patterns as in alp_bake_options.only, "material:PATTERN" for names of materials; where
-    /// several match, their product. Factors in [0.001, 1000]; each pattern must match something.
+    /// several match, their product. Factors and products in [0.001, 1000]; each pattern must match
+    /// something.
     /// Charts hold surfaces of one factor. NULL (default): all alike. Instances that share a map
     /// have the factor of the one that is baked.
     const char *densities;
@@ -105,7 +106,8 @@ typedef struct alp_atlas_info {
     uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
     /// L2 stretch √((Γ² + γ²) / 2) of the map from texels to the surface, Γ ≥ γ its singular
     /// values, times texels_per_metre: 1 = the mean density without shear. The mean is the root of
-    /// the mean square over the area; both leave slivers out. Based on: P. V. Sander et al. Texture
+    /// the mean square over the area; both leave slivers out. Factors of `densities` count as
+    /// stretch. Based on: P. V. Sander et al. Texture
     /// Mapping Progressive Meshes. SIGGRAPH 2001.
     double stretch_mean, stretch_worst;
     double density_spread; ///< 99th over 1st percentile, by area, of triangles' texels per metre

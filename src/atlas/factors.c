@@ -15,7 +15,8 @@
 static const char MATERIAL[] = "material:";
 enum { MATERIAL_SIZE = sizeof MATERIAL - 1, NAMED_SIZE = 200 };
 
-// What a factor may be: lengths stay finite in 32-bit floats.
+// What a factor may be, and what all of a surface multiply to: coordinates of what is least dense
+// keep their digits beside what is densest.
 static const double LEAST_FACTOR = 1e-3, LARGEST_FACTOR = 1e3;
 
 /// PATTERN=FACTOR, [text, text + size).
@@ -83,6 +84,25 @@ static alp_result apply_to_materials(const alp_scene *scene, const entry *e, flo
                              scene->name, shown(e), e->text);
 }
 
+/// Entries that match one surface are multiplied.
+static alp_result check_products(const alp_scene *scene, const char *densities,
+                                 const float *factors)
+{
+    const double rounding = 1e-5; // of 32-bit products of up to a hundred factors
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        const double factor = (double)factors[s];
+        if (!(factor >= LEAST_FACTOR * (1.0 - rounding) &&
+              factor <= LARGEST_FACTOR * (1.0 + rounding))) {
+            return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                             "%s: density \"%.*s\": the factors of \"%s\" multiply to %g, which "
+                             "must be in [%g, %g]",
+                             scene->name, NAMED_SIZE, densities, scene->surfaces[s].name, factor,
+                             LEAST_FACTOR, LARGEST_FACTOR);
+        }
+    }
+    return ALP_OK;
+}
+
 static alp_result read_densities(const alp_scene *scene, const char *densities, float *factors)
 {
     for (uint32_t s = 0; s < scene->surface_count; s++) {
@@ -97,7 +117,7 @@ static alp_result read_densities(const alp_scene *scene, const char *densities, 
                          : apply_to_surfaces(scene, &e, factors));
         at += e.size;
         if (*at == '\0') {
-            return ALP_OK;
+            return check_products(scene, densities, factors);
         }
     }
 }

@@ -7,7 +7,8 @@
 
 /// The factor of each surface by alp_atlas_options.densities.
 /// @param factors out: [surface_count], released by the caller; NULL when densities is
-/// @return ALP_OK; INVALID_ARGUMENT: an entry that says nothing or matches nothing; OUT_OF_MEMORY
+/// @return ALP_OK; INVALID_ARGUMENT: an entry that says nothing or matches nothing, factors
+///   of one surface that multiply to less or more than one factor may be; OUT_OF_MEMORY
 alp_result alpi_factors_create(const alp_scene *scene, const char *densities, float **factors);
 
 /// Triangles of surfaces with unlike factors are no neighbours, so that no chart holds both.

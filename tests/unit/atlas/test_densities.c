@@ -70,6 +70,7 @@ static void factors_are_kept(void **state)
         check_factors(context, "floor=2,la?p=.25", density, names, 2);
         check_factors(context, "material:red=3,material:g*=5e-1", density, materials, 2);
         check_factors(context, "*block=2,material:white=1.5", density, both, 5);
+        check_factors(context, "floor=1000,floor=0.002,la?p=.1,lamp=2.5", density, names, 2);
     }
     alp_context_destroy(context);
 }
@@ -113,6 +114,11 @@ static void what_is_no_density_is_refused(void **state)
         {"floor=0", "must be in [0.001, 1000]"},
         {"floor=-1", "must be in [0.001, 1000]"},
         {"floor=1e999", "must be in [0.001, 1000]"},
+        {"floor=1000,fl*=2", "\"floor\" multiply to 2000"},
+        {"material:red=0.001,red*=.5", "\"red wall\" multiply to 0.0005"},
+        {"*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*=1000,*="
+         "1000",
+         "multiply to inf"},
         {"flor=2", "the nearest names are \"floor\""},
         {"floor=2,lmap=1", "\"lamp\""},
         {"material:blue=2", "density \"material:blue=2\""},
