@@ -4,6 +4,7 @@
 #include "bake/layers.h"
 #include "bake/light.h"
 
+#include "atlas/factors.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
@@ -268,6 +269,15 @@ static void add_occlusion(const alp_bake_options *o, const pilot *p, alp_bake_wo
     }
 }
 
+static alp_result check_densities(const alpi_bake_job *job)
+{
+    float *factors = NULL;
+    const alp_result result =
+        alpi_factors_create(job->scene, job->options.atlas.densities, &factors);
+    alpi_release(job->context, factors);
+    return result;
+}
+
 static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
 {
     const alp_bake_options *o = &job->options;
@@ -277,6 +287,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     uint32_t lights;
     ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
     ALP_TRY(alpi_bake_choose(job));
+    ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
     const alp_atlas_info atlas = guess_atlas(job, &area);
     ALP_TRY(run_pilot(job, area, &p, &count));
