@@ -140,13 +140,13 @@ static void a_straight_border_moves_by_the_closed_form(void **state)
 static void texels_across_an_edge_move_further(void **state)
 {
     (void)state;
-    const test_tile tiles[3] = {{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {10.75f, 10}, {0, 50}, {30, 0}},
-                                aligned[1],
-                                {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {40.75f, 10}, {0, 50}, {30, 0}}};
+    const test_tile tiles[3] = {
+        {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {10.75f, 10}, {0, 50}, {30, 0}},
+        aligned[1],
+        {{1, 0, 0}, {0, 0, 1}, {0, -2.0f / 3, 0}, {40.75f, 10}, {0, 50}, {20, 0}}};
     alp_context *context = test_context(1);
-    alp_scene *scene = test_tiles_scene(context, tiles, 3, SIZE);
-    fixture f = {.context = context, .scene = scene};
-    f.lightmap = test_tiles_lightmap(scene, SIZE);
+    fixture f = {.context = context, .scene = test_tiles_scene(context, tiles, 3, SIZE)};
+    f.lightmap = test_tiles_lightmap(f.scene, SIZE);
     ASSERT_OK(context, alpi_seams_create(f.lightmap, &f.seams));
     assert_int_equal(f.seams.count, 1);
     f.page = test_tiles_page(f.lightmap, tiles, 3, constant, (float[]){0.25f, 0.75f, 0.5f});
