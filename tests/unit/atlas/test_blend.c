@@ -122,6 +122,11 @@ static void texels_name_triangles_of_the_scene(void **state)
     for (int round = 0; round < 2; round++) { // those at hand, and made anew
         ASSERT_OK(context, alpi_texels_create(atlas, &texels));
         assert_int_equal(texels.count, alp_atlas_get_info(atlas).texels);
+        double area = 0.0; // each place once, though it is in up to three charts
+        for (uint32_t i = 0; i < texels.count; i++) {
+            area += (double)alpi_texels_area(&texels, i);
+        }
+        ASSERT_NEAR(area, scene->area, 0.005 * scene->area); // weights are those of one point
         for (uint32_t i = 0; i < texels.count; i++) {
             assert_true(texels.triangles[i] < scene->triangle_count);
             const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[texels.faces[i]];
