@@ -316,8 +316,8 @@ static void brute_mean(const alp_atlas *atlas, const alpi_texels *texels, uint32
         }
     }
     for (int axis = 0; axis < 3; axis++) {
-        mean[axis] = sum[axis] / weights;
-        double variance = squares[axis] / weights - mean[axis] * mean[axis];
+        mean[axis] = kept > 0 ? sum[axis] / weights : 0.0; // none: the piece is too small to be met
+        double variance = kept > 0 ? squares[axis] / weights - mean[axis] * mean[axis] : 0.0;
         error[axis] = kept > 0 ? sqrt(fmax(variance, 0.0) / kept) : HUGE_VAL;
     }
 }
