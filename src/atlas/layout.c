@@ -17,6 +17,7 @@ enum {
     STALE_ROUNDS = 24,     // of other orders without a better one
     MOST_ROUNDS = 64,      // in all; fewer on large pages and with many charts:
     ROUND_CHARTS = 128,    // this many halve them
+    MANY_CHARTS = 10000,   // each packing takes long
     CHARTS_PER_RANGE = 64
 };
 
@@ -153,12 +154,14 @@ static double likely_density(const layout *l, const extent *all)
     return room > 0.0 ? (sqrt(half * half + area * room) - half) / area : 0.0;
 }
 
-/// The highest density that fits one page, to half a percent: bracketed, then bisected.
+/// The highest density that fits one page, to half a percent (with many charts, to one): bracketed,
+/// then bisected.
 /// 0 = none does, not even a texel for each chart.
 static alp_result search_density(layout *l, double *density)
 {
     const extent all = measure_charts(l);
     const double most = most_density(l, &all) * (1.0 + 1e-9);
+    const double near = l->charts->count > MANY_CHARTS ? 1.01 : 1.005;
     double low = 0.0, high = most, step = 1.06;
     double next = fmin(likely_density(l, &all), 0.97 * most);
     bool fits = false;
@@ -173,7 +176,7 @@ static alp_result search_density(layout *l, double *density)
         return ALP_OK;
     }
     next = next > 0.0 ? next : 0.5 * most;
-    while (l->packings < PACKING_LIMIT && (low == 0.0 || high > 1.005 * low)) {
+    while (l->packings < PACKING_LIMIT && (low == 0.0 || high > near * low)) {
         ALP_TRY(try_density(l, next, &fits));
         low = fits ? next : low;
         high = fits ? high : next;

@@ -14,7 +14,7 @@
 // Charts that meet at a crease stay apart: light steps there. Unless one of them is tiny: then its
 // padding is as large as it is.
 static const float CREASE = 0.6f; // radians
-static const double TINY_TEXELS = 100.0, TINY_WIDTH = 4.0;
+static const double TINY_TEXELS = 16.0, TINY_WIDTH = 2.0;
 // The box of a pair, with its padding, may be this much larger than both before: what is concave
 // leaves room that others cannot use. And a chart of more than LARGE of the scene fills at least
 // LARGE_FILL of its box: few large discs fill a page badly.

@@ -14,10 +14,13 @@
 
 enum {
     EXACT_SIDES = 16, // sides up to this are classes of their own; longer ones by quarter octaves
-    CLASSES = EXACT_SIDES + 4 * 11
+    CLASSES = EXACT_SIDES + 4 * 11,
+    PATIENCE = 1 << 22 // words of rows looked at, after which large ones have hints as well
 };
 
-/// Where the last item of about this size went: those after it look no lower.
+/// Where the last item of about this size went: those after it look no lower, the tiny from the
+/// start and all others once so many rows were looked at that there must be very many of them.
+/// What they leave open below goes to smaller ones.
 typedef struct hint {
     uint32_t page, y;
 } hint;
@@ -29,8 +32,9 @@ typedef struct packer {
     alpi_pack_page *pages;
     size_t page_capacity;
     uint32_t page_count;
-    bool quiet;     // no message when the pages are full
-    bool by_middle; // see alpi_pack_variant
+    bool quiet;          // no message when the pages are full
+    bool by_middle;      // see alpi_pack_variant
+    uint64_t rows_tried; // times a row was looked at for room
     alpi_shapes shapes;
     hint hints[CLASSES][CLASSES];
 } packer;
@@ -83,7 +87,7 @@ static bool is_better(const packer *p, const place *a, const place *b)
 }
 
 /// The place whose upper side ends lowest, of equal ones the leftmost middle, from row `from` on.
-static place find_place(const packer *p, const alpi_pack_page *on, uint32_t from)
+static place find_place(packer *p, const alpi_pack_page *on, uint32_t from)
 {
     place best = {.found = false};
     for (uint32_t turns = 0; turns < 4; turns++) {
@@ -93,6 +97,7 @@ static place find_place(const packer *p, const alpi_pack_page *on, uint32_t from
         }
         const uint32_t end = best.found && !p->by_middle ? best.top : on->size;
         for (uint32_t y = from, x; y + shape->height <= end; y++) {
+            p->rows_tried++;
             if (alpi_pack_page_find(on, shape, y, &x)) {
                 const place at = {x, y, y + shape->height, turns, true};
                 best = !best.found || is_better(p, &at, &best) ? at : best;
@@ -134,10 +139,12 @@ static alp_result place_item(packer *p, alpi_pack_item *item)
         if (on->free_texels < p->shapes.texels) {
             continue;
         }
-        at = find_place(p, on, i == near->page && longer < EXACT_SIDES ? near->y : 0);
+        const bool tired = p->rows_tried * on->words > PATIENCE;
+        at = find_place(p, on, i == near->page && (longer < EXACT_SIDES || tired) ? near->y : 0);
         if (at.found) {
             alpi_pack_page_take(on, &p->shapes.turned[at.turns], at.x, at.y, p->rules);
-            *near = (hint){i, at.y > longer ? at.y - longer : 0};
+            const uint32_t slack = tired ? longer / 4 : longer;
+            *near = (hint){i, at.y > slack ? at.y - slack : 0};
             item->page = i;
         }
     }
@@ -199,6 +206,9 @@ static alp_result pack(packer *p, alpi_pack_item *items, uint32_t count)
     uint32_t *order = ALPI_NEW(p->context, uint32_t, count);
     alp_result result = order == NULL ? ALP_ERROR_OUT_OF_MEMORY : place_all(p, items, count, order);
     alpi_release(p->context, order);
+    if (p->rules->rows_tried != NULL) {
+        *p->rules->rows_tried += p->rows_tried;
+    }
     packer_destroy(p);
     return result;
 }
@@ -235,15 +245,29 @@ alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pa
     return result;
 }
 
+/// That an item covers.
+static uint64_t texels_of(const alpi_pack_item *item)
+{
+    const size_t words = (size_t)((item->width + 63) / 64) * item->height;
+    uint64_t texels = item->mask == NULL ? (uint64_t)item->width * item->height : 0;
+    for (size_t i = 0; item->mask != NULL && i < words; i++) {
+        texels += (uint64_t)__builtin_popcountll(item->mask[i]);
+    }
+    return texels;
+}
+
 alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,
                               alpi_pack_item *items, uint32_t count, bool *fits)
 {
     packer p = {.context = context, .rules = rules, .page_limit = 1, .quiet = true};
+    uint64_t room = (uint64_t)rules->size * rules->size;
     *fits = false;
     for (uint32_t i = 0; i < count; i++) {
-        if (items[i].width > rules->size || items[i].height > rules->size) {
+        const uint64_t texels = texels_of(&items[i]);
+        if (items[i].width > rules->size || items[i].height > rules->size || texels > room) {
             return ALP_OK;
         }
+        room -= texels;
     }
     alp_result result = pack(&p, items, count);
     *fits = result == ALP_OK;

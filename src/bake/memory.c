@@ -27,6 +27,12 @@ enum {
     BYTES_TO_DILATE = 5, // of one page at a time: filled 1, queue 4
     FILE_BYTES = 8,      // of each map in a folder, about, in a page's texels
     FILE_GROWTH = 16,    // of the one that is being made, beside what its format takes
+    // Of each texel that look-ups at seams read: its place 12 and its four weights 64, as lists
+    // grow, samples 16, and what says how it moves 8. And of each channel that is stitched.
+    SEAM_BYTES = 100,
+    SEAM_BYTES_PER_CHANNEL = 41,
+    SEAM_BYTES_PER_TRIANGLE = 12, // neighbours
+    SEAM_PLACE_BYTES = 4,         // of each texel of a page
     // Light by direction: kept, and of direct light while that is gathered and in rounds. One map
     // at a time when it is stored.
     DIRECTIONAL_BYTES_PER_TEXEL = sizeof(alpi_directional)
@@ -236,6 +242,28 @@ static uint64_t find_stored(const alp_atlas_info *atlas, const alp_scene *scene,
     return kept + larger(stored, written - LATTICE_BYTES * atlas->texels);
 }
 
+/// Texels that look-ups at seams read: at most about so many on the built-in scenes at 512², of few
+/// charts as of 700.
+static uint64_t count_seam_texels(const alp_atlas_info *atlas)
+{
+    const double texels = (double)atlas->texels, charts = fmax(atlas->charts, 1.0);
+    return (uint64_t)fmin(16.0 * sqrt(texels) + sqrt(texels * charts), texels);
+}
+
+/// While seams are looked for and stitched, when all maps are stored and the lattice is gone.
+static uint64_t find_seams(const alp_atlas_info *atlas, const alp_scene *scene,
+                           const alp_bake_options *options)
+{
+    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    const uint64_t channels = !options->stitch                               ? 0u
+                              : (options->maps & ~(uint32_t)ALP_MAP_AO) != 0 ? 3u
+                                                                             : 1u;
+    return find_kept(atlas, scene, options) - LATTICE_BYTES * atlas->texels - GRID_BYTES * pages +
+           PAGE_BYTES * count_maps(options) * pages + SEAM_PLACE_BYTES * pages +
+           SEAM_BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count +
+           (SEAM_BYTES + SEAM_BYTES_PER_CHANNEL * channels) * count_seam_texels(atlas);
+}
+
 /// @param rays of the blocks that are kept, or UINT64_MAX: as many as there are
 static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                             const alp_bake_options *options, uint64_t kept_rays)
@@ -253,7 +281,7 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
     }
     return larger(find_kept(atlas, scene, options) + find_vectors(atlas, options) +
                       find_directional(atlas, options) + find_around(atlas, scene, options) + most,
-                  find_stored(atlas, scene, options));
+                  larger(find_stored(atlas, scene, options), find_seams(atlas, scene, options)));
 }
 
 uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,

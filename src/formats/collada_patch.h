@@ -3,6 +3,7 @@
 //
 //   collada_plan.c            which geometries get which coordinates and pages; what must be copied
 //   collada_patch_mesh.c      the new source, inputs, and indices of primitives
+//   collada_patch_uvs.c       the coordinates in that source, and which of them corners have
 //   collada_patch_material.c  images, effects and materials
 //   collada_patch_again.c     coordinates of an earlier bake, and sets that others read
 //   collada_patch_tidy.c      what else an earlier bake left

@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The bake coordinates of a geometry: one new source for all its primitives, or three of sets that
-// are blended, and an index more for each corner. A primitive whose corners have two coordinates,
+// The primitives of a geometry with an index more for each corner, into one new source for all of
+// them, or three of sets that are blended. A primitive whose corners have two coordinates,
 // or whose triangles lie on several pages, is written anew; polygons without either stay polygons.
-#include "formats/collada_patch.h"
+#include "formats/collada_patch_uvs.h"
 
-#include "base/hash.h"
 #include "base/memory.h"
 
 #include <stdio.h>
 #include <string.h>
-
-/// Different coordinates of a geometry.
-typedef struct uv_pool {
-    float (*uvs)[2 * ALPI_COLLADA_SETS]; // those of sets that are not there are 0
-    uint32_t *slots;                     // [size] index, ALPI_NONE = free
-    uint32_t count;
-    size_t size;
-} uv_pool;
 
 typedef struct work {
     alpi_collada_patcher *patcher;
     alpi_collada_class *class_of;
     uint32_t class_index;
     alpi_edits *edits;
-    uv_pool pool;
+    alpi_collada_uvs pool;
     uint32_t uv_number;   // set="" of the new input
     alpi_bytes source_id; // as it stands in an attribute
     char ending[64];      // of the ids inside a copy
@@ -39,9 +30,7 @@ typedef struct part {
     xmlNode *element;
     alpi_collada_inputs inputs;
     alpi_collada_faces faces;
-    uint32_t (*corner_uvs)[3]; // [triangle_count] of each triangle's corners, in the pool
-    uint32_t *uv_of_corner;    // [corner_count] the same where all triangles agree
-    bool agreed;
+    alpi_collada_corners uvs;
     uint32_t page_count; // of different pages
     uint32_t new_offset;
     const xmlNode *own_input; // of an earlier bake, whose place the new one takes; or NULL
@@ -56,91 +45,6 @@ void alpi_collada_print_geometry_id(const alpi_collada_patcher *p, uint32_t clas
     if (c->copied) {
         alpi_bytes_print(text, "-%s-%u", p->prefix, class_index);
     }
-}
-
-// --- coordinates ---------------------------------------------------------------------------------
-
-static alp_result make_pool(work *w, uint64_t corner_count)
-{
-    alp_context *context = w->patcher->context;
-    w->pool.size = 16;
-    while (w->pool.size < 2 * corner_count) {
-        w->pool.size *= 2;
-    }
-    ALPI_TRY_NEW(context, w->pool.uvs, corner_count);
-    ALPI_TRY_NEW(context, w->pool.slots, w->pool.size);
-    memset(w->pool.slots, 0xff, w->pool.size * sizeof *w->pool.slots);
-    return ALP_OK;
-}
-
-static uint32_t find_uv(uv_pool *pool, const float uv[2 * ALPI_COLLADA_SETS])
-{
-    const size_t size = 2 * ALPI_COLLADA_SETS * sizeof *uv;
-    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, uv, size);
-    hash ^= hash >> 32;
-    size_t slot = (size_t)hash & (pool->size - 1);
-    for (; pool->slots[slot] != ALPI_NONE; slot = (slot + 1) & (pool->size - 1)) {
-        const float *other = pool->uvs[pool->slots[slot]];
-        bool same = true;
-        for (int i = 0; i < 2 * ALPI_COLLADA_SETS; i++) {
-            same &= other[i] == uv[i];
-        }
-        if (same) {
-            return pool->slots[slot];
-        }
-    }
-    pool->slots[slot] = pool->count;
-    memcpy(pool->uvs[pool->count], uv, size);
-    return pool->count++;
-}
-
-static uint32_t count_sets(const alpi_collada_patcher *p)
-{
-    return p->patch->set_uvs != NULL ? ALPI_COLLADA_SETS : 1;
-}
-
-/// Coordinates of a corner of the scene's triangle as they are written.
-static void read_corner(const alpi_collada_patcher *p, uint32_t triangle, uint32_t corner,
-                        float out[2 * ALPI_COLLADA_SETS])
-{
-    memset(out, 0, 2 * ALPI_COLLADA_SETS * sizeof *out);
-    for (uint32_t k = 0; k < count_sets(p); k++) {
-        const float *uv = p->patch->set_uvs != NULL ? p->patch->set_uvs[triangle][k][corner]
-                                                    : p->patch->corner_uvs[triangle][corner];
-        out[2 * k] = uv[0] + 0.0f;     // no −0
-        out[2 * k + 1] = 1.0f - uv[1]; // t counts upwards
-    }
-}
-
-/// Coordinates of all corners; a triangle without area takes what its neighbours give.
-static alp_result find_corner_uvs(work *w, part *a)
-{
-    const alpi_collada_patcher *p = w->patcher;
-    const alpi_surface *s = &p->scene->surfaces[a->surface];
-    ALPI_TRY_NEW(p->context, a->corner_uvs, a->faces.triangle_count);
-    ALPI_TRY_NEW(p->context, a->uv_of_corner, a->faces.corner_count);
-    memset(a->uv_of_corner, 0xff, a->faces.corner_count * sizeof *a->uv_of_corner);
-    a->agreed = true;
-    for (int pass = 0; pass < 2; pass++) { // first those with area
-        for (uint32_t t = 0; t < a->faces.triangle_count; t++) {
-            const uint32_t scene_triangle = s->first_triangle + t;
-            if (p->scene->triangle_usable[scene_triangle] != (pass == 0)) {
-                continue;
-            }
-            for (uint32_t k = 0; k < 3; k++) {
-                const uint32_t place = s->mirrored ? (3 - k) % 3 : k;
-                float uv[2 * ALPI_COLLADA_SETS];
-                read_corner(p, scene_triangle, place, uv);
-                uint32_t *of_corner = &a->uv_of_corner[a->faces.triangles[t][k]];
-                const bool known = pass == 1 && *of_corner != ALPI_NONE;
-                const uint32_t index = known ? *of_corner : find_uv(&w->pool, uv);
-                a->agreed &= *of_corner == ALPI_NONE || *of_corner == index;
-                *of_corner = index;
-                a->corner_uvs[t][k] = index;
-            }
-        }
-    }
-    return ALP_OK;
 }
 
 /// id of the source of set k: "ID", "ID-1", "ID-2".
@@ -178,7 +82,8 @@ static void print_source(const work *w, uint32_t k, alpi_bytes *text)
 
 static void print_input(const work *w, const part *a, alpi_bytes *text)
 {
-    const uint32_t count = w->patcher->patch->corner_uvs != NULL ? count_sets(w->patcher) : 0;
+    const uint32_t count =
+        w->patcher->patch->corner_uvs != NULL ? alpi_collada_count_sets(w->patcher) : 0;
     for (uint32_t k = 0; k < count; k++) { // one index stands for all
         alpi_bytes_print(text, "<input semantic=\"TEXCOORD\" source=\"#");
         print_source_id(w, k, text);
@@ -215,7 +120,7 @@ static void rewrite_list(work *w, const part *a, const xmlNode *list, uint32_t *
     }
     const uint32_t count = (uint32_t)(numbers / a->inputs.stride);
     for (uint32_t i = 0; i < count; i++, ++*corner) {
-        const uint32_t uv = a->uv_of_corner[*corner];
+        const uint32_t uv = a->uvs.of_corner[*corner];
         print_corner(w, a, *corner, uv == ALPI_NONE ? 0 : uv, &text);
     }
     w->edits->inserted.failed |= text.failed;
@@ -311,8 +216,9 @@ static bool stays_whole(const work *w, const part *a, const alpi_collada_polygon
     bool whole = polygon->corner_count > 0;
     for (uint32_t t = triangle; whole && t < triangle + polygon->triangle_count; t++) {
         whole = w->patcher->pages[first + t] == page;
-        for (int k = 0; whole && k < 3 && a->corner_uvs != NULL && a->uv_of_corner != NULL; k++) {
-            whole = a->corner_uvs[t][k] == a->uv_of_corner[a->faces.triangles[t][k]];
+        for (int k = 0; whole && k < 3 && a->uvs.of_triangle != NULL && a->uvs.of_corner != NULL;
+             k++) {
+            whole = a->uvs.of_triangle[t][k] == a->uvs.of_corner[a->faces.triangles[t][k]];
         }
     }
     return whole;
@@ -328,7 +234,7 @@ static void print_triangle(const work *w, const part *a, uint32_t t, piece_text 
 {
     for (int k = 0; k < 3; k++) {
         print_corner(w, a, a->faces.triangles[t][k],
-                     a->corner_uvs != NULL ? a->corner_uvs[t][k] : 0, &text->corners);
+                     a->uvs.of_triangle != NULL ? a->uvs.of_triangle[t][k] : 0, &text->corners);
     }
     alpi_xml_print_index(&text->counts, 3);
     text->count++;
@@ -343,7 +249,7 @@ static void print_faces(const work *w, const part *a, uint32_t page, piece_text 
         if (stays_whole(w, a, polygon, t, page)) {
             for (uint32_t c = 0; c < polygon->corner_count; c++) {
                 const uint32_t corner = polygon->first_corner + c;
-                print_corner(w, a, corner, a->uv_of_corner != NULL ? a->uv_of_corner[corner] : 0,
+                print_corner(w, a, corner, a->uvs.of_corner != NULL ? a->uvs.of_corner[corner] : 0,
                              &text->corners);
             }
             alpi_xml_print_index(&text->counts, polygon->corner_count);
@@ -456,14 +362,14 @@ static alp_result patch_part(work *w, part *a)
         a->own_input =
             w->again ? alpi_collada_own_input(p, a->element, &number, &a->new_offset) : NULL;
         ALP_TRY(alpi_collada_read_faces(&p->reader, a->element, &a->inputs, &a->faces));
-        ALP_TRY(find_corner_uvs(w, a));
+        ALP_TRY(alpi_collada_corners_create(p, &w->pool, a->surface, &a->faces, &a->uvs));
     } else if (!one_page) {
         ALP_TRY(alpi_collada_read_faces(&p->reader, a->element, &a->inputs, &a->faces));
-        a->agreed = false;
+        a->uvs.agreed = false;
     } else {
-        a->agreed = true;
+        a->uvs.agreed = true;
     }
-    if (!one_page || !a->agreed) {
+    if (!one_page || !a->uvs.agreed) {
         return replace_part(w, a);
     }
     if (!p->baked[a->surface] && old == NULL) {
@@ -519,8 +425,7 @@ static void rename_ids(work *w)
 static void part_destroy(alp_context *context, part *a)
 {
     alpi_collada_faces_destroy(context, &a->faces);
-    alpi_release(context, a->corner_uvs);
-    alpi_release(context, a->uv_of_corner);
+    alpi_collada_corners_destroy(context, &a->uvs);
 }
 
 /// Inputs of all primitives first: the new set is one past theirs, or a later one.
@@ -543,9 +448,10 @@ static alp_result find_number(work *w)
         corners += 3 * (uint64_t)p->scene->surfaces[s].triangle_count;
     }
     w->again = alpi_collada_find_own_set(p, w->class_of, &w->again_number, &w->old_source);
-    w->uv_number =
-        w->again ? w->again_number : alpi_collada_free_set(p, w->uv_number, count_sets(p));
-    return p->patch->corner_uvs != NULL ? make_pool(w, corners) : ALP_OK;
+    w->uv_number = w->again ? w->again_number
+                            : alpi_collada_free_set(p, w->uv_number, alpi_collada_count_sets(p));
+    return p->patch->corner_uvs != NULL ? alpi_collada_uvs_create(p->context, corners, &w->pool)
+                                        : ALP_OK;
 }
 
 static alp_result patch_parts(work *w)
@@ -577,7 +483,7 @@ static alp_result patch_geometry(work *w)
         alpi_xml_child(alpi_xml_child(w->class_of->geometry, "mesh"), "vertices");
     if (p->patch->corner_uvs != NULL && vertices != NULL) {
         alpi_bytes text = alpi_bytes_create(p->context);
-        for (uint32_t k = 0; k < count_sets(p); k++) {
+        for (uint32_t k = 0; k < alpi_collada_count_sets(p); k++) {
             print_source(w, k, &text);
         }
         w->edits->inserted.failed |= text.failed;
@@ -630,7 +536,6 @@ alp_result alpi_collada_patch_geometry(alpi_collada_patcher *p, uint32_t class_i
     alpi_edits_destroy(&own);
     alpi_bytes_destroy(&w.source_id);
     alpi_release(p->context, w.rewritten);
-    alpi_release(p->context, w.pool.uvs);
-    alpi_release(p->context, w.pool.slots);
+    alpi_collada_uvs_destroy(p->context, &w.pool);
     return result;
 }

@@ -10,8 +10,9 @@
 enum { STEP_LIMIT = 300, ROUNDS = 4 };
 static const double RESIDUAL = 1e-6; // of the first: what is left is below what is stated
 // Of texels with a value of their own, of gaps; and how much more than the mean errors may change.
-static const double HOLD = 0.3, GAP_HOLD = 1e-4, HOLD_RANGE = 2.0;
-static const double LEAST_ERROR = 0.002; // of the mean: half of a step of eight bits
+static const double HOLD = 0.15, GAP_HOLD = 1e-4, HOLD_RANGE = 2.0;
+static const double LEAST_AGREEMENT = 0.02; // of the faces inside a texel
+static const double LEAST_ERROR = 0.002;    // of the mean: half of a step of eight bits
 
 static float *pixel_of(const alp_lightmap *l, const alpi_seams *s, uint32_t i, float *const *pages)
 {
@@ -52,6 +53,25 @@ static double find_variance(const alpi_stitch *stitch)
     return count > 0.0 ? sum / count : 0.0;
 }
 
+/// How much the faces inside a texel agree on a normal, n the mean of theirs: 2 n² − 1, 1 where it
+/// is flat and 0 where two halves stand at right angles.
+static double find_agreement(const alp_lightmap *l, uint32_t texel)
+{
+    const alpi_texels *t = &l->texels;
+    const vec3 none = {0.0f, 0.0f, 0.0f};
+    vec3 mean = none;
+    float begin = 0.0f;
+    for (uint32_t i = t->piece_first[texel]; i < t->piece_first[texel + 1]; i++) {
+        vec3 c[3];
+        alpi_triangle_corners(l->scene, alpi_atlas_triangle(l->atlas, t->piece_triangles[i]), c);
+        const vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], none);
+        mean = vec3_mad(mean, t->piece_ends[i] - begin, normal);
+        begin = t->piece_ends[i];
+    }
+    const bool whole = t->piece_first[texel] == t->piece_first[texel + 1];
+    return whole ? 1.0 : fmax(2.0 * (double)vec3_dot(mean, mean) - 1.0, LEAST_AGREEMENT);
+}
+
 static void find_holds(const alpi_stitch *stitch)
 {
     const alpi_seams *s = stitch->seams;
@@ -62,6 +82,7 @@ static void find_holds(const alpi_stitch *stitch)
             const double variance = (double)stitch->errors[i] * (double)stitch->errors[i];
             const double share = variance > 0.0 ? mean / variance : mean > 0.0 ? HOLD_RANGE : 1.0;
             hold = HOLD * (double)stitch->lightmap->texels.coverages[s->owners[i]] *
+                   find_agreement(stitch->lightmap, s->owners[i]) *
                    fmin(fmax(share, 1.0 / HOLD_RANGE), HOLD_RANGE);
         }
         stitch->holds[i] = (float)hold;

@@ -426,7 +426,7 @@ enum { BAKED_PIXELS = 32 };
 static alp_bake_options counting(alp_emitters emitters)
 {
     alp_bake_options o = alp_bake_options_default();
-    o.atlas.size = 48;
+    o.atlas.size = 56;
     o.atlas.mode = ALP_ATLAS_CHARTS;
     o.maps = ALP_MAP_LIGHT;
     o.light.gather = ALP_GATHER_HEMICUBE;
@@ -434,6 +434,7 @@ static alp_bake_options counting(alp_emitters emitters)
     o.light.emitters = emitters;
     o.light.direct = ALP_DIRECT_APART;
     o.light.bounces = 2;
+    o.stitch = false; // what is dark stays dark
     return o;
 }
 
@@ -491,6 +492,9 @@ static void a_bake_may_count_emitters(void **state)
         const polygon_light lamp = lamp_from(analytic, t);
         const double a = value_of(analytic, ALP_MAP_DIRECT, t);
         const double off = value_of(counted, ALP_MAP_DIRECT, t) - a;
+        if (analytic->texels.coverages[t] < 0.999f) {
+            continue; // its light is not that of its point
+        }
         if (a == 0.0) {
             assert_true(off == 0.0);
             dark++;

@@ -45,6 +45,7 @@ static alp_bake_options light_options(uint32_t samples)
     o.atlas.mode = ALP_ATLAS_CHARTS;
     o.atlas.size = 64;
     o.atlas.max_angle = 0.01f;
+    o.stitch = false; // each map is stitched by itself
     return o;
 }
 

@@ -7,8 +7,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
-enum { POINTS = 96, RAYS = 65536 };
+// What sees its light through a crack of a pixel is missed by a hemicube, or counted twice, and
+// such a point alone may decide a root mean square: the worst of a hundred are left out, five.
+enum { POINTS = 100, LEFT_OUT = 5, RAYS = 65536 };
 
 static alp_context *context;
 
@@ -33,13 +36,34 @@ typedef struct points {
     alpi_point_array array;
 } points;
 
+/// Whether the first that is met straight above is a back: the point lies under something that
+/// stands on it, where light comes through cracks alone.
+static bool is_buried(const test_radiant *r, const alpi_receiver_point *at)
+{
+    const vec3 up = at->geometric_normal;
+    alpi_rays rays;
+    alpi_hits hits;
+    alpi_rays_clear(&rays);
+    alpi_rays_set(&rays, 0, vec3_add(at->position, vec3_scale(up, 1e-3f)), up, INFINITY);
+    alpi_trace_nearest(r->lit.tracer, &rays, 1, (alpi_trace_filter){.one_sided = false}, &hits);
+    if (hits.triangle[0] == ALPI_NONE) {
+        return false;
+    }
+    vec3 c[3];
+    alpi_triangle_corners(r->lit.scene, hits.triangle[0], c);
+    return vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], up), up) > 0.0f;
+}
+
 static void choose_points(const test_radiant *r, points *p)
 {
+    const alpi_receivers texels = alpi_texels_receivers(&r->texels);
+    uint64_t tried = 0;
     for (uint32_t i = 0; i < POINTS; i++) {
         alpi_receiver_point at;
-        const alpi_receivers texels = alpi_texels_receivers(&r->texels);
-        const uint32_t texel = (uint32_t)(alpi_hash64(i + 1) % r->texels.count);
-        texels.place(texels.user, texel, 1, (const float[1][2]){{0.37f, 0.61f}}, &at);
+        do {
+            const uint32_t texel = (uint32_t)(alpi_hash64(++tried) % r->texels.count);
+            texels.place(texels.user, texel, 1, (const float[1][2]){{0.37f, 0.61f}}, &at);
+        } while (is_buried(r, &at));
         vec3_store(p->positions[i], at.position);
         vec3_store(p->geometric[i], at.geometric_normal);
         vec3_store(p->shading[i], at.shading_normal);
@@ -66,24 +90,35 @@ static void gather(const test_radiant *r, const points *p, const alpi_gatherer *
     ASSERT_OK(context, alpi_gather_irradiance(&job, NULL));
 }
 
-/// Root mean square of what hemicubes are off, over the mean of the light, less what rays are.
+static int ascending(const void *left, const void *right)
+{
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/// Root mean square of what hemicubes are off at all but LEFT_OUT points, over the mean of the
+/// light, less what rays are.
 static double hemicube_error(const test_radiant *r, const points *p, uint32_t n,
                              const alpi_reference_value *truth, double *noise)
 {
     static alpi_reference_value values[POINTS];
     alpi_hemicube *cube = NULL;
-    double squares = 0.0, variance = 0.0, mean = 0.0;
+    double off[POINTS] = {0.0}, squares = 0.0, variance = 0.0, mean = 0.0;
     ASSERT_OK(context, alpi_hemicube_create(context, n, &cube));
     const alpi_hemicube_options o = {.context = context, .cube = cube, .turned = true, .seed = 4};
     const alpi_gatherer gatherer = alpi_hemicube_gatherer(&o);
     gather(r, p, &gatherer, values);
     for (uint32_t i = 0; i < POINTS; i++) {
         for (int k = 0; k < 3; k++) {
-            const double off = (double)values[i].mean[k] - (double)truth[i].mean[k];
-            squares += off * off;
+            const double apart = (double)values[i].mean[k] - (double)truth[i].mean[k];
+            off[i] += apart * apart;
             variance += (double)truth[i].variance[k];
             mean += (double)truth[i].mean[k];
         }
+    }
+    qsort(off, POINTS, sizeof *off, ascending);
+    for (uint32_t i = 0; i + LEFT_OUT < POINTS; i++) {
+        squares += off[i];
     }
     alpi_hemicube_destroy(cube);
     mean /= 3.0 * POINTS;
@@ -103,8 +138,8 @@ static void hemicubes_find_what_rays_find(void **state)
     } scenes[] = {{"cornell", false, {0.01, 0.005}},
                   {"furnace", false, {0.01, 0.005}},
                   {"teapot-room", false, {0.01, 0.005}},
-                  {"windows", true, {0.025, 0.0125}},
-                  {"atrium,triangles=20000", true, {0.02, 0.012}},
+                  {"windows", true, {0.018, 0.009}},
+                  {"atrium,triangles=20000", true, {0.01, 0.005}},
                   {"terrain,triangles=20000", true, {0.01, 0.005}}};
     static points p;
     static alpi_reference_value truth[POINTS];

@@ -154,7 +154,9 @@ static void the_mean_over_closed_rooms(void **state)
         }
         ASSERT_NEAR(e->emitted, flux, 3e-3 * flux);
         ASSERT_NEAR(e->absorbed, flux, 3e-3 * flux);
-        ASSERT_NEAR(e->escaped + e->lost_behind, 0.0, 0.0); // edges are tight
+        ASSERT_NEAR(e->escaped, 0.0, 0.0); // edges are tight
+        // A ray that starts on a wall's very edge may be a rounding behind the next wall.
+        ASSERT_NEAR(e->lost_behind, 0.0, 1e-5 * flux);
         assert_true(e->known);
         test_radiant_close(&r);
     }
@@ -177,7 +179,7 @@ static void energy_is_accounted_for(void **state)
             sky.sky.kind = i == 1 ? ALP_SKY_CONSTANT : ALP_SKY_NONE;
             o.lighting = &sky;
             o.bounces = bounces;
-            o.rays = i == 2 ? 256 : 1024;
+            o.rays = i == 2 ? 256 : 4096;
             o.direct_samples = 64;
             o.size = i == 2 ? 128 : 64;
             o.max_angle = 0.8f;

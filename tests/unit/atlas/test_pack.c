@@ -319,6 +319,41 @@ static void turning_helps(void **state)
     alp_context_destroy(context);
 }
 
+/// Half squares of unlike sizes, as loose triangles are: work grows as their number does, not as
+/// its square. Looked for all over their pages, each takes thousands of rows.
+static void work_is_linear(void **state)
+{
+    (void)state;
+    enum { COUNT = 16000, LEAST = 16, MOST = 47 };
+    alp_context *context = test_context(1);
+    uint64_t masks[MOST + 1][MOST] = {0};
+    for (uint32_t side = LEAST; side <= MOST; side++) {
+        for (uint32_t y = 0; y < side; y++) {
+            masks[side][y] = ((uint64_t)1 << (y + 1)) - 1;
+        }
+    }
+    alpi_pack_item *items = calloc(COUNT, sizeof *items);
+    assert_non_null(items);
+    uint64_t rows[2] = {0, 0};
+    for (uint32_t k = 0; k < 2; k++) {
+        const uint32_t count = k == 0 ? COUNT / 4 : COUNT;
+        const alpi_pack_rules rules = {
+            .size = k == 0 ? 2048 : 4096, .padding = 2, .rows_tried = &rows[k]};
+        uint32_t pages = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t side = LEAST + (uint32_t)((MOST + 1 - LEAST) * keyed(i, k));
+            const uint32_t height = side - (uint32_t)(8 * keyed(i, 2 + k));
+            items[i] = (alpi_pack_item){.width = side, .height = height, .mask = masks[side]};
+        }
+        ASSERT_OK(context, alpi_pack(context, &rules, items, count, 1, &pages));
+        assert_true(rows[k] < (uint64_t)500 * count); // 4 turns, 1.4 sides of slack each, and the
+                                                      // first look over the page of each class
+    }
+    assert_true(rows[1] < 5 * rows[0]);
+    free(items);
+    alp_context_destroy(context);
+}
+
 static void sides_at_their_ends(void **state)
 {
     (void)state;
@@ -354,6 +389,7 @@ int main(void)
         cmocka_unit_test(other_orders_are_no_worse),
         cmocka_unit_test(pages_are_added),
         cmocka_unit_test(turning_helps),
+        cmocka_unit_test(work_is_linear),
         cmocka_unit_test(sides_at_their_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -98,8 +98,8 @@ static void sides_agree_and_far_texels_stay(void **state)
     ASSERT_NEAR(mean_step(&f), 0.5, 1e-6);
     stitch(&f, &grey);
     // The first tile's border reads .8 of texels that it covers by .3, which moves its side alone
-    // by Σ w² / λ = .64 / (.3 · .3) for a step of one.
-    assert_true(mean_step(&f) < 0.5 / (1.0 + 0.64 / 0.09));
+    // by Σ w² / λ = .64 / (.15 · .3) for a step of one.
+    assert_true(mean_step(&f) < 0.5 / (1.0 + 0.64 / 0.045));
     uint32_t moved = 0;
     for (uint32_t i = 0; i < PIXELS; i++) {
         if (memcmp(f.page + 4 * i, f.before + 4 * i, 4 * sizeof(float)) != 0) {
@@ -120,7 +120,7 @@ static void a_straight_border_moves_by_the_closed_form(void **state)
     fixture f;
     set_up(&f, 1, aligned, constant, (float[]){0.25f, 0.75f});
     const alpi_stitch_change change = stitch(&f, &shares);
-    const double hold = 0.3, gap = 1e-4, step = 0.5 / (1.0 + 0.5 / hold + 0.5 / gap);
+    const double hold = 0.15, gap = 1e-4, step = 0.5 / (1.0 + 0.5 / hold + 0.5 / gap);
     const size_t row = 35 * SIZE;
     const float *covered = f.page + 4 * (row + 59), *free_one = f.page + 4 * (row + 60);
     // A thousandth of the change is what is left when the method stops, and of the border's ends.
@@ -131,6 +131,36 @@ static void a_straight_border_moves_by_the_closed_form(void **state)
     ASSERT_NEAR((double)other[0] - 0.75, -of_covered, 0.01 * of_covered + 1e-6);
     // No error is stated: a 500th of the mean, .5, counts.
     assert_true(change.largest >= of_covered / 0.001 * 0.99 && change.rms <= change.largest);
+    tear_down(&f);
+}
+
+/// The first tile goes on into a wall that stands upright, in the same row of texels: the last but
+/// one of them is three quarters floor, so that its faces' mean normal n has n² = 5/8 and λ is a
+/// quarter; the border reads it by three quarters. The other tile reads half a texel of its gap.
+static void texels_across_an_edge_move_further(void **state)
+{
+    (void)state;
+    const test_tile tiles[3] = {
+        {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {10.75f, 10}, {0, 50}, {30, 0}},
+        aligned[1],
+        {{1, 0, 0}, {0, 0, 1}, {0, -2.0f / 3, 0}, {40.75f, 10}, {0, 50}, {20, 0}}};
+    alp_context *context = test_context(1);
+    fixture f = {.context = context, .scene = test_tiles_scene(context, tiles, 3, SIZE)};
+    f.lightmap = test_tiles_lightmap(f.scene, SIZE);
+    ASSERT_OK(context, alpi_seams_create(f.lightmap, &f.seams));
+    assert_int_equal(f.seams.count, 1);
+    f.page = test_tiles_page(f.lightmap, tiles, 3, constant, (float[]){0.25f, 0.75f, 0.5f});
+    f.errors = calloc(f.lightmap->texels.count, sizeof *f.errors);
+    float *floor = f.page + 4 * (35 * SIZE + 40), *wall = floor + 4;
+    const double first = (double)floor[0], second = (double)wall[0];
+    const double step = 0.75 * first + 0.25 * second - 0.75;
+    stitch(&f, &grey);
+    const double hold = 0.15;
+    const double left =
+        step / (1.0 + 0.5625 / (0.25 * hold) + 0.0625 / hold + 0.25 / hold + 0.25 / 1e-4);
+    const double moved = -left * 0.75 / (0.25 * hold), wall_moved = -left * 0.25 / hold;
+    ASSERT_NEAR((double)floor[0] - first, moved, 0.01 * fabs(moved) + 1e-6); // as above
+    ASSERT_NEAR((double)wall[0] - second, wall_moved, 0.01 * fabs(wall_moved) + 1e-6);
     tear_down(&f);
 }
 
@@ -220,7 +250,7 @@ static void a_border_of_the_page_is_stitched(void **state)
     fixture f;
     set_up(&f, 1, tiles, constant, (float[]){0.25f, 0.75f});
     stitch(&f, &grey);
-    // Its gap goes to the other's .25 and no further; covered texels close a fifth of the rest.
+    // Its gap goes to the other's .25 and no further; covered texels close a third of the rest.
     assert_true(mean_step(&f) < 0.5 / 8.0);
     tear_down(&f);
 }
@@ -337,6 +367,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sides_agree_and_far_texels_stay),
         cmocka_unit_test(a_straight_border_moves_by_the_closed_form),
+        cmocka_unit_test(texels_across_an_edge_move_further),
         cmocka_unit_test(noisy_texels_move_further),
         cmocka_unit_test(a_smooth_map_comes_no_further_from_the_truth),
         cmocka_unit_test(a_border_of_the_page_is_stitched),
