@@ -53,9 +53,9 @@ vec4 alpenglowRead(sampler2D map) {
 }
 `;
 
-/// The name that GLTFLoader gives an attribute.
+/// The name that GLTFLoader gives an attribute: it knows the first four sets.
 function loadedName(attribute) {
-  const number = /^TEXCOORD_(\d+)$/.exec(attribute)?.[1];
+  const number = /^TEXCOORD_([0-3])$/.exec(attribute)?.[1];
   if (number === undefined) return attribute.toLowerCase();
   return number === '0' ? 'uv' : `uv${number}`;
 }
@@ -72,6 +72,12 @@ export function blendGeometry(geometry, description) {
 /// THREE.ShaderChunk.
 export function blendMaterial(material, description, chunk) {
   const blended = Object.keys(origins).filter((map) => origins[map].some((from) => description.maps.includes(from)));
+  // The shader reads the three sets; a set beyond the fourth, that the file names, three.js does not
+  // know. Textures are shared with other materials.
+  for (const map of blended.filter((name) => material[name]?.channel > 3)) {
+    material[map] = material[map].clone();
+    material[map].channel = 0;
+  }
   const before = material.onBeforeCompile;
   const key = material.customProgramCacheKey();
   material.onBeforeCompile = function compile(shader, renderer) {

@@ -212,7 +212,8 @@ static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi
         return alpi_blend_build(atlas, neighbours, clock);
     }
     if (alpi_atlas_may_keep(&atlas->options) &&
-        (mode == ALP_ATLAS_KEEP || atlas->scene->uvs[1] != NULL)) {
+        (mode == ALP_ATLAS_KEEP ||
+         (atlas->scene->uvs[1] != NULL && !alpi_scene_set_is_blended(atlas->scene, 1)))) {
         char *reason = NULL;
         alp_result result = alpi_keep(atlas, neighbours, &reason);
         if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {

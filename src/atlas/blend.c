@@ -6,6 +6,7 @@
 // axis has nearly gone.
 #include "atlas/blend.h"
 
+#include "atlas/factors.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -225,6 +226,7 @@ static alp_result lay_out(builder *b, alpi_atlas_clock *clock)
         alpi_charts_create(atlas, (const uint32_t(*)[3])b->faces.neighbours, &clusters, &charts);
     alpi_clusters_destroy(atlas->context, &clusters);
     if (result == ALP_OK) {
+        alpi_factors_apply(atlas, &charts);
         result = alpi_layout(atlas, &charts, clock);
     }
     atlas->info.mode = ALP_ATLAS_BLEND;

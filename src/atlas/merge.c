@@ -14,7 +14,7 @@
 // Charts that meet at a crease stay apart: light steps there. Unless one of them is tiny: then its
 // padding is as large as it is.
 static const float CREASE = 0.6f; // radians
-static const double TINY_TEXELS = 16.0, TINY_WIDTH = 2.0;
+static const double TINY_TEXELS = 16.0;
 // The box of a pair, with its padding, may be this much larger than both before: what is concave
 // leaves room that others cannot use. And a chart of more than LARGE of the scene fills at least
 // LARGE_FILL of its box: few large discs fill a page badly.
@@ -124,9 +124,7 @@ static alp_result collect_pairs(merger *m)
 
 static bool is_tiny(const merger *m, uint32_t chart)
 {
-    const facts *f = &m->facts[chart];
-    const double width = 2.0 * f->area / fmax(f->outline, 1e-300); // half of a strip's outline
-    return f->area * m->density * m->density < TINY_TEXELS || width * m->density < TINY_WIDTH;
+    return m->facts[chart].area * m->density * m->density < TINY_TEXELS;
 }
 
 static bool has_failed(const merger *m, const pair *p)

@@ -49,11 +49,14 @@ static void mark_in_set(alp_diagnosis *d, uint32_t triangle, const float *uv)
 }
 
 /// Why a bake cannot go into the set, NULL-safe and short; "" = it can.
-static char *make_reason(const alp_diagnosis *d, const alpi_uv_set_facts *f)
+static char *make_reason(const alp_diagnosis *d, uint32_t set, const alpi_uv_set_facts *f)
 {
     alp_context *context = d->context;
     if (f->triangles == 0) {
         return alpi_copy_string(context, "no triangle has it");
+    }
+    if (alpi_scene_set_is_blended(d->scene, set)) {
+        return alpi_copy_string(context, "a shader blends it with two others");
     }
     if (f->missing_surfaces > 0) {
         return alpi_format(context, "%u of %u surfaces lack it", f->missing_surfaces,
@@ -77,7 +80,7 @@ static char *make_reason(const alp_diagnosis *d, const alpi_uv_set_facts *f)
 static alp_result keep_facts(alp_diagnosis *d, uint32_t set, const alpi_uv_set_facts *f)
 {
     const uint32_t i = d->uv_set_count;
-    char *reason = make_reason(d, f);
+    char *reason = make_reason(d, set, f);
     if (reason == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -276,7 +279,9 @@ static alp_result look_at_set(alp_diagnosis *d, uint32_t set)
     alp_atlas *layout = NULL;
     ALP_TRY(alpi_uv_set_survey(d->scene, set, d->page_size, &facts, &layout));
     alp_result result = keep_facts(d, set, &facts);
-    if (result == ALP_OK && set == ALPI_KEPT_SET && facts.triangles > 0) {
+    // What a bake of ours laid out to be blended is no place for another, and no fault.
+    if (result == ALP_OK && set == ALPI_KEPT_SET && facts.triangles > 0 &&
+        !alpi_scene_set_is_blended(d->scene, set)) {
         result = judge_kept(d, &facts, layout);
     }
     alp_atlas_destroy(layout);

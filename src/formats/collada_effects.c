@@ -387,6 +387,26 @@ static uint32_t find_set(alpi_collada_reader *reader, const xmlNode *binding,
     return only;
 }
 
+/// Our sets that an earlier bake bound as three that a shader blends, a bit each.
+static uint8_t find_blend_sets(const alpi_collada_reader *reader, const xmlNode *binding,
+                               const alpi_collada_part *part)
+{
+    static const char *const names[] = {ALPI_COLLADA_BAKED_UV, ALPI_COLLADA_BAKED_UV "_1",
+                                        ALPI_COLLADA_BAKED_UV "_2"};
+    uint8_t found = 0;
+    for (int i = 0; i < 3; i++) {
+        const xmlNode *bind = alpi_collada_bound_to(reader->document, binding, names[i]);
+        double number = 0.0;
+        if (bind == NULL || !bound_number(bind, &number)) {
+            return 0;
+        }
+        for (uint32_t k = 0; k < part->inputs.uv_count && k < ALPI_UV_SET_LIMIT; k++) {
+            found |= (uint8_t)((double)part->inputs.uv_numbers[k] == number ? 1u << k : 0u);
+        }
+    }
+    return found;
+}
+
 /// A scene material of that element and those sets: found again, or made.
 static alp_result get_material(alpi_collada_reader *reader, xmlNode *element,
                                const alpi_collada_effect *effect, const uint32_t sets[4],
@@ -449,7 +469,9 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                               find_set(reader, binding, part, &effect->emission),
                               find_set(reader, binding, part, &effect->transparent),
                               find_set(reader, binding, part, &effect->ambient)};
-    return get_material(reader, element, effect, sets, material);
+    ALP_TRY(get_material(reader, element, effect, sets, material));
+    reader->scene->materials[*material].blend_sets |= find_blend_sets(reader, binding, part);
+    return ALP_OK;
 }
 
 // --- images --------------------------------------------------------------------------------------

@@ -194,8 +194,19 @@ static bool stands_for_none(const source *from)
     return json_is_string(mark) && strcmp(json_string_value(mark), ALPI_GLTF_NO_MATERIAL) == 0;
 }
 
-/// A map of charts that overlap. Where not all of its sets were kept, the first alone is read,
-/// which is a map too.
+/// Which of our sets an attribute is; ALPI_NONE: none of them.
+static uint32_t set_of(const char *name)
+{
+    static const char word[] = "TEXCOORD_";
+    const bool known = name != NULL && strncmp(name, word, sizeof word - 1) == 0 &&
+                       name[sizeof word - 1] >= '0' && name[sizeof word - 1] <= '3' &&
+                       name[sizeof word] == '\0';
+    return known ? (uint32_t)(name[sizeof word - 1] - '0') : ALPI_NONE;
+}
+
+/// A map of charts that overlap, after the texture is read. Where not all of its sets were kept,
+/// the first alone is read, which is a map too; and where the texture is read with another set,
+/// somebody has put a map of his own there.
 static void read_blend(const source *from, alpi_material *material)
 {
     json_t *blend = json_object_get(json_object_get(from->object, "extras"), ALPI_GLTF_BLEND);
@@ -205,15 +216,14 @@ static void read_blend(const source *from, alpi_material *material)
         const char *name = json_string_value(json_array_get(maps, i));
         known = known || (name != NULL && strcmp(name, "occlusionTexture") == 0);
     }
-    for (size_t k = 0; k < 3 && known; k++) {
-        static const char word[] = "TEXCOORD_";
-        const char *name = json_string_value(json_array_get(sets, k));
-        known = name != NULL && strncmp(name, word, sizeof word - 1) == 0 &&
-                name[sizeof word - 1] >= '0' && name[sizeof word - 1] <= '3' &&
-                name[sizeof word] == '\0';
-        material->occlusion_sets[k] = known ? (uint32_t)(name[sizeof word - 1] - '0') : 0;
+    for (size_t k = 0; k < 3; k++) {
+        const uint32_t set = set_of(json_string_value(json_array_get(sets, k)));
+        known = known && set != ALPI_NONE;
+        material->occlusion_sets[k] = set != ALPI_NONE ? set : 0;
+        material->blend_sets |= (uint8_t)(set != ALPI_NONE ? 1u << set : 0u);
     }
-    material->occlusion_blended = known;
+    material->occlusion_blended =
+        known && material->occlusion_sets[0] == material->occlusion_texture.uv_set;
 }
 
 static alp_result read_material(const source *from, alpi_material *material)
@@ -235,8 +245,9 @@ static alp_result read_material(const source *from, alpi_material *material)
     ALP_TRY(read_emission(from, material));
     ALP_TRY(read_alpha(from, material));
     ALP_TRY(read_transmission(from, material));
+    ALP_TRY(read_occlusion(from, material));
     read_blend(from, material);
-    return read_occlusion(from, material);
+    return ALP_OK;
 }
 
 alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)

@@ -226,6 +226,14 @@ void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, uint32_t first, 
 /// Adds it to a material of the document.
 void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
                                  alpi_edits *edits);
+/// Maps that a bake gives a material.
+typedef struct alpi_gltf_maps {
+    bool occluded, lit;
+} alpi_gltf_maps;
+/// Takes them from those that an earlier bake said were blended. Its sets stay named: they hold
+/// charts that overlap all the same. Where they are named anew, its other maps bring a warning.
+void alpi_patcher_unblend_material(alpi_gltf_patcher *patcher, size_t material,
+                                   alpi_gltf_maps replaced, bool named_anew, alpi_edits *edits);
 
 // --- values at vertices --------------------------------------------------------------------------
 

@@ -16,12 +16,14 @@ void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRI
     }
 }
 
+static const char OCCLUSION[] = "occlusionTexture";
+static const char *const LIGHTS[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
+                                     [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
+                                     [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
+
 void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, bool occluded, bool lit,
                               alpi_bytes *text)
 {
-    static const char *const lights[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
-                                         [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
-                                         [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
     alpi_bytes_print(text, "{\"sets\":[");
     for (uint32_t k = 0; k < ALPI_GLTF_BLEND_SETS; k++) {
         char name[ALPI_GLTF_ATTRIBUTE_SIZE];
@@ -30,10 +32,10 @@ void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, bool o
     }
     alpi_bytes_print(text, "],\"weights\":\"n*n\",\"frame\":\"object\",\"maps\":[");
     if (occluded) {
-        alpi_bytes_print(text, "\"occlusionTexture\"%s", lit ? "," : "");
+        alpi_bytes_print(text, "\"%s\"%s", OCCLUSION, lit ? "," : "");
     }
     if (lit) {
-        alpi_bytes_quote(text, lights[p->patch->light->form]);
+        alpi_bytes_quote(text, LIGHTS[p->patch->light->form]);
     }
     alpi_bytes_print(text, "]}");
 }
@@ -74,4 +76,48 @@ void alpi_patcher_blend_material(alpi_gltf_patcher *p, size_t material, const ch
                   "that are blended",
                   material);
     }
+}
+
+/// The names that an earlier bake left in "maps", less those of the maps that this one replaces.
+static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gltf_maps replaced,
+                        alpi_bytes *kept)
+{
+    const char *text = p->document->text;
+    alpi_json_cursor cursor = alpi_json_open(text, maps);
+    size_t count = 0;
+    alpi_bytes_print(kept, "[");
+    while (alpi_json_next(&cursor)) {
+        const bool gone =
+            (replaced.occluded && alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
+            (replaced.lit && alpi_json_key_is(text, cursor.value, LIGHTS[p->patch->light->form]));
+        if (!gone) {
+            alpi_bytes_print(kept, "%s", count++ > 0 ? "," : "");
+            alpi_bytes_add(kept, text + cursor.value.begin, cursor.value.end - cursor.value.begin);
+        }
+    }
+    alpi_bytes_print(kept, "]");
+    return count;
+}
+
+void alpi_patcher_unblend_material(alpi_gltf_patcher *p, size_t material, alpi_gltf_maps replaced,
+                                   bool named_anew, alpi_edits *edits)
+{
+    alpi_json_span maps;
+    if (!alpi_json_at(p->document->text, p->lists[ALPI_GLTF_MATERIALS].spans[material],
+                      "extras/" ALPI_GLTF_BLEND "/maps", &maps) ||
+        p->document->text[maps.begin] != '[') {
+        return;
+    }
+    alpi_bytes kept = alpi_bytes_create(p->context);
+    const size_t count = keep_maps(p, maps, replaced, &kept);
+    p->data.failed |= kept.failed;
+    if (!named_anew) {
+        alpi_edits_replace(edits, maps, "%s", kept.failed ? "" : (const char *)kept.bytes);
+    } else if (count > 0 && !kept.failed) {
+        alpi_warn(p->context, "blend", p->document->path,
+                  "material %zu: %s of an earlier bake is read with one of its sets now, and shows "
+                  "seams, since one material names the sets of one bake; bake all maps at once",
+                  material, (const char *)kept.bytes);
+    }
+    alpi_bytes_destroy(&kept);
 }

@@ -169,7 +169,10 @@ static alpi_gltf_light_use light_use(const need *n, const char *blend)
 static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char *blend,
                                 alpi_edits *edits)
 {
-    if (n->page == ALPI_NONE) {
+    const bool packed = n->page == ALPI_NONE;
+    const alpi_gltf_maps replaced = {packed || n->occluded, !packed && n->lit};
+    alpi_patcher_unblend_material(p, n->old, replaced, !packed && blend != NULL, edits);
+    if (packed) {
         return alpi_patcher_pack_material(p, n->old, edits);
     }
     const bool named = n->lit && p->patch->light->form == ALPI_LIGHT_FORM_EXTRAS; // with the light

@@ -43,6 +43,7 @@ typedef struct alpi_material {
     float occlusion_strength;       // [0, 1]: 1 + strength (R − 1)
     bool occlusion_blended;         // it is read in the three sets below, blended by the normal
     uint32_t occlusion_sets[3];     // of the object's axes
+    uint8_t blend_sets;             // bit n: set n is one of three that are blended
     float transmission; // [0, 1]: share of light that passes through, KHR_materials_transmission
     alpi_texture transmission_texture; // channel R, linear
 } alpi_material;
@@ -203,6 +204,10 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
 /// Accessibility from the material's own occlusion map at a point; false where it has none.
 bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,
                             float *accessibility);
+
+/// Whether a set of coordinates is one of three that a shader blends, on any surface that has it:
+/// charts of an earlier bake that overlap, projected and steep at their ends.
+bool alpi_scene_set_is_blended(const alp_scene *scene, uint32_t set);
 
 /// Built-in scenes (scene/builtin_*.c). `name` without "builtin:", settings after commas as
 /// alp_scene_load tells.

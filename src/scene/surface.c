@@ -231,6 +231,18 @@ bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1,
     return true;
 }
 
+bool alpi_scene_set_is_blended(const alp_scene *scene, uint32_t set)
+{
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        const alpi_surface *surface = &scene->surfaces[s];
+        if (surface->material != ALPI_NONE && surface->uv_sets > set &&
+            (scene->materials[surface->material].blend_sets >> set & 1u) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool alpi_surface_is_double_sided(const alp_scene *scene, uint32_t triangle)
 {
     uint32_t material = scene->surfaces[scene->triangle_surface[triangle]].material;

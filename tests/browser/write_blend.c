@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // write_blend FOLDER: bakes a sphere on a plane with overlapping charts, writes it there, and
 // writes down what pixels of a picture must be: what the map gives, blended by the normal, where
-// the pixel's ray ends.
+// the pixel's ray ends. Once as it is (blend), and once without normals and with all four sets that
+// viewers know taken (full).
 #include "test_support.h"
 
 #include "atlas/atlas.h"
@@ -49,9 +50,32 @@ static void turn_nodes(const char *path)
     json_decref(root);
 }
 
-static alp_scene *make_scene(alp_context *context, const char *folder)
+/// Takes the normals of all meshes, and gives them four coordinate sets, which are the same.
+static void fill_sets(const char *path)
 {
-    const char *path = test_path(folder, "askew.gltf");
+    json_t *root = json_load_file(path, 0, NULL);
+    json_t *meshes = json_object_get(root, "meshes");
+    for (size_t i = 0; i < json_array_size(meshes); i++) {
+        json_t *primitives = json_object_get(json_array_get(meshes, i), "primitives");
+        for (size_t k = 0; k < json_array_size(primitives); k++) {
+            json_t *attributes = json_object_get(json_array_get(primitives, k), "attributes");
+            json_t *set = json_object_get(attributes, "TEXCOORD_0");
+            json_object_del(attributes, "NORMAL");
+            json_object_set(attributes, "TEXCOORD_1", set);
+            json_object_set(attributes, "TEXCOORD_2", set);
+            json_object_set(attributes, "TEXCOORD_3", set);
+        }
+    }
+    if (root == NULL || json_dump_file(root, path, 0) != 0) {
+        fprintf(stderr, "%s: its sets could not be filled\n", path);
+        exit(1);
+    }
+    json_decref(root);
+}
+
+static alp_scene *make_scene(alp_context *context, const char *folder, bool full)
+{
+    const char *path = test_path(folder, full ? "full.gltf" : "askew.gltf");
     alp_scene *scene = NULL;
     alp_bake_options options = alp_bake_options_default();
     options.atlas.size = 16;
@@ -61,6 +85,9 @@ static alp_scene *make_scene(alp_context *context, const char *folder)
     check(context, alp_bake(scene, &options, NULL, NULL));
     alp_scene_destroy(scene);
     turn_nodes(path);
+    if (full) {
+        fill_sets(path);
+    }
     check(context, alp_scene_load(context, path, &scene));
     return scene;
 }
@@ -123,8 +150,7 @@ static double find_drift(const alp_lightmap *lightmap, const alpi_tracer *tracer
     return drift;
 }
 
-static void write_pixels(const alp_lightmap *lightmap, const alpi_tracer *tracer,
-                         const char *folder)
+static void write_pixels(const alp_lightmap *lightmap, const alpi_tracer *tracer, const char *path)
 {
     json_t *pixels = json_array();
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -140,11 +166,30 @@ static void write_pixels(const alp_lightmap *lightmap, const alpi_tracer *tracer
         json_pack("{s:f,s:[f,f,f],s:[f,f,f],s:[f,f,f]}", "fov", 40.0 * ALPI_PI / 180.0, "position",
                   EYE[0], EYE[1], EYE[2], "target", 0.0, 0.5, 0.0, "up", 0.0, 1.0, 0.0);
     json_t *root = json_pack("{s:i,s:o,s:o}", "side", SIDE, "camera", camera, "pixels", pixels);
-    if (root == NULL || json_dump_file(root, test_path(folder, "blend.json"), 0) != 0) {
-        fprintf(stderr, "%s: blend.json could not be written\n", folder);
+    if (root == NULL || json_dump_file(root, path, 0) != 0) {
+        fprintf(stderr, "%s: could not be written\n", path);
         exit(1);
     }
     json_decref(root);
+}
+
+static void write_case(const char *folder, bool full)
+{
+    alp_context *context = test_context(2);
+    alp_scene *scene = make_scene(context, folder, full);
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.mode = ALP_ATLAS_BLEND;
+    options.atlas.size = 128;
+    options.occlusion.samples = 64;
+    options.output = test_path(folder, full ? "full.glb" : "blend.glb");
+    alp_lightmap *lightmap = NULL;
+    check(context, alp_bake(scene, &options, &lightmap, NULL));
+    alpi_tracer *tracer = NULL;
+    check(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    write_pixels(lightmap, tracer, test_path(folder, full ? "full.json" : "blend.json"));
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
 }
 
 int main(int argc, char **argv)
@@ -153,20 +198,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: write_blend FOLDER\n");
         return 2;
     }
-    alp_context *context = test_context(2);
-    alp_scene *scene = make_scene(context, argv[1]);
-    alp_bake_options options = alp_bake_options_default();
-    options.atlas.mode = ALP_ATLAS_BLEND;
-    options.atlas.size = 128;
-    options.occlusion.samples = 64;
-    options.output = test_path(argv[1], "blend.glb");
-    alp_lightmap *lightmap = NULL;
-    check(context, alp_bake(scene, &options, &lightmap, NULL));
-    alpi_tracer *tracer = NULL;
-    check(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
-    write_pixels(lightmap, tracer, argv[1]);
-    alp_lightmap_destroy(lightmap);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
+    write_case(argv[1], false);
+    write_case(argv[1], true);
     return 0;
 }

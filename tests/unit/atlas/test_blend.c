@@ -160,17 +160,54 @@ static void pages_keep_triangles_together(void **state)
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 64, 30.0);
     assert_true(alp_atlas_get_info(atlas).pages > 1);
+    uint32_t apart = 0;
     for (uint32_t f = 0; f < atlas->face_count; f++) {
         const uint32_t t = atlas->face_triangles[f];
-        bool found = false;
-        for (int k = 0; k < 3; k++) {
-            found = found || memcmp(atlas->set_uvs[t][k], atlas->corner_uvs[f],
-                                    sizeof atlas->corner_uvs[f]) == 0;
-        }
-        if (atlas->triangle_pages[f] == atlas->triangle_pages[t]) {
-            assert_true(found);
-        }
+        const uint8_t k = atlas->face_axes[f];
+        const bool together = atlas->triangle_pages[f] == atlas->triangle_pages[t];
+        assert_int_equal(atlas->set_members[t] >> k & 1, together);
+        assert_memory_equal(atlas->set_uvs[t][k], atlas->corner_uvs[together ? f : t],
+                            sizeof atlas->corner_uvs[f]);
+        apart += !together;
     }
+    assert_true(apart > 0);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// Surfaces have the density that is asked for them, in whatever set their chart is.
+static void densities_are_kept(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_BLEND;
+    options.size = 256;
+    options.texels_per_metre = 100.0;
+    options.densities = "floor=2,lamp=.5";
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    int seen[3] = {0};
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const char *name = scene->surfaces[scene->triangle_surface[t]].name;
+        const int kind = strcmp(name, "floor") == 0 ? 1 : strcmp(name, "lamp") == 0 ? 2 : 0;
+        const double wanted = kind == 1 ? 200.0 : kind == 2 ? 50.0 : 100.0;
+        vec3 c[3];
+        double cosines[3];
+        alpi_triangle_corners(scene, t, c);
+        corner_cosines(scene, t, cosines);
+        if (fmax(cosines[0], fmax(cosines[1], cosines[2])) < 0.9999) {
+            continue; // projected askew
+        }
+        // Flat charts keep their lengths, to the rounding of coordinates (test_densities.c).
+        ASSERT_NEAR(sqrt(texel_area(atlas, t) / vec3_triangle_area(c[0], c[1], c[2])), wanted,
+                    1e-4 * wanted);
+        seen[kind]++;
+    }
+    assert_true(seen[0] > 0 && seen[1] > 0 && seen[2] > 0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
@@ -263,10 +300,10 @@ static void running_out_of_memory_leaves_nothing(void **state)
     (void)state;
     int left = 1 << 30;
     alp_context *context = test_context_failing(&left);
-    alp_scene *scene = smooth_sphere(context);
+    alp_scene *scene = scene_cube(context); // the same steps as of more triangles, and few texels
     alp_atlas_options options = alp_atlas_options_default();
     options.mode = ALP_ATLAS_BLEND;
-    options.size = 64;
+    options.size = 16;
     for (int allowed = 0;; allowed++) {
         alp_atlas *atlas = NULL;
         left = allowed;
@@ -291,6 +328,7 @@ int main(void)
         cmocka_unit_test(folds_are_cut),
         cmocka_unit_test(texels_name_triangles_of_the_scene),
         cmocka_unit_test(pages_keep_triangles_together),
+        cmocka_unit_test(densities_are_kept),
         cmocka_unit_test(weights_are_squares_of_the_normal),
         cmocka_unit_test(axes_are_those_of_the_object),
         cmocka_unit_test(is_the_same_for_any_number_of_workers),

@@ -2,6 +2,7 @@
 // Assets with overlapping charts: the three sets that were made come back from the file, where no
 // set is free as attributes of their own, and what has no place for them is refused.
 #include "quad_asset.h"
+#include "test_obj.h"
 
 #include "atlas/atlas.h"
 #include "maps/lightmap.h"
@@ -104,6 +105,98 @@ static void three_sets_come_back(void **state)
     alp_context_destroy(context);
 }
 
+/// Occlusion that comes to be read with one set is not blended any more, and the light that still
+/// is stays; nothing keeps the sets of a blend, and the doctor does not complain of them.
+static void a_map_of_one_set_ends_the_blend(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    const char *folder = quad_folder();
+    const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_bake_options options = blend_options(once);
+    options.maps = ALP_MAP_AO | ALP_MAP_LIGHT;
+    options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    options.light.samples = 4;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+    alp_scene *written = load(context, once);
+    alp_diagnosis *diagnosis = NULL;
+    ASSERT_OK(context, alp_scene_diagnose(written, NULL, &diagnosis));
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
+        const alp_finding finding = alp_diagnosis_get_finding(diagnosis, i);
+        assert_int_not_equal(finding.place, ALP_PLACE_UV_SET);
+    }
+    assert_false(alp_diagnosis_get_uv_set(diagnosis, 1).holds_bake);
+    alp_diagnosis_destroy(diagnosis);
+    options = blend_options(twice);
+    options.atlas.mode = ALP_ATLAS_AUTO;
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alp_bake(written, &options, &lightmap, NULL));
+    assert_int_equal(alp_atlas_get_info(lightmap->atlas).mode, ALP_ATLAS_CHARTS);
+    assert_true(file_has(twice, "\"frame\":\"object\",\"maps\":[\"MOZ_lightmap\"]}"));
+    alp_scene *last = load(context, twice);
+    check_blend(last, lightmap);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(last);
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
+    quad_list(once, twice);
+    alp_context_destroy(context);
+}
+
+/// A material names the sets of one bake: what an earlier one gave it is read with one set.
+static void light_after_occlusion_warns(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    const char *folder = quad_folder();
+    const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_lightmap_destroy(bake(scene, once));
+    alp_scene *written = load(context, once);
+    assert_true(written->materials[0].occlusion_blended);
+    alp_bake_options options = blend_options(twice);
+    options.maps = ALP_MAP_LIGHT;
+    options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    options.light.samples = 4;
+    ASSERT_OK(context, alp_bake(written, &options, NULL, NULL));
+    assert_non_null(strstr(test_log_text(), "bake all maps at once"));
+    alp_scene *last = load(context, twice);
+    assert_false(last->materials[0].occlusion_blended);
+    alp_scene_destroy(last);
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
+    quad_list(once, twice);
+    alp_context_destroy(context);
+}
+
+/// Extras that speak of another map than the one that is there: an editor kept them, and put in an
+/// occlusionTexture of its own.
+static void a_blend_of_other_sets_is_not_read(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    const char *output = test_path(test_folder(), "once.gltf");
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_lightmap *lightmap = bake(scene, output);
+    size_t size;
+    char *text = (char *)test_read_file(output, &size);
+    char *sets = strstr(text, "\"sets\":[\"TEXCOORD_0\"");
+    assert_non_null(sets);
+    sets[strlen("\"sets\":[\"TEXCOORD_")] = '3';
+    test_write_file(output, text, size);
+    alp_scene *written = load(context, output);
+    assert_true(written->materials[0].occlusion_texture.image != ALPI_NONE);
+    assert_false(written->materials[0].occlusion_blended);
+    free(text);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void collada_has_three_sets(void **state)
 {
     (void)state;
@@ -119,6 +212,9 @@ static void collada_has_three_sets(void **state)
     alp_scene *written = load(context, output);
     assert_int_equal(alp_scene_get_surface(written, 0).uv_sets, first + 3);
     check_sets(written, lightmap, first, 3, 1e-6); // v is turned over: rounding
+    for (uint32_t set = 0; set < first + 3; set++) {
+        assert_int_equal(alpi_scene_set_is_blended(written, set), set >= first);
+    }
     assert_true(file_has(output, "ALPENGLOW_2"));
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(written);
@@ -175,6 +271,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(three_sets_come_back),
+        cmocka_unit_test(a_map_of_one_set_ends_the_blend),
+        cmocka_unit_test(light_after_occlusion_warns),
+        cmocka_unit_test(a_blend_of_other_sets_is_not_read),
         cmocka_unit_test(collada_has_three_sets),
         cmocka_unit_test(what_has_one_set_is_refused),
         cmocka_unit_test(light_and_occlusion_keep_their_sums),
