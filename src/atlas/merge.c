@@ -11,10 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Charts that meet at a crease stay apart: light steps there. Unless one of them is tiny: then its
-// padding is as large as it is.
+// Charts that meet at a crease stay apart: light steps there, and a texel of both is of neither.
+// Unless one of them has but a few texels, which look beyond its edges wherever it lies.
 static const float CREASE = 0.6f; // radians
-static const double TINY_TEXELS = 16.0;
+static const double TINY_TEXELS = 4.0;
 // The box of a pair, with its padding, may be this much larger than both before: what is concave
 // leaves room that others cannot use. And a chart of more than LARGE of the scene fills at least
 // LARGE_FILL of its box: few large discs fill a page badly.
