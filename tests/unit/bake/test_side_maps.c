@@ -343,7 +343,7 @@ static void every_allocation_may_fail(void **state)
     int left = 0;
     alp_context *context = test_context_failing(&left);
     left = 1 << 30;
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = load(context, "builtin:cornell"); // few triangles, few charts
     alp_bake_options options = small_options(ALL);
     options.atlas.size = 24;
     options.occlusion.samples = 4;
