@@ -47,7 +47,7 @@ typedef struct merger {
     alpi_charts *charts;
     double density;  // texels a metre, about
     facts *facts;    // [charts]
-    uint32_t *slots; // [triangle_count] index in its chart, or in the pair that is tried
+    uint32_t *slots; // [triangle_count] index in its chart
     pair *pairs, *attempts, *failed;
     size_t pair_count, pair_capacity, attempt_count, attempt_capacity;
     size_t failed_count, failed_capacity; // failed: by charts, none of which changed since
@@ -228,12 +228,14 @@ static alp_result try_pair(const merger *m, pair *p, uint32_t *triangles)
     }
     for (uint32_t i = 0; i < b->count; i++) {
         triangles[a->count + i] = m->charts->triangles[b->first + i];
-        m->slots[triangles[a->count + i]] = a->count + i;
     }
     alpi_merge merge = {.source = {.scene = m->atlas->scene,
                                    .neighbours = m->neighbours,
                                    .triangles = triangles,
+                                   .charts = m->atlas->triangle_charts,
                                    .slots = m->slots,
+                                   .pair = {p->a, p->b},
+                                   .first_count = a->count,
                                    .count = a->count + b->count},
                         .first_count = a->count};
     set_bounds(m, p, &merge);
@@ -313,9 +315,6 @@ static alp_result run_rounds(merger *m)
         }
         ALP_TRY(alpi_parallel_for(context, (uint32_t)m->attempt_count, 1, try_pairs, m, NULL));
         ALP_TRY(settle(m, &merged));
-        if (!merged) {
-            group(m); // slots of the pairs that failed
-        }
     }
     return ALP_OK;
 }

@@ -23,6 +23,18 @@ static void join(uint32_t *parent, uint32_t i, uint32_t j)
     parent[a < b ? b : a] = a < b ? a : b;
 }
 
+/// Index in `triangles`, or ALPI_NONE: the triangle is not of the patch.
+static uint32_t find_slot(const alpi_patch_source *source, uint32_t triangle)
+{
+    if (triangle == ALPI_NONE) {
+        return ALPI_NONE;
+    }
+    const uint32_t chart = source->charts[triangle];
+    return chart == source->pair[0]   ? source->slots[triangle]
+           : chart == source->pair[1] ? source->first_count + source->slots[triangle]
+                                      : ALPI_NONE;
+}
+
 /// Joins the corners of triangles that share an edge, and numbers what comes out.
 static void number_vertices(alpi_patch *patch, const alpi_patch_source *source, uint32_t *parent)
 {
@@ -32,9 +44,8 @@ static void number_vertices(alpi_patch *patch, const alpi_patch_source *source, 
     for (uint32_t i = 0; i < patch->count; i++) {
         const uint32_t t = source->triangles[i];
         for (uint32_t k = 0; k < 3; k++) {
-            const uint32_t across = source->neighbours[t][k];
-            const uint32_t j = across == ALPI_NONE ? patch->count : source->slots[across];
-            const bool inside = j < patch->count && source->triangles[j] == across;
+            const uint32_t j = find_slot(source, source->neighbours[t][k]);
+            const bool inside = j != ALPI_NONE;
             patch->open[i] = patch->open[i] || !inside;
             if (inside && j > i) {
                 const uint32_t back =

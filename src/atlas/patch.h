@@ -19,12 +19,16 @@ typedef struct alpi_patch {
     double (*at)[2];   // [vertex_count] where the vertices are laid
 } alpi_patch;
 
-/// Which triangles: in the order of `triangles`.
+/// Which triangles: those of two charts, one after the other. What is shared by patches that are
+/// made at the same time is only read.
 typedef struct alpi_patch_source {
     const alp_scene *scene;
     const uint32_t (*neighbours)[3];
     const uint32_t *triangles; // [count]
-    const uint32_t *slots;     // [triangle_count] index in `triangles` of each that is there
+    const uint32_t *charts;    // [triangle_count] chart of each, or ALPI_NONE
+    const uint32_t *slots;     // [triangle_count] index in its chart
+    uint32_t pair[2];          // the two charts
+    uint32_t first_count;      // triangles of the first
     uint32_t count;
 } alpi_patch_source;
 alp_result alpi_patch_create(alp_context *context, const alpi_patch_source *source,
