@@ -228,9 +228,9 @@ static alp_result put_end(search *s, uint32_t index, bool second)
     const outline *o = &s->outlines[e->surface];
     const double3 p = point_of(s, second ? end_of(s, e->half) : start_of(s, e->half));
     const double reach = 2.0 * nearness(o, HUGE_VAL); // room for rounding on the way
-    int64_t low[3] = {cell_of(p.x - reach, o->low.x, o->cell),
-                      cell_of(p.y - reach, o->low.y, o->cell),
-                      cell_of(p.z - reach, o->low.z, o->cell)};
+    const int64_t low[3] = {cell_of(p.x - reach, o->low.x, o->cell),
+                            cell_of(p.y - reach, o->low.y, o->cell),
+                            cell_of(p.z - reach, o->low.z, o->cell)};
     int64_t high[3] = {cell_of(p.x + reach, o->low.x, o->cell),
                        cell_of(p.y + reach, o->low.y, o->cell),
                        cell_of(p.z + reach, o->low.z, o->cell)};

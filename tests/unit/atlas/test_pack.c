@@ -121,16 +121,18 @@ static void random_shapes(void **state)
                                             {.size = 256, .padding = 17, .block = 8, .mips = 4}};
     for (uint32_t r = 0; r < sizeof rules / sizeof *rules; r++) {
         alpi_pack_item items[COUNT] = {0};
+        uint64_t *masks[COUNT];
         uint32_t pages = 0;
         for (uint32_t i = 0; i < COUNT; i++) {
             const double largest = i % 8 == 0 ? 63.0 : 20.0;
             items[i].width = 1 + (uint32_t)(largest * keyed(r + 100, 2 * i));
             items[i].height = 1 + (uint32_t)(largest * keyed(r + 100, 2 * i + 1));
-            items[i].mask = random_mask(1000 * r + i, items[i].width, items[i].height);
+            masks[i] = random_mask(1000 * r + i, items[i].width, items[i].height);
+            items[i].mask = masks[i];
         }
         pack_and_check(context, &rules[r], items, COUNT, &pages);
         for (uint32_t i = 0; i < COUNT; i++) {
-            free((void *)(uintptr_t)items[i].mask);
+            free(masks[i]);
         }
     }
     alp_context_destroy(context);
