@@ -5,13 +5,12 @@
 // chapter 7.3.
 #include "atlas/blend.h"
 
-#include "atlas/fold.h"
+#include "atlas/growth.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
 
-// A cluster is checked for folds each time it has doubled, first when it has this many faces.
-enum { FIRST_CHECK = 256, BANDS = 16 };
+enum { BANDS = 16 }; // of steepness
 
 typedef struct seed {
     int band;
@@ -26,27 +25,17 @@ typedef struct queues {
 } queues;
 
 typedef struct grower {
-    const alp_scene *view;
-    const alpi_blend_faces *faces;
+    alpi_growth growth; // over faces
+    const alpi_blend_face *faces;
     bool world;
-    alpi_clusters *clusters;
-    size_t plane_capacity;
     seed *seeds; // [usable_count] flattest band first, the largest of it first
     queues queues;
-    uint32_t *visited; // [faces] cluster + 1 that last reached the face
-    uint32_t *members; // [usable_count] of the cluster that grows
-    // By member, for the fold check:
-    alpi_flat *flats;
-    size_t flat_capacity;
-    bool *accepted;
-    size_t accepted_capacity;
-    alpi_fold fold;
 } grower;
 
 /// 0 is the flattest.
 static int band_of(const grower *g, uint32_t face)
 {
-    const float cosine = g->faces->faces[face].cosine;
+    const float cosine = g->faces[face].cosine;
     const int band = (int)((1.0f - cosine * cosine) * (float)BANDS);
     return band < 0 ? 0 : band >= BANDS ? BANDS - 1 : band;
 }
@@ -65,16 +54,13 @@ static int compare_seeds(const void *a, const void *b)
 
 static alp_result grower_create(grower *g)
 {
-    const alp_scene *view = g->view;
+    const alp_scene *view = g->growth.scene;
     alp_context *context = view->context;
-    ALPI_TRY_NEW(context, g->clusters->of_triangle, view->triangle_count);
+    ALP_TRY(alpi_growth_begin(&g->growth));
     ALPI_TRY_NEW(context, g->seeds, view->usable_count);
     ALPI_TRY_NEW(context, g->queues.next, view->triangle_count);
-    ALPI_TRY_NEW(context, g->visited, view->triangle_count);
-    ALPI_TRY_NEW(context, g->members, view->usable_count);
     uint32_t count = 0;
     for (uint32_t f = 0; f < view->triangle_count; f++) {
-        g->clusters->of_triangle[f] = ALPI_NONE;
         if (view->triangle_usable[f]) {
             vec3 c[3];
             alpi_triangle_corners(view, f, c);
@@ -87,14 +73,10 @@ static alp_result grower_create(grower *g)
 
 static void grower_destroy(grower *g)
 {
-    alp_context *context = g->view->context;
+    alp_context *context = g->growth.scene->context;
     alpi_release(context, g->seeds);
     alpi_release(context, g->queues.next);
-    alpi_release(context, g->visited);
-    alpi_release(context, g->members);
-    alpi_release(context, g->flats);
-    alpi_release(context, g->accepted);
-    alpi_fold_destroy(&g->fold);
+    alpi_growth_end(&g->growth);
 }
 
 // --- queues --------------------------------------------------------------------------------------
@@ -117,7 +99,7 @@ static void push(grower *g, uint32_t face)
         q->next[q->last[band]] = face;
     }
     q->last[band] = face;
-    g->visited[face] = g->clusters->count + 1;
+    g->growth.visited[face] = g->growth.clusters->count + 1;
 }
 
 /// The face that lies flattest, or ALPI_NONE.
@@ -136,9 +118,9 @@ static uint32_t pop(queues *q)
 static void push_neighbours(grower *g, uint32_t face)
 {
     for (int k = 0; k < 3; k++) {
-        const uint32_t across = g->faces->neighbours[face][k];
-        if (across != ALPI_NONE && g->clusters->of_triangle[across] == ALPI_NONE &&
-            g->visited[across] != g->clusters->count + 1) {
+        const uint32_t across = g->growth.neighbours[face][k];
+        if (across != ALPI_NONE && g->growth.clusters->of_triangle[across] == ALPI_NONE &&
+            g->growth.visited[across] != g->growth.clusters->count + 1) {
             push(g, across);
         }
     }
@@ -150,85 +132,30 @@ static void push_neighbours(grower *g, uint32_t face)
 static uint32_t reach(grower *g, uint32_t count, uint32_t limit)
 {
     for (uint32_t face; count < limit && (face = pop(&g->queues)) != ALPI_NONE;) {
-        g->members[count++] = face;
+        g->growth.members[count++] = face;
         push_neighbours(g, face);
     }
     return count;
-}
-
-static bool touches_cluster(const grower *g, uint32_t face)
-{
-    for (int k = 0; k < 3; k++) {
-        const uint32_t across = g->faces->neighbours[face][k];
-        if (across != ALPI_NONE && g->clusters->of_triangle[across] == g->clusters->count) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static alp_result flatten_members(grower *g, uint32_t count, const alpi_plane *plane)
-{
-    alp_context *context = g->view->context;
-    ALP_TRY(alpi_grow(context, (void **)&g->flats, &g->flat_capacity, count, sizeof *g->flats));
-    ALP_TRY(alpi_grow(context, (void **)&g->accepted, &g->accepted_capacity, count,
-                      sizeof *g->accepted));
-    for (uint32_t i = 0; i < count; i++) {
-        vec3 c[3];
-        alpi_triangle_corners(g->view, g->members[i], c);
-        for (int k = 0; k < 3; k++) {
-            alpi_plane_project(plane, c[k], &g->flats[i].x[k], &g->flats[i].y[k]);
-        }
-    }
-    return ALP_OK;
-}
-
-/// Takes the members after the first `kept` into the cluster, in order, except those that overlap
-/// one taken before, or that were reached only through one of those.
-/// @param count in: members; out: those that are left
-/// @param folded out: whether not all were taken
-static alp_result check_folds(grower *g, const alpi_plane *plane, uint32_t kept, uint32_t *count,
-                              bool *folded)
-{
-    ALP_TRY(flatten_members(g, *count, plane));
-    ALP_TRY(alpi_fold_build(&g->fold, g->flats, *count));
-    for (uint32_t i = 0; i < *count; i++) {
-        g->accepted[i] = i < kept;
-    }
-    uint32_t taken = kept;
-    for (uint32_t i = kept; i < *count; i++) {
-        const uint32_t face = g->members[i];
-        if (i > 0 && !touches_cluster(g, face)) {
-            g->visited[face] = 0; // it may be reached another way later
-        } else if (!alpi_fold_overlaps(&g->fold, i, g->accepted)) {
-            g->accepted[i] = true;
-            g->clusters->of_triangle[face] = g->clusters->count;
-            g->members[taken++] = face;
-        }
-    }
-    *folded = taken < *count;
-    *count = taken;
-    return ALP_OK;
 }
 
 /// After a fold: what waits may have been reached through what was not taken.
 static void restart_queues(grower *g, uint32_t count)
 {
     for (uint32_t face; (face = pop(&g->queues)) != ALPI_NONE;) {
-        g->visited[face] = 0;
+        g->growth.visited[face] = 0;
     }
     for (uint32_t i = 0; i < count; i++) {
-        push_neighbours(g, g->members[i]);
+        push_neighbours(g, g->growth.members[i]);
     }
 }
 
 static alpi_plane plane_of(const grower *g, uint32_t seed_face, vec3 *normal)
 {
-    const alpi_blend_face *face = &g->faces->faces[seed_face];
+    const alpi_blend_face *face = &g->faces[seed_face];
     vec3 axes[ALPI_BLEND_SETS], corners[3];
-    const uint32_t surface = g->view->triangle_surface[seed_face];
-    alpi_surface_axes(&g->view->surfaces[surface], g->world, axes);
-    alpi_triangle_corners(g->view, seed_face, corners);
+    const uint32_t surface = g->growth.scene->triangle_surface[seed_face];
+    alpi_surface_axes(&g->growth.scene->surfaces[surface], g->world, axes);
+    alpi_triangle_corners(g->growth.scene, seed_face, corners);
     *normal = vec3_scale(axes[face->axis], face->negative ? -1.0f : 1.0f);
     return alpi_plane_make(*normal, corners[0]);
 }
@@ -241,32 +168,29 @@ static alp_result grow_cluster(grower *g, uint32_t seed_face)
     push(g, seed_face);
     uint32_t count = 0, kept = 0;
     for (;;) {
-        count = reach(g, count, kept < FIRST_CHECK / 2 ? FIRST_CHECK : 2 * kept);
+        count = reach(g, count, alpi_growth_limit(kept));
         if (count == kept) {
             break;
         }
         bool folded = false;
-        ALP_TRY(check_folds(g, &plane, kept, &count, &folded));
+        ALP_TRY(alpi_growth_check(&g->growth, &plane, kept, &count, &folded));
         kept = count;
         if (folded) {
             restart_queues(g, count);
         }
     }
-    ALP_TRY(alpi_grow(g->view->context, (void **)&g->clusters->planes, &g->plane_capacity,
-                      (size_t)g->clusters->count + 1, sizeof *g->clusters->planes));
-    vec3_store(g->clusters->planes[g->clusters->count++], normal);
-    return ALP_OK;
+    return alpi_growth_close(&g->growth, normal);
 }
 
 static alp_result grow_all(grower *g, alpi_atlas_clock *clock)
 {
     ALP_TRY(grower_create(g));
-    const uint32_t usable = g->view->usable_count;
+    const uint32_t usable = g->growth.scene->usable_count;
     for (uint32_t i = 0; i < usable; i++) {
         if (i % 1024 == 0 && clock != NULL) {
             ALP_TRY(alpi_atlas_tick(clock, "clusters", i, usable));
         }
-        if (g->clusters->of_triangle[g->seeds[i].face] == ALPI_NONE) {
+        if (g->growth.clusters->of_triangle[g->seeds[i].face] == ALPI_NONE) {
             ALP_TRY(grow_cluster(g, g->seeds[i].face));
         }
     }
@@ -277,11 +201,11 @@ alp_result alpi_blend_clusters(const alp_scene *view, const alpi_blend_faces *fa
                                alpi_atlas_clock *clock, alpi_clusters *clusters)
 {
     *clusters = (alpi_clusters){0};
-    grower g = {.view = view,
-                .faces = faces,
-                .world = world,
-                .clusters = clusters,
-                .fold.context = view->context};
+    grower g = {.growth = {.scene = view,
+                           .neighbours = (const uint32_t(*)[3])faces->neighbours,
+                           .clusters = clusters},
+                .faces = faces->faces,
+                .world = world};
     const alp_result result = grow_all(&g, clock);
     grower_destroy(&g);
     if (result != ALP_OK) {
