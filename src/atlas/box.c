@@ -2,6 +2,8 @@
 // The tightest box round points of the plane: convex hull and rotating calipers.
 #include "atlas/box.h"
 
+#include "base/angle.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -88,7 +90,7 @@ alpi_box alpi_tightest_box(alpi_point *points, size_t count, alpi_point *hull)
     size_t calipers[3] = {0, 0, 0}; // farthest along, across and against the side
     for (size_t i = 0; i < size; i++) {
         alpi_point p = hull[i], q = hull[i + 1 == size ? 0 : i + 1];
-        double length = hypot(q.x - p.x, q.y - p.y);
+        double length = alpi_length2(q.x - p.x, q.y - p.y);
         if (!(length > 0.0)) {
             continue;
         }

@@ -3,6 +3,8 @@
 // there does not show.
 #include "atlas/regions.h"
 
+#include "base/angle.h"
+
 #include <math.h>
 
 // Vertex normals that agree across a fold say that it stands for a round surface; beyond this they
@@ -36,7 +38,7 @@ int alpi_edge_back(const alp_scene *scene, const uint32_t (*neighbours)[3], uint
 
 static float angle_of(float cosine)
 {
-    return acosf(fminf(fmaxf(cosine, -1.0f), 1.0f));
+    return (float)alpi_arc_cosine((double)cosine);
 }
 
 static vec3 normal_of(const alp_scene *scene, uint32_t triangle)

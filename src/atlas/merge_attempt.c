@@ -4,6 +4,7 @@
 #include "atlas/box.h"
 #include "atlas/merge.h"
 
+#include "base/angle.h"
 #include "base/memory.h"
 
 // The bound of the whole atlas is 2: charts keep a distance, since coordinates are rounded to
@@ -52,7 +53,7 @@ static void lay_side_by_side(const alp_atlas *atlas, const alpi_patch_source *so
     const double n = fmax(sums.count, 1.0);
     const double dot = sums.dot - (sums.from[0] * sums.to[0] + sums.from[1] * sums.to[1]) / n;
     const double cross = sums.cross - (sums.from[0] * sums.to[1] - sums.from[1] * sums.to[0]) / n;
-    const double length = hypot(dot, cross);
+    const double length = alpi_length2(dot, cross);
     const double c = length > 0.0 ? dot / length : 1.0, s = length > 0.0 ? cross / length : 0.0;
     for (uint32_t i = 3 * first_count; i < 3 * source->count; i++) {
         const float *uv = atlas->corner_uvs[source->triangles[i / 3]][i % 3];

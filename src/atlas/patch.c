@@ -4,6 +4,7 @@
 
 #include "atlas/regions.h"
 
+#include "base/angle.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -162,7 +163,7 @@ static alp_result find_double_turns(const alpi_patch *patch, bool *found)
             const double *q = patch->at[patch->vertices[i][(k + 1) % 3]];
             const double *r = patch->at[patch->vertices[i][(k + 2) % 3]];
             const double ax = q[0] - p[0], ay = q[1] - p[1], bx = r[0] - p[0], by = r[1] - p[1];
-            turns[patch->vertices[i][k]] += atan2(ax * by - ay * bx, ax * bx + ay * by);
+            turns[patch->vertices[i][k]] += alpi_arc_tangent(ax * by - ay * bx, ax * bx + ay * by);
         }
     }
     *found = false;

@@ -7,6 +7,7 @@
 // a cone of normals is kept, since it bounds the stretch of a projection.
 #include "atlas/regions.h"
 
+#include "base/angle.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 
@@ -114,7 +115,7 @@ static alp_result begin(gatherer *g)
 static void join_cones(const region *a, const region *b, double axis[3], double *angle)
 {
     const double dot = a->axis[0] * b->axis[0] + a->axis[1] * b->axis[1] + a->axis[2] * b->axis[2];
-    const double apart = acos(fmin(fmax(dot, -1.0), 1.0));
+    const double apart = alpi_arc_cosine(dot);
     const region *wide = a->angle >= b->angle ? a : b, *other = wide == a ? b : a;
     for (int k = 0; k < 3; k++) {
         axis[k] = wide->axis[k];
@@ -125,9 +126,10 @@ static void join_cones(const region *a, const region *b, double axis[3], double 
         return;
     }
     *angle = 0.5 * (apart + a->angle + b->angle);
-    const double turn = *angle - wide->angle, sine = sin(apart); // from the wider axis to the other
-    const double of_wide = sine > 1e-9 ? sin(apart - turn) / sine : 1.0;
-    const double of_other = sine > 1e-9 ? sin(turn) / sine : 0.0;
+    const double turn = *angle - wide->angle,
+                 sine = alpi_sine(apart); // from the wider axis to the other
+    const double of_wide = sine > 1e-9 ? alpi_sine(apart - turn) / sine : 1.0;
+    const double of_other = sine > 1e-9 ? alpi_sine(turn) / sine : 0.0;
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
         axis[k] = of_wide * wide->axis[k] + of_other * other->axis[k];
@@ -270,8 +272,12 @@ static alp_result choose_planes(gatherer *g, alpi_regions *regions)
             const vec3 n = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
             const float up[3] = {n.x, n.y, n.z};
             const double area = vec3_triangle_area(c[0], c[1], c[2]);
-            const vec3 mean = vec3_normalize_or(
-                (vec3){(float)sums[r][0], (float)sums[r][1], (float)sums[r][2]}, n);
+            // Not by floats: gcc 12 leaves out the way there and back, and rounds once.
+            const double x = sums[r][0], y = sums[r][1], z = sums[r][2];
+            const double length = sqrt(x * x + y * y + z * z);
+            const vec3 mean =
+                length > 0.0 ? (vec3){(float)(x / length), (float)(y / length), (float)(z / length)}
+                             : n;
             for (int k = 0; pass == 0 && k < 3; k++) {
                 sums[r][k] += area * (double)up[k] / g->regions[r].area;
             }
@@ -280,7 +286,7 @@ static alp_result choose_planes(gatherer *g, alpi_regions *regions)
             }
             if (pass == 2) {
                 const double *axis = g->regions[r].axis;
-                const bool good = (double)least[r] + 1.0 >= cos(g->max_angle);
+                const bool good = (double)least[r] + 1.0 >= alpi_cosine(g->max_angle);
                 vec3_store(regions->planes[r],
                            good ? mean : (vec3){(float)axis[0], (float)axis[1], (float)axis[2]});
             }

@@ -4,6 +4,8 @@
 // than a thousandth of a texel.
 #include "atlas/factors.h"
 
+#include "base/angle.h"
+
 #include <math.h>
 
 // Steps of a float below 1; and the stretch, of the 2 that is stated, beyond which one is widened.
@@ -61,7 +63,7 @@ static void shape(const sliver *s, double density, double width, double to[3][2]
     int at = 0;
     for (int k = 0; k < 3; k++) {
         const double *a = flat[k], *b = flat[(k + 1) % 3];
-        const double length = hypot(b[0] - a[0], b[1] - a[1]);
+        const double length = alpi_length2(b[0] - a[0], b[1] - a[1]);
         if (length > longest) {
             longest = length;
             at = k;
@@ -69,9 +71,9 @@ static void shape(const sliver *s, double density, double width, double to[3][2]
     }
     const int next = (at + 1) % 3, apex = (at + 2) % 3;
     const double x = s->p[next][0] - s->p[at][0], y = s->p[next][1] - s->p[at][1];
-    if (hypot(x, y) > 0.0) {
-        along[0] = x / hypot(x, y);
-        along[1] = y / hypot(x, y);
+    if (alpi_length2(x, y) > 0.0) {
+        along[0] = x / alpi_length2(x, y);
+        along[1] = y / alpi_length2(x, y);
     }
     const double base = fmax(density * longest, width);
     const double height = fmax(density * s->world / longest, width);
@@ -143,7 +145,7 @@ void alpi_widen_slivers(alp_atlas *atlas)
         const double density = mean * alpi_factor_of(atlas, t);
         load_world(scene, t, &s);
         s.laid = load_page((const float(*)[2])atlas->corner_uvs[t], s.p);
-        const double thin = s.world * density / fmax(s.flat[0], hypot(s.flat[1], s.flat[2]));
+        const double thin = s.world * density / fmax(s.flat[0], alpi_length2(s.flat[1], s.flat[2]));
         if (density * stretch_of(&s) > WORST_STRETCH && thin < 64.0 * FLOAT_STEP) {
             widen(&s, density, atlas->corner_uvs[t]);
         }

@@ -7,6 +7,7 @@
 // neighbourhood of the mesh for the diffusion and one triangle at a time.
 #include "atlas/regions.h"
 
+#include "base/angle.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 
@@ -232,7 +233,7 @@ alp_result alpi_regions_straighten(const alp_scene *scene, const uint32_t (*neig
 {
     straightener s = {.scene = scene,
                       .neighbours = neighbours,
-                      .least_cosine = cosf(max_angle),
+                      .least_cosine = (float)alpi_cosine((double)max_angle),
                       .regions = regions};
     const alp_result result = straighten(&s);
     alpi_release(scene->context, s.areas);

@@ -4,6 +4,7 @@
 // SIGGRAPH 2001.
 #include "atlas/stretch.h"
 
+#include "base/angle.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -71,7 +72,7 @@ static double longest_page_edge(const double p[3][2])
     double longest = 0.0;
     for (int k = 0; k < 3; k++) {
         const double *a = p[k], *b = p[(k + 1) % 3];
-        longest = fmax(longest, hypot(b[0] - a[0], b[1] - a[1]));
+        longest = fmax(longest, alpi_length2(b[0] - a[0], b[1] - a[1]));
     }
     return longest;
 }
