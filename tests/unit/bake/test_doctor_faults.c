@@ -71,9 +71,10 @@ static alp_scene *make(alp_context *context, const model *m)
 }
 
 /// Fails unless the model has one finding besides its lack of coordinates: of the kind, at the
-/// surface and its triangle; with MESSAGE none.
-static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, uint32_t triangle)
+/// surface and its triangle; with MESSAGE none. @return its value
+static double has_only(const model *m, alp_finding_kind kind, uint32_t surface, uint32_t triangle)
 {
+    double value = (double)NAN;
     alp_context *context = test_context(1);
     alp_scene *scene = make(context, m);
     alp_diagnosis *d = NULL;
@@ -88,6 +89,7 @@ static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, ui
             fail_msg("%s: %s: %s", f.code, f.name, f.what);
         }
         others++;
+        value = f.value;
         assert_int_equal(f.place, ALP_PLACE_SURFACE);
         assert_int_equal(f.index, surface);
         assert_true(f.spot.known && f.seen[0] != '\0' && f.todo[0] != '\0');
@@ -103,6 +105,7 @@ static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, ui
     alp_diagnosis_destroy(d);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
+    return value;
 }
 
 static model *new_model(void)
@@ -174,15 +177,27 @@ static void objects_that_touch_are_well(void **state)
 
 // --- inside --------------------------------------------------------------------------------------
 
+/// A box of 0.6 m, of which some is in one of 2 m: there its sixth side is, and as much of four.
 static void boxes_in_boxes(void **state)
 {
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    static const struct {
+        float inside; // metres
+        bool found;
+    } cases[] = {{1.0f, true},  {0.5f, true},  {0.4f, true},
+                 {0.3f, false}, {0.2f, false}, {-0.5f, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         model *m = new_model();
         put_box(m, 0, (vec3){0, 0, 0}, 2.0f, false);
-        // Inside; halfway out, as things stand in others; beside it.
-        put_box(m, 1, (vec3){i == 0 ? 0.7f : i == 1 ? 1.7f : 2.5f, 0.7f, 0.7f}, 0.6f, false);
-        has_only(m, i == 0 ? ALP_FINDING_BURIED : ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+        put_box(m, 1, (vec3){2.0f - cases[i].inside, 0.7f, 0.7f}, 0.6f, false);
+        const double value =
+            has_only(m, cases[i].found ? ALP_FINDING_BURIED : ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+        const double depth = fmin((double)cases[i].inside / 0.6, 1.0);
+        const double share = depth < 1.0 ? (1.0 + 4.0 * depth) / 6.0 : 1.0;
+        // 2.16 m² of 26.16 have 676 points of 8192: four standard errors, at most.
+        if (cases[i].found) {
+            ASSERT_NEAR(value, share, 4.0 * sqrt(share * (1.0 - share) / 676.0) + 1e-9);
+        }
         test_free(m);
     }
 }

@@ -141,6 +141,20 @@ static void odd_files_have_their_finding(void **state)
     test_free(h);
 }
 
+/// What is so: gables are prisms between walls and roof, which only their ends look out of, and
+/// the fountain's lower step is let into the court.
+static bool is_meant(const char *scene, const alp_finding *f)
+{
+    static const char *const buried[][2] = {{"builtin:atrium", "lower step"},
+                                            {"builtin:terrain", "gables"}};
+    bool meant = f->kind == ALP_FINDING_NO_UVS || f->kind == ALP_FINDING_NO_LIGHT;
+    for (size_t i = 0; i < sizeof buried / sizeof *buried; i++) {
+        meant = meant || (f->kind == ALP_FINDING_BURIED && strcmp(scene, buried[i][0]) == 0 &&
+                          strcmp(f->name, buried[i][1]) == 0);
+    }
+    return meant;
+}
+
 static void built_in_scenes_are_well(void **state)
 {
     (void)state;
@@ -155,7 +169,7 @@ static void built_in_scenes_are_well(void **state)
         alp_diagnosis *d = look(names[i], h, &context, &scene);
         for (uint32_t k = 0; k < alp_diagnosis_finding_count(d); k++) {
             const alp_finding f = alp_diagnosis_get_finding(d, k);
-            if (f.kind != ALP_FINDING_NO_UVS && f.kind != ALP_FINDING_NO_LIGHT) {
+            if (!is_meant(names[i], &f)) {
                 fail_msg("%s: %s: %s", names[i], f.code, f.what);
             }
         }
