@@ -40,30 +40,37 @@ static alpi_doctor_hit judge(const alp_scene *scene, const alpi_hits *hits, int 
                                  !alpi_surface_is_pane(scene, scene->triangle_surface[triangle])};
 }
 
-void alpi_doctor_look_from(const alpi_doctor_points *points, uint32_t point, float sign,
-                           uint32_t stream, uint32_t first, alpi_doctor_hit hits[ALPI_PACKET])
+void alpi_doctor_look(const alp_scene *scene, const alpi_tracer *tracer, const alpi_doctor_eye *eye,
+                      uint32_t first, alpi_doctor_hit hits[ALPI_PACKET])
 {
-    vec3 c[3], t, b, directions[ALPI_PACKET];
-    alpi_triangle_corners(points->scene, points->points[point].triangle, c);
-    const vec3 normal = vec3_scale(face_normal(c), sign);
-    const vec3 p = place_of(c, &points->points[point]);
-    const vec3 start = vec3_mad(p, alpi_receiver_offset(p, c), normal);
+    vec3 t, b, directions[ALPI_PACKET];
     alpi_rays rays;
     alpi_hits met;
     alpi_rays_clear(&rays);
-    vec3_frame(normal, &t, &b);
+    vec3_frame(eye->normal, &t, &b);
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        const vec3 local = alpi_warp_cosine_cone(
-            alpi_sample_2d(alpi_random_key(0, point, stream), first + i), 1.0f);
-        directions[i] = vec3_normalize_or(
-            vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, normal), normal);
-        alpi_rays_set(&rays, (int)i, start, directions[i], (float)INFINITY);
+        const vec3 local = alpi_warp_cosine_cone(alpi_sample_2d(eye->key, first + i), 1.0f);
+        const vec3 flat = vec3_mad(vec3_scale(t, local.x), local.y, b);
+        directions[i] = vec3_normalize_or(vec3_mad(flat, local.z, eye->normal), eye->normal);
+        alpi_rays_set(&rays, (int)i, eye->start, directions[i], (float)INFINITY);
     }
-    alpi_trace_nearest(points->tracer, &rays, (1u << ALPI_PACKET) - 1u,
+    alpi_trace_nearest(tracer, &rays, (1u << ALPI_PACKET) - 1u,
                        (alpi_trace_filter){.one_sided = false}, &met);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        hits[i] = judge(points->scene, &met, i, directions[i]);
+        hits[i] = judge(scene, &met, i, directions[i]);
     }
+}
+
+void alpi_doctor_look_from(const alpi_doctor_points *points, uint32_t point, float sign,
+                           uint32_t stream, uint32_t first, alpi_doctor_hit hits[ALPI_PACKET])
+{
+    vec3 c[3];
+    alpi_triangle_corners(points->scene, points->points[point].triangle, c);
+    const vec3 normal = vec3_scale(face_normal(c), sign);
+    const vec3 p = place_of(c, &points->points[point]);
+    const alpi_doctor_eye eye = {vec3_mad(p, alpi_receiver_offset(p, c), normal), normal,
+                                 alpi_random_key(0, point, stream)};
+    alpi_doctor_look(points->scene, points->tracer, &eye, first, hits);
 }
 
 void alpi_doctor_mark_point(alp_diagnosis *diagnosis, const alpi_area_point *point)

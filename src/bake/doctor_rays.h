@@ -25,6 +25,17 @@ typedef struct alpi_doctor_hit {
     bool back;         // of a single-sided surface, from behind
 } alpi_doctor_hit;
 
+/// Where rays begin, off the surface.
+typedef struct alpi_doctor_eye {
+    vec3 start, normal; // metres; unit
+    uint32_t key;       // of random numbers
+} alpi_doctor_eye;
+
+/// A packet of rays from a point, spread about a unit normal by the cosine.
+/// @param first of the rays of this eye
+void alpi_doctor_look(const alp_scene *scene, const alpi_tracer *tracer, const alpi_doctor_eye *eye,
+                      uint32_t first, alpi_doctor_hit hits[ALPI_PACKET]);
+
 /// A packet of rays from a side of a point, spread by the cosine.
 /// @param sign   1 = the front, −1 = the back
 /// @param stream of random numbers
