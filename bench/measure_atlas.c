@@ -192,7 +192,7 @@ static alp_result make_atlas(const bench_scene *scene, const wishes *w, alp_atla
 static alp_result read_atlas(const bench_scene *scene, const wishes *w, alp_atlas **atlas)
 {
     alpi_uv_set_facts facts;
-    ALP_TRY(alpi_uv_set_survey(scene->scene, (uint32_t)w->set, w->size, &facts, atlas));
+    ALP_TRY(alpi_uv_set_survey(scene->scene, (uint32_t)w->set, w->size, NULL, &facts, atlas));
     (*atlas)->options.padding = w->padding;
     (*atlas)->info.mode = ALP_ATLAS_CHARTS;
     return alpi_measure(*atlas, NULL);

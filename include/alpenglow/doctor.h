@@ -36,6 +36,7 @@ typedef enum alp_finding_kind {
     ALP_FINDING_THIN_WALL = 14,       ///< double-sided sheets whose sides see unlike much sky
     ALP_FINDING_BURIED = 15,          ///< surface that lies inside other objects
     ALP_FINDING_SCALE = 16,           ///< objects of another order of size than all others
+    ALP_FINDING_COPLANAR = 17,        ///< triangles in the plane and partly the place of others
 
     ALP_FINDING_NO_UVS = 30,     ///< no coordinates at all
     ALP_FINDING_UV_MISSING = 31, ///< some surfaces lack the set that others have

@@ -132,8 +132,10 @@ typedef struct alpi_uv_set_facts {
 /// Measures set `set` of all surfaces on a page of size × size texels.
 /// @param layout out: the triangles inside [0, 1] on page 0 at the set's coordinates, others on
 ///               ALPI_NONE; charts are islands
+/// @param neighbours what alpi_adjacency_create gives, NULL = it is made here
 alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
-                              alpi_uv_set_facts *facts, alp_atlas **layout);
+                              const uint32_t (*neighbours)[3], alpi_uv_set_facts *facts,
+                              alp_atlas **layout);
 
 /// What will be seen of a bake in a set that can hold one.
 typedef struct alpi_uv_quality {

@@ -219,19 +219,22 @@ static alp_result look_at_texels(survey *s)
 
 // --- all of it -----------------------------------------------------------------------------------
 
-static alp_result survey_set(survey *s, uint32_t set)
+static alp_result survey_set(survey *s, uint32_t set, const uint32_t (*neighbours)[3])
 {
     alp_atlas *atlas = s->atlas;
     const uint32_t count = atlas->scene->triangle_count;
     ALPI_TRY_NEW(atlas->context, atlas->corner_uvs, count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_pages, count);
     ALPI_TRY_NEW(atlas->context, atlas->triangle_charts, count);
-    uint32_t(*neighbours)[3] = NULL;
+    uint32_t(*own)[3] = NULL;
     count_surfaces(atlas->scene, set, s->facts);
     read_coordinates(atlas, set);
-    ALP_TRY(alpi_adjacency_create(atlas->scene, &neighbours));
-    alp_result result = alpi_uv_islands(atlas, (const uint32_t(*)[3])neighbours);
-    alpi_release(atlas->context, neighbours);
+    if (neighbours == NULL) {
+        ALP_TRY(alpi_adjacency_create(atlas->scene, &own));
+        neighbours = (const uint32_t(*)[3])own;
+    }
+    alp_result result = alpi_uv_islands(atlas, neighbours);
+    alpi_release(atlas->context, own);
     ALP_TRY(result);
     judge_triangles(atlas, s->facts);
     compare_densities(atlas, s->facts);
@@ -239,7 +242,8 @@ static alp_result survey_set(survey *s, uint32_t set)
 }
 
 alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t size,
-                              alpi_uv_set_facts *facts, alp_atlas **layout)
+                              const uint32_t (*neighbours)[3], alpi_uv_set_facts *facts,
+                              alp_atlas **layout)
 {
     *facts = (alpi_uv_set_facts){0};
     *layout = NULL;
@@ -253,7 +257,7 @@ alp_result alpi_uv_set_survey(const alp_scene *scene, uint32_t set, uint32_t siz
     atlas->info =
         (alp_atlas_info){.mode = ALP_ATLAS_KEEP, .pages = 1, .width = size, .height = size};
     survey s = {.atlas = atlas, .facts = facts};
-    const alp_result result = survey_set(&s, set);
+    const alp_result result = survey_set(&s, set, neighbours);
     alpi_release(scene->context, s.islands);
     alpi_release(scene->context, s.overlaps);
     if (result != ALP_OK) {

@@ -2,6 +2,7 @@
 // The doctor: looks at a scene from all sides, and lists what it finds.
 #include "bake/doctor.h"
 
+#include "atlas/atlas.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 
@@ -262,12 +263,16 @@ static alp_result look(alp_diagnosis *d, const alp_diagnosis_options *options)
     for (uint32_t i = 0; i < options->message_count; i++) {
         ALP_TRY(add_message(d, &options->messages[i], options->light));
     }
+    if (d->scene->usable_count > 0) {
+        ALP_TRY(alpi_adjacency_create(d->scene, &d->neighbours));
+    }
     ALP_TRY(alpi_doctor_look_at_mesh(d));
     ALP_TRY(alpi_doctor_look_at_uvs(d));
     ALP_TRY(alpi_doctor_look_at_materials(d));
     ALP_TRY(alpi_doctor_look_at_lights(d));
     ALP_TRY(alpi_doctor_look_at_backs(d));
     ALP_TRY(alpi_doctor_look_at_junctions(d));
+    ALP_TRY(alpi_doctor_look_at_overlaps(d));
     ALP_TRY(alpi_doctor_look_at_sides(d));
     ALP_TRY(alpi_doctor_look_at_scale(d));
     ALP_TRY(sort_findings(d));
@@ -308,6 +313,8 @@ alp_result alp_scene_diagnose(const alp_scene *scene, const alp_diagnosis_option
     const alpi_watch former = alpi_set_watch(
         scene->context, (alpi_watch){.callback = o.progress, .user = o.progress_user});
     const alp_result result = look(d, &o);
+    alpi_release(d->context, d->neighbours);
+    d->neighbours = NULL;
     alpi_set_watch(scene->context, former);
     if (result != ALP_OK) {
         alp_diagnosis_destroy(d);

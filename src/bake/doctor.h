@@ -31,6 +31,7 @@ struct alp_diagnosis {
     char *reasons[ALPI_UV_SET_LIMIT];
     uint32_t uv_set_count;
     uint32_t page_size;
+    uint32_t (*neighbours)[3]; // of triangles, while it is looked; NULL where none can be used
     uint32_t spots[ALPI_DOCTOR_SPOTS]; // findings: the first of its kind each
     uint32_t spot_count;
     char spot_names[ALPI_DOCTOR_SPOTS][32];
@@ -72,6 +73,7 @@ alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_lights(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_backs(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_junctions(alp_diagnosis *diagnosis);
+alp_result alpi_doctor_look_at_overlaps(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_sides(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_scale(alp_diagnosis *diagnosis);
 

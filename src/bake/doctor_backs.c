@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The doctor's look at backs: single-sided surfaces that other surfaces see from behind, found by
 // rays from points spread over the scene.
-#include "bake/doctor.h"
+#include "bake/doctor_rays.h"
 
 #include "base/memory.h"
-#include "base/random.h"
-#include "base/tasks.h"
-#include "base/warp.h"
-#include "scene/area_points.h"
-#include "scene/receivers.h"
-#include "trace/trace.h"
-
-#include <math.h>
 
 /// 16 rays each: of 16384 a share of 10 % has a standard error of .2 %.
-enum { POINTS = 1024, RAYS = 2 * ALPI_PACKET, POINTS_PER_RANGE = 32, STREAM_BACKS = 201 };
+enum { POINTS = 1024, RAYS = ALPI_DOCTOR_RAYS, POINTS_PER_RANGE = 32, STREAM_BACKS = 201 };
 /// Share of what surfaces see from which backs are worth a word. In a good scene solids reach into
 /// each other, and see out through their faces there: 5 % in builtin:atrium, 9 % in measured
 /// models.
@@ -24,88 +16,39 @@ static const double SEEN_SHARE = 0.01;
 /// A point that sees so much of backs lies inside something: nobody sees it. In sixteenths.
 enum { INSIDE = RAYS * 3 / 4 };
 
-typedef struct survey {
-    const alp_scene *scene;
-    const alpi_tracer *tracer;
-    alpi_area_point points[POINTS];
-    uint32_t hits[POINTS][RAYS]; // triangle met from behind, or one of these
-} survey;
+/// What a point sees.
+typedef struct view {
+    uint32_t hits[RAYS]; // triangle met from behind, or one of these
+} view;
 static const uint32_t NOTHING = ALPI_NONE, FRONT = ALPI_NONE - 1;
 
-/// The place of a point, just above the front of its triangle.
-static vec3 start_of(const alp_scene *scene, const alpi_area_point *point, vec3 *normal)
+static void look_from(const alpi_doctor_points *points, uint32_t point, void *kept)
 {
-    vec3 c[3];
-    alpi_triangle_corners(scene, point->triangle, c);
-    *normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-    vec3 p = vec3_scale(c[0], 1.0f - point->b1 - point->b2);
-    p = vec3_mad(vec3_mad(p, point->b1, c[1]), point->b2, c[2]);
-    return vec3_mad(p, alpi_receiver_offset(p, c), *normal);
-}
-
-static uint32_t judge(const alp_scene *scene, const alpi_hits *hits, int lane, vec3 direction)
-{
-    const uint32_t triangle = hits->triangle[lane];
-    if (triangle == ALPI_NONE) {
-        return NOTHING;
-    }
-    vec3 c[3];
-    alpi_triangle_corners(scene, triangle, c);
-    const vec3 face = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-    const uint32_t surface = scene->triangle_surface[triangle];
-    return vec3_dot(face, direction) > 0.0f && !alpi_surface_is_double_sided(scene, triangle) &&
-                   !alpi_surface_is_pane(scene, surface)
-               ? triangle
-               : FRONT;
-}
-
-static void look_from(survey *s, uint32_t point)
-{
-    vec3 normal, t, b, directions[ALPI_PACKET];
-    const vec3 start = start_of(s->scene, &s->points[point], &normal);
-    vec3_frame(normal, &t, &b);
+    view *seen = kept;
     for (uint32_t first = 0; first < RAYS; first += ALPI_PACKET) {
-        alpi_rays rays;
-        alpi_hits hits;
-        alpi_rays_clear(&rays);
+        alpi_doctor_hit hits[ALPI_PACKET];
+        alpi_doctor_look_from(points, point, 1.0f, STREAM_BACKS, first, hits);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            const vec3 local = alpi_warp_cosine_cone(
-                alpi_sample_2d(alpi_random_key(0, point, STREAM_BACKS), first + i), 1.0f);
-            directions[i] = vec3_normalize_or(
-                vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, normal), normal);
-            alpi_rays_set(&rays, (int)i, start, directions[i], (float)INFINITY);
-        }
-        alpi_trace_nearest(s->tracer, &rays, (1u << ALPI_PACKET) - 1u,
-                           (alpi_trace_filter){.one_sided = false}, &hits);
-        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            s->hits[point][first + i] = judge(s->scene, &hits, (int)i, directions[i]);
+            seen->hits[first + i] =
+                hits[i].back || hits[i].triangle == NOTHING ? hits[i].triangle : FRONT;
         }
     }
-}
-
-static alp_result look_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    for (uint32_t i = begin; i < end; i++) {
-        look_from(user, i);
-    }
-    return ALP_OK;
 }
 
 /// Adds up what was seen; of backs, `counts` has each surface's, `first` a triangle of it.
-static void add_up(const survey *s, uint32_t *counts, uint32_t *first, uint32_t *seen,
-                   uint32_t *backs)
+static void add_up(const alp_scene *scene, const view *views, uint32_t *counts, uint32_t *first,
+                   uint32_t *seen, uint32_t *backs)
 {
     for (uint32_t p = 0; p < POINTS; p++) {
         uint32_t own = 0;
         for (uint32_t i = 0; i < RAYS; i++) {
-            own += s->hits[p][i] < FRONT;
+            own += views[p].hits[i] < FRONT;
         }
         for (uint32_t i = 0; own < INSIDE && i < RAYS; i++) {
-            const uint32_t hit = s->hits[p][i];
+            const uint32_t hit = views[p].hits[i];
             *seen += hit != NOTHING;
             if (hit < FRONT) {
-                const uint32_t surface = s->scene->triangle_surface[hit];
+                const uint32_t surface = scene->triangle_surface[hit];
                 first[surface] = counts[surface]++ == 0 ? hit : first[surface];
                 *backs += 1;
             }
@@ -113,9 +56,9 @@ static void add_up(const survey *s, uint32_t *counts, uint32_t *first, uint32_t 
     }
 }
 
-static alp_result tell(alp_diagnosis *d, const survey *s)
+static alp_result tell(alp_diagnosis *d, const alpi_doctor_points *points, const void *kept)
 {
-    const alp_scene *scene = d->scene;
+    const alp_scene *scene = points->scene;
     uint32_t *counts = ALPI_NEW(d->context, uint32_t, scene->surface_count);
     uint32_t *first = ALPI_NEW(d->context, uint32_t, scene->surface_count);
     if (counts == NULL || first == NULL) {
@@ -125,7 +68,7 @@ static alp_result tell(alp_diagnosis *d, const survey *s)
     }
     uint32_t seen = 0, backs = 0, most = 0;
     alp_result result = ALP_OK;
-    add_up(s, counts, first, &seen, &backs);
+    add_up(scene, kept, counts, first, &seen, &backs);
     for (uint32_t i = 0; i < scene->surface_count; i++) {
         most = counts[i] > counts[most] ? i : most;
     }
@@ -148,24 +91,6 @@ static alp_result tell(alp_diagnosis *d, const survey *s)
 
 alp_result alpi_doctor_look_at_backs(alp_diagnosis *diagnosis)
 {
-    const alp_scene *scene = diagnosis->scene;
-    if (scene->usable_count == 0) {
-        return ALP_OK;
-    }
-    alpi_tracer *tracer = NULL;
-    ALP_TRY(alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
-    survey *s = ALPI_NEW(diagnosis->context, survey, 1);
-    if (s == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    s->scene = scene;
-    s->tracer = tracer;
-    alp_result result = ALP_OK;
-    if (alpi_area_points(scene, POINTS, s->points)) {
-        result =
-            alpi_parallel_for(diagnosis->context, POINTS, POINTS_PER_RANGE, look_range, s, NULL);
-        result = result == ALP_OK ? tell(diagnosis, s) : result;
-    }
-    alpi_release(diagnosis->context, s);
-    return result;
+    const alpi_doctor_survey survey = {POINTS, POINTS_PER_RANGE, sizeof(view), look_from, tell};
+    return alpi_doctor_take_survey(diagnosis, &survey);
 }

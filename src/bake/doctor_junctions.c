@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The doctor's look for T-junctions: vertices that lie within an open edge of another triangle of
-// the same surface, which therefore does not know that it goes on there.
+// the same object, of whatever material, which therefore does not know that it goes on there.
 #include "bake/doctor.h"
 
 #include "atlas/atlas.h"
@@ -31,10 +31,11 @@ static const uint64_t LOOK_LIMIT = (uint64_t)1 << 27;
 
 typedef struct edge {
     uint32_t half; // 3·triangle + k: from corner k to corner k + 1
-    uint32_t surface;
+    uint32_t object;
 } edge;
 
-/// The open edges of a surface. Where surfaces meet, each ends for itself: materials change there.
+/// The open edges of an object: of all primitives of a mesh, where it is shown once. Those that two
+/// of them share, where the material changes, are not open.
 typedef struct outline {
     double3 low, high; // of its open edges
     double length;     // of them together
@@ -53,7 +54,8 @@ typedef struct search {
     alp_context *context;
     edge *edges; // [edge_count]
     uint32_t edge_count;
-    outline *outlines; // [surface_count]
+    uint32_t *objects; // [surface_count] the first surface of its object
+    outline *outlines; // [surface_count] by objects
     entry *entries;    // [entry_count]
     size_t entry_count, entry_capacity;
     uint32_t *slots; // [mask + 1]
@@ -86,6 +88,39 @@ static uint32_t end_of(const search *s, uint32_t half)
 static double3 point_of(const search *s, uint32_t vertex)
 {
     return double3_from(vec3_load(s->scene->positions[vertex]));
+}
+
+// --- objects -------------------------------------------------------------------------------------
+
+static bool is_same_object(const alpi_surface *a, const alpi_surface *b)
+{
+    return a->node == b->node && a->mesh == b->mesh && a->instance == b->instance;
+}
+
+/// Finds the surfaces that are primitives of one mesh at one place.
+static alp_result find_objects(search *s)
+{
+    const uint32_t count = s->scene->surface_count;
+    const size_t mask = table_size(count) - 1;
+    ALPI_TRY_NEW(s->context, s->objects, count);
+    uint32_t *table = ALPI_NEW(s->context, uint32_t, mask + 1);
+    if (table == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    memset(table, 0xFF, (mask + 1) * sizeof *table);
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_surface *own = &s->scene->surfaces[i];
+        size_t slot = (size_t)alpi_hash64(((uint64_t)own->node << 32 | own->mesh) ^
+                                          alpi_hash64(own->instance));
+        while (table[slot & mask] != ALPI_NONE &&
+               !is_same_object(own, &s->scene->surfaces[table[slot & mask]])) {
+            slot++;
+        }
+        table[slot & mask] = table[slot & mask] == ALPI_NONE ? i : table[slot & mask];
+        s->objects[i] = table[slot & mask];
+    }
+    alpi_release(s->context, table);
+    return ALP_OK;
 }
 
 // --- open edges ----------------------------------------------------------------------------------
@@ -140,17 +175,16 @@ static void collect_edges(search *s, const uint32_t (*neighbours)[3])
     for (uint32_t t = 0; t < s->scene->triangle_count; t++) {
         for (uint32_t k = 0; k < 3 && s->scene->triangle_usable[t]; k++) {
             if (neighbours[t][k] == ALPI_NONE) {
-                s->edges[s->edge_count++] = (edge){3 * t + k, s->scene->triangle_surface[t]};
+                s->edges[s->edge_count++] =
+                    (edge){3 * t + k, s->objects[s->scene->triangle_surface[t]]};
             }
         }
     }
 }
 
-static alp_result find_edges(search *s)
+static alp_result find_edges(search *s, const uint32_t (*neighbours)[3])
 {
-    uint32_t(*neighbours)[3] = NULL;
     uint32_t open = 0;
-    ALP_TRY(alpi_adjacency_create(s->scene, &neighbours));
     for (uint32_t t = 0; t < s->scene->triangle_count; t++) {
         for (int k = 0; k < 3 && s->scene->triangle_usable[t]; k++) {
             open += neighbours[t][k] == ALPI_NONE;
@@ -162,18 +196,17 @@ static alp_result find_edges(search *s)
     uint8_t *repeated = ALPI_NEW(s->context, uint8_t, open);
     const bool made = s->edges != NULL && s->slots != NULL && repeated != NULL;
     if (made) {
-        collect_edges(s, (const uint32_t(*)[3])neighbours);
+        collect_edges(s, neighbours);
         drop_repeated(s, repeated);
     }
     alpi_release(s->context, repeated);
-    alpi_release(s->context, neighbours);
     return made ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
 }
 
 static void measure_outlines(search *s)
 {
     for (uint32_t i = 0; i < s->edge_count; i++) {
-        outline *o = &s->outlines[s->edges[i].surface];
+        outline *o = &s->outlines[s->edges[i].object];
         const double3 a = point_of(s, start_of(s, s->edges[i].half));
         const double3 b = point_of(s, end_of(s, s->edges[i].half));
         if (o->count++ == 0) {
@@ -212,9 +245,9 @@ static int64_t cell_of(double value, double low, double cell)
     return (int64_t)floor((value - low) / cell);
 }
 
-static size_t slot_of(const search *s, uint32_t surface, const int64_t cell[3])
+static size_t slot_of(const search *s, uint32_t object, const int64_t cell[3])
 {
-    uint64_t hash = alpi_hash64(surface);
+    uint64_t hash = alpi_hash64(object);
     for (int k = 0; k < 3; k++) {
         hash = alpi_hash64(hash ^ (uint64_t)cell[k]);
     }
@@ -225,7 +258,7 @@ static size_t slot_of(const search *s, uint32_t surface, const int64_t cell[3])
 static alp_result put_end(search *s, uint32_t index, bool second)
 {
     const edge *e = &s->edges[index];
-    const outline *o = &s->outlines[e->surface];
+    const outline *o = &s->outlines[e->object];
     const double3 p = point_of(s, second ? end_of(s, e->half) : start_of(s, e->half));
     const double reach = 2.0 * nearness(o, HUGE_VAL); // room for rounding on the way
     const int64_t low[3] = {cell_of(p.x - reach, o->low.x, o->cell),
@@ -243,7 +276,7 @@ static alp_result put_end(search *s, uint32_t index, bool second)
             for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++) {
                 ALP_TRY(alpi_grow(s->context, (void **)&s->entries, &s->entry_capacity,
                                   s->entry_count + 1, sizeof *s->entries));
-                const size_t slot = slot_of(s, e->surface, cell);
+                const size_t slot = slot_of(s, e->object, cell);
                 s->entries[s->entry_count] = (entry){index, s->slots[slot], second};
                 s->slots[slot] = (uint32_t)s->entry_count++;
             }
@@ -260,7 +293,7 @@ static alp_result put_ends(search *s)
     ALPI_TRY_NEW(s->context, s->slots, s->mask + 1);
     memset(s->slots, 0xFF, (s->mask + 1) * sizeof *s->slots);
     for (uint32_t i = 0; i < s->edge_count; i++) {
-        if (s->outlines[s->edges[i].surface].count > 3) { // one triangle has nobody to meet
+        if (s->outlines[s->edges[i].object].count > 3) { // one triangle has nobody to meet
             ALP_TRY(put_end(s, i, false));
             ALP_TRY(put_end(s, i, true));
         }
@@ -289,9 +322,9 @@ static bool is_junction(const search *s, const edge *e, const entry *other)
     const double along = double3_dot(to, direction);
     if (half / 3 == there / 3 || !(along > FROM_ENDS * length) ||
         !(along < (1.0 - FROM_ENDS) * length) ||
-        !(double3_length(across(to, direction)) <= nearness(&s->outlines[e->surface], length)) ||
+        !(double3_length(across(to, direction)) <= nearness(&s->outlines[e->object], length)) ||
         !(double3_length(across(on, direction)) <=
-          fmax(ALONG * double3_length(on), nearness(&s->outlines[e->surface], length)))) {
+          fmax(ALONG * double3_length(on), nearness(&s->outlines[e->object], length)))) {
         return false;
     }
     const double3 own = across(
@@ -304,14 +337,14 @@ static bool is_junction(const search *s, const edge *e, const entry *other)
 /// @return the vertex within the edge, ALPI_NONE = none in this cell
 static uint32_t look_in_cell(search *s, const edge *e, const int64_t cell[3])
 {
-    for (uint32_t i = s->slots[slot_of(s, e->surface, cell)]; i != ALPI_NONE;
+    for (uint32_t i = s->slots[slot_of(s, e->object, cell)]; i != ALPI_NONE;
          i = s->entries[i].next) {
         const entry *other = &s->entries[i];
         const uint32_t there = s->edges[other->edge].half;
         if (++s->looks > LOOK_LIMIT) {
             return ALPI_NONE;
         }
-        if (s->edges[other->edge].surface == e->surface && is_junction(s, e, other)) {
+        if (s->edges[other->edge].object == e->object && is_junction(s, e, other)) {
             return other->second ? end_of(s, there) : start_of(s, there);
         }
     }
@@ -322,7 +355,7 @@ static uint32_t look_in_cell(search *s, const edge *e, const int64_t cell[3])
 /// Based on: J. Amanatides, A. Woo. A Fast Voxel Traversal Algorithm for Ray Tracing. EG 1987.
 static uint32_t walk(search *s, const edge *e)
 {
-    const outline *o = &s->outlines[e->surface];
+    const outline *o = &s->outlines[e->object];
     const double3 a = point_of(s, start_of(s, e->half)), b = point_of(s, end_of(s, e->half));
     const double from[3] = {(a.x - o->low.x) / o->cell, (a.y - o->low.y) / o->cell,
                             (a.z - o->low.z) / o->cell};
@@ -347,20 +380,21 @@ static uint32_t walk(search *s, const edge *e)
     }
 }
 
-static alp_result look(search *s)
+static alp_result look(search *s, const uint32_t (*neighbours)[3])
 {
     ALPI_TRY_NEW(s->context, s->outlines, s->scene->surface_count);
     ALPI_TRY_NEW(s->context, s->found, s->scene->surface_count);
     ALPI_TRY_NEW(s->context, s->longest, s->scene->surface_count);
     ALPI_TRY_NEW(s->context, s->worst_edge, s->scene->surface_count);
     ALPI_TRY_NEW(s->context, s->worst_other, s->scene->surface_count);
-    ALP_TRY(find_edges(s));
+    ALP_TRY(find_objects(s));
+    ALP_TRY(find_edges(s, neighbours));
     measure_outlines(s);
     ALP_TRY(put_ends(s));
     for (uint32_t i = 0; i < s->edge_count; i++) {
         ALP_TRY(i % 65536 == 0 ? alpi_tick(s->context, "diagnose", i, s->edge_count) : ALP_OK);
         const edge *e = &s->edges[i];
-        const uint32_t vertex = s->outlines[e->surface].count > 3 ? walk(s, e) : ALPI_NONE;
+        const uint32_t vertex = s->outlines[e->object].count > 3 ? walk(s, e) : ALPI_NONE;
         if (vertex == ALPI_NONE) {
             continue;
         }
@@ -405,12 +439,12 @@ alp_result alpi_doctor_look_at_junctions(alp_diagnosis *diagnosis)
         return ALP_OK;
     }
     search s = {.scene = scene, .context = diagnosis->context};
-    alp_result result = look(&s);
+    alp_result result = look(&s, (const uint32_t(*)[3])diagnosis->neighbours);
     if (result == ALP_OK) {
         result = tell(diagnosis, &s);
     }
-    void *const own[] = {s.edges, s.outlines, s.entries,    s.slots,
-                         s.found, s.longest,  s.worst_edge, s.worst_other};
+    void *const own[] = {s.objects, s.edges,   s.outlines,   s.entries,    s.slots,
+                         s.found,   s.longest, s.worst_edge, s.worst_other};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         alpi_release(scene->context, own[i]);
     }

@@ -257,7 +257,7 @@ alp_result alpi_doctor_draw_uv_set(const alp_diagnosis *diagnosis, uint32_t set,
     const alp_scene *scene = diagnosis->scene;
     alpi_uv_set_facts facts;
     alp_atlas *layout = NULL;
-    ALP_TRY(alpi_uv_set_survey(scene, set, SIDE, &facts, &layout));
+    ALP_TRY(alpi_uv_set_survey(scene, set, SIDE, NULL, &facts, &layout));
     layout_picture p = {.islands = ALPI_NEW(scene->context, uint32_t, (size_t)SIDE * SIDE)};
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (p.islands != NULL) {

@@ -84,9 +84,14 @@ static corners ordered_corners(const alp_scene *scene, uint32_t triangle)
     return c;
 }
 
+/// A triangle by its corners; part of their hash tells most others apart without a look at them.
+typedef struct entry {
+    uint32_t triangle, hash; // ALPI_NONE = free
+} entry;
+
 /// What lies in the place of others, surface by surface.
 typedef struct twins {
-    uint32_t *table; // [mask + 1] triangle, ALPI_NONE = free
+    entry *table; // [mask + 1]
     size_t mask;
     uint32_t *same, *opposite; // [surface_count] triangles
     uint32_t *with;            // [surface_count] surface of the first twin
@@ -98,16 +103,20 @@ static uint32_t first_at(const alp_scene *scene, twins *w, uint32_t triangle, co
                          bool *turned)
 {
     size_t slot = (size_t)alpi_hash_bytes(ALPI_HASH_START, c->at, sizeof c->at);
+    const uint32_t hash = (uint32_t)(slot >> 32);
     for (slot ^= slot >> 32;; slot++) {
-        const uint32_t there = w->table[slot & w->mask];
-        if (there == ALPI_NONE) {
-            w->table[slot & w->mask] = triangle;
+        entry *there = &w->table[slot & w->mask];
+        if (there->triangle == ALPI_NONE) {
+            *there = (entry){triangle, hash};
             return ALPI_NONE;
         }
-        const corners other = ordered_corners(scene, there);
+        if (there->hash != hash) {
+            continue;
+        }
+        const corners other = ordered_corners(scene, there->triangle);
         if (are_same(&other, c)) {
             *turned = other.turned != c->turned;
-            return there;
+            return there->triangle;
         }
     }
 }

@@ -277,7 +277,8 @@ static alp_result look_at_set(alp_diagnosis *d, uint32_t set)
 {
     alpi_uv_set_facts facts;
     alp_atlas *layout = NULL;
-    ALP_TRY(alpi_uv_set_survey(d->scene, set, d->page_size, &facts, &layout));
+    ALP_TRY(alpi_uv_set_survey(d->scene, set, d->page_size, (const uint32_t(*)[3])d->neighbours,
+                               &facts, &layout));
     alp_result result = keep_facts(d, set, &facts);
     // What a bake of ours laid out to be blended is no place for another, and no fault.
     if (result == ALP_OK && set == ALPI_KEPT_SET && facts.triangles > 0 &&

@@ -23,6 +23,10 @@ static const alpi_finding_words words[] = {
     {ALP_FINDING_BACK_TO_BACK, ALP_SEVERITY_NOTE, "back-to-back",
      "each side gets texels of its own, the inner side too, which nobody may see",
      "nothing where both sides are seen; else delete the faces that look inwards"},
+    {ALP_FINDING_COPLANAR, ALP_SEVERITY_WARNING, "coplanar",
+     "flicker where the two look different, which moves with the camera, and twice the texels for "
+     "one place",
+     "cut the one along the other, or move it off by a millimetre"},
     {ALP_FINDING_BAD_NORMALS, ALP_SEVERITY_WARNING, "bad-normals",
      "facets where the surface should be smooth", "recalculate the normals before export"},
     {ALP_FINDING_REVERSED_NORMALS, ALP_SEVERITY_WARNING, "reversed-normals",

@@ -9,6 +9,10 @@
 #include <math.h>
 
 enum { EDGES_PER_TICK = 1 << 12, LOOK_LIMIT = 4096 };
+/// How far edges that meet may lie apart: so much of the finer texel, and what rounding does of a
+/// coordinate, but no more of a texel than the limit. Far from the origin rounding is as long as
+/// texels, and says nothing any more about who is whose neighbour.
+static const double APART = 0.1, ROUNDING = 4e-7, ROUNDING_LIMIT = 0.15;
 
 static double3 load(const float position[3])
 {
@@ -130,7 +134,8 @@ void alpi_seam_edges_destroy(alpi_seam_edges *edges)
 // --- which of them meet --------------------------------------------------------------------------
 // A hash grid for each octave of lengths, with cells of one to two lengths; an edge stands in the
 // cell of its middle. Each edge looks for those that are as long or longer, so that it looks at few
-// cells however long it is itself.
+// cells however long it is itself. Edges with the same ends, bit for bit, stand in the same cell;
+// one across which the surface goes on so needs no other partner, and looks at that cell alone.
 
 typedef struct cell {
     int64_t x[3];
@@ -142,6 +147,7 @@ typedef struct pair_search {
     const alpi_seam_edges *edges;
     uint32_t *first;  // [buckets + 1]
     uint32_t *sorted; // [edges] bucket by bucket
+    uint8_t *settled; // [edges] 1: the surface goes on at an edge with the same ends
     uint32_t mask;
     int lowest, highest; // octave
     alpi_seam_pair_fn *each;
@@ -153,12 +159,20 @@ static int octave_of(const alpi_seam_edge *edge)
     return ilogbf(edge->length) + 1;
 }
 
+/// The corners of an edge: vertices of the scene.
+static void edge_corners(const alp_scene *scene, const alpi_seam_edge *edge, uint32_t corners[2])
+{
+    const uint32_t *all = scene->triangles[edge->half_edge / 3];
+    corners[0] = all[edge->half_edge % 3];
+    corners[1] = all[(edge->half_edge % 3 + 1) % 3];
+}
+
 static void edge_ends(const alp_scene *scene, const alpi_seam_edge *edge, double3 ends[2])
 {
-    const uint32_t *corners = scene->triangles[edge->half_edge / 3];
-    const uint32_t k = edge->half_edge % 3;
-    ends[0] = load(scene->positions[corners[k]]);
-    ends[1] = load(scene->positions[corners[(k + 1) % 3]]);
+    uint32_t corners[2];
+    edge_corners(scene, edge, corners);
+    ends[0] = load(scene->positions[corners[0]]);
+    ends[1] = load(scene->positions[corners[1]]);
 }
 
 static uint32_t hash_cell(const pair_search *s, const cell *c)
@@ -214,21 +228,50 @@ static alp_result sort_edges(pair_search *s, uint32_t *buckets)
     return ALP_OK;
 }
 
-/// How far edges may lie apart: a tenth of the finer texel, and what rounding of coordinates does.
+static bool is_same_place(const float *a, const float *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/// Whether b runs along all of a, from its end to its beginning, without any rounding.
+static bool has_same_ends(const alp_scene *scene, const alpi_seam_edge *a, const alpi_seam_edge *b)
+{
+    uint32_t p[2], q[2];
+    edge_corners(scene, a, p);
+    edge_corners(scene, b, q);
+    return is_same_place(scene->positions[p[0]], scene->positions[q[1]]) &&
+           is_same_place(scene->positions[p[1]], scene->positions[q[0]]);
+}
+
+/// Whether the surface goes on between edges with the same ends: no crease.
+static bool is_smooth(const alp_scene *scene, const alpi_seam_edge *a, const alpi_seam_edge *b)
+{
+    uint32_t p[2], q[2];
+    edge_corners(scene, a, p);
+    edge_corners(scene, b, q);
+    bool smooth = true;
+    for (int i = 0; i < 2; i++) {
+        const vec3 m = vec3_load(scene->normals[p[i]]), n = vec3_load(scene->normals[q[1 - i]]);
+        smooth = smooth && (double)vec3_dot(m, n) >= ALPI_SEAM_COSINE;
+    }
+    return smooth;
+}
+
+/// How far edges may lie apart that do not have the same ends.
 static double find_tolerance(const alpi_seam_edge *a, const alpi_seam_edge *b,
                              const double3 ends[2])
 {
-    const double rounding = 4e-7, texels = 0.1;
+    const double texel = fmin((double)a->texel, (double)b->texel);
     double largest = 0.0;
     for (int i = 0; i < 2; i++) {
         largest = fmax(largest, fmax(fabs(ends[i].x), fmax(fabs(ends[i].y), fabs(ends[i].z))));
     }
-    return texels * fmin((double)a->texel, (double)b->texel) + rounding * largest;
+    return APART * texel + fmin(ROUNDING * largest, ROUNDING_LIMIT * texel);
 }
 
-/// Whether a and b meet, along more than a point.
-static bool meet(const alp_scene *scene, const alpi_seam_edge *a, const alpi_seam_edge *b,
-                 alpi_seam_pair *pair)
+/// Whether a and b meet within the tolerance, along more than a point.
+static bool meet_nearly(const alp_scene *scene, const alpi_seam_edge *a, const alpi_seam_edge *b,
+                        alpi_seam_pair *pair)
 {
     double3 p[2], q[2];
     edge_ends(scene, a, p);
@@ -259,11 +302,28 @@ static bool meet(const alp_scene *scene, const alpi_seam_edge *a, const alpi_sea
     return true;
 }
 
+/// Whether edges meet: with the same ends, or nearly where neither of them is settled.
+static bool meet(const pair_search *s, uint32_t own, uint32_t other, alpi_seam_pair *pair)
+{
+    const alpi_seam_edge *a = &s->edges->edges[own], *b = &s->edges->edges[other];
+    if (a->half_edge / 3 == b->half_edge / 3) {
+        return false;
+    }
+    if (has_same_ends(s->scene, a, b)) {
+        *pair = (alpi_seam_pair){.edges = {*a, *b},
+                                 .begins = {0.0, 1.0},
+                                 .ends = {1.0, 0.0},
+                                 .length = (double)a->length};
+        return true;
+    }
+    return !s->settled[own] && !s->settled[other] && meet_nearly(s->scene, a, b, pair);
+}
+
 /// Looks at the edges of one cell. @param left out: how many may still be looked at
 static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uint32_t *left)
 {
-    const alpi_seam_edge *edges = s->edges->edges, *a = &edges[own];
-    const bool alike = octave_of(a) == c->octave;
+    const alpi_seam_edge *edges = s->edges->edges;
+    const bool alike = octave_of(&edges[own]) == c->octave;
     const uint32_t bucket = hash_cell(s, c);
     for (uint32_t i = s->first[bucket]; i < s->first[bucket + 1] && *left > 0; i++) {
         const uint32_t other = s->sorted[i];
@@ -273,7 +333,7 @@ static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uin
         }
         --*left;
         alpi_seam_pair pair;
-        if (a->half_edge / 3 == b->half_edge / 3 || !meet(s->scene, a, b, &pair)) {
+        if (!meet(s, own, other, &pair)) {
             continue;
         }
         const cell at = cell_of(s, b); // other cells may share the bucket
@@ -286,10 +346,12 @@ static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uin
 
 static alp_result look_around(const pair_search *s, uint32_t own, int octave)
 {
+    const alpi_seam_edge *edge = &s->edges->edges[own];
     const double size = ldexp(1.0, octave);
     double3 p[2];
-    edge_ends(s->scene, &s->edges->edges[own], p);
-    const double reach = 0.65 * size; // half a length of the other, and what is between them
+    edge_ends(s->scene, edge, p);
+    // Half a length of the other, and what is between them.
+    const double reach = 0.5 * size + (APART + ROUNDING_LIMIT) * (double)edge->texel;
     const double low[3] = {fmin(p[0].x, p[1].x), fmin(p[0].y, p[1].y), fmin(p[0].z, p[1].z)};
     const double high[3] = {fmax(p[0].x, p[1].x), fmax(p[0].y, p[1].y), fmax(p[0].z, p[1].z)};
     int64_t begin[3], end[3];
@@ -309,6 +371,45 @@ static alp_result look_around(const pair_search *s, uint32_t own, int octave)
     return ALP_OK;
 }
 
+/// Marks the edges across which the surface goes on at another with the same ends.
+static alp_result settle(pair_search *s)
+{
+    const alpi_seam_edges *e = s->edges;
+    for (uint32_t own = 0; own < e->count; own++) {
+        ALP_TRY(own % EDGES_PER_TICK == 0 ? alpi_tick(e->context, "seams", own, e->count) : ALP_OK);
+        const alpi_seam_edge *a = &e->edges[own];
+        const cell c = cell_of(s, a);
+        const uint32_t bucket = hash_cell(s, &c);
+        uint32_t left = LOOK_LIMIT;
+        for (uint32_t i = s->first[bucket]; i < s->first[bucket + 1] && left > 0; i++, left--) {
+            const alpi_seam_edge *b = &e->edges[s->sorted[i]];
+            if (a->half_edge / 3 != b->half_edge / 3 && has_same_ends(s->scene, a, b) &&
+                is_smooth(s->scene, a, b)) {
+                s->settled[own] = 1;
+                break;
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+/// Looks for all partners of an edge.
+/// @param octaves by octave + 256: whether there are edges of it
+static alp_result look_for_partners(const pair_search *s, uint32_t own, const bool *octaves)
+{
+    if (s->settled[own]) {
+        const cell c = cell_of(s, &s->edges->edges[own]);
+        uint32_t left = LOOK_LIMIT;
+        return look_in(s, own, &c, &left);
+    }
+    for (int octave = octave_of(&s->edges->edges[own]); octave <= s->highest; octave++) {
+        if (octaves[octave + 256]) {
+            ALP_TRY(look_around(s, own, octave));
+        }
+    }
+    return ALP_OK;
+}
+
 static alp_result search_all(pair_search *s)
 {
     const alpi_seam_edges *e = s->edges;
@@ -320,11 +421,7 @@ static alp_result search_all(pair_search *s)
         if (i % EDGES_PER_TICK == 0) {
             ALP_TRY(alpi_tick(e->context, "seams", i, e->count));
         }
-        for (int octave = octave_of(&e->edges[i]); octave <= s->highest; octave++) {
-            if (octaves[octave + 256]) {
-                ALP_TRY(look_around(s, i, octave));
-            }
-        }
+        ALP_TRY(look_for_partners(s, i, octaves));
     }
     return ALP_OK;
 }
@@ -339,16 +436,17 @@ alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *
     pair_search s = {.scene = scene, .edges = edges, .mask = size - 1, .each = each, .user = user};
     s.first = ALPI_NEW(edges->context, uint32_t, (size_t)size + 1);
     s.sorted = ALPI_NEW(edges->context, uint32_t, edges->count);
+    s.settled = ALPI_NEW(edges->context, uint8_t, edges->count);
     uint32_t *buckets = ALPI_NEW(edges->context, uint32_t, edges->count);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    if (s.first != NULL && s.sorted != NULL && buckets != NULL) {
+    if (s.first != NULL && s.sorted != NULL && s.settled != NULL && buckets != NULL) {
         result = sort_edges(&s, buckets);
     }
     alpi_release(edges->context, buckets);
-    if (result == ALP_OK) {
-        result = search_all(&s);
-    }
+    result = result == ALP_OK ? settle(&s) : result;
+    result = result == ALP_OK ? search_all(&s) : result;
     alpi_release(edges->context, s.first);
     alpi_release(edges->context, s.sorted);
+    alpi_release(edges->context, s.settled);
     return result;
 }

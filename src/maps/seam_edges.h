@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Where a surface goes on across edges of triangles though its texture coordinates do not.
 //
-// Edges meet where they run along each other in opposite directions, whole or in part, within a
-// tenth of a texel: shared edges of a mesh between two charts, tiles that stand side by side,
-// T-junctions. Nothing is asked about who shares which vertex.
+// Edges meet where they run along each other in opposite directions: shared edges of a mesh between
+// two charts, tiles that stand side by side, T-junctions. Those with the same ends meet without any
+// tolerance, wherever they lie; what is left over meets whole or in part, within a tenth of a texel
+// and at most a quarter where coordinates are rounded. Nothing is asked about who shares which
+// vertex.
 #ifndef ALPI_MAPS_SEAM_EDGES_H
 #define ALPI_MAPS_SEAM_EDGES_H
 

@@ -496,7 +496,7 @@ static void the_manual_says_the_same(void **state)
         }
         assert_ptr_equal(alpi_finding_words_by_code(w->code), w);
     }
-    assert_int_equal(known, 42); // of the header
+    assert_int_equal(known, 43); // of the header
     test_free(text);
     free(bytes);
 }

@@ -18,6 +18,7 @@ typedef struct model {
     uint32_t vertices[MESH_LIMIT];
     bool double_sided[MESH_LIMIT];
     uint32_t count;
+    bool one_object; // its meshes are primitives of one
 } model;
 
 static void put(model *m, uint32_t mesh, vec3 a, vec3 b, vec3 c)
@@ -67,13 +68,18 @@ static alp_scene *make(alp_context *context, const model *m)
     }
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, m->count, &scene));
+    for (uint32_t i = 0; i < m->count && m->one_object; i++) {
+        scene->surfaces[i].node = scene->surfaces[i].mesh = 0;
+        scene->surfaces[i].primitive = i;
+    }
     return scene;
 }
 
 /// Fails unless the model has one finding besides its lack of coordinates: of the kind, at the
-/// surface and its triangle; with MESSAGE none.
-static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, uint32_t triangle)
+/// surface and its triangle; with MESSAGE none. @return its value
+static double has_only(const model *m, alp_finding_kind kind, uint32_t surface, uint32_t triangle)
 {
+    double value = (double)NAN;
     alp_context *context = test_context(1);
     alp_scene *scene = make(context, m);
     alp_diagnosis *d = NULL;
@@ -88,6 +94,7 @@ static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, ui
             fail_msg("%s: %s: %s", f.code, f.name, f.what);
         }
         others++;
+        value = f.value;
         assert_int_equal(f.place, ALP_PLACE_SURFACE);
         assert_int_equal(f.index, surface);
         assert_true(f.spot.known && f.seen[0] != '\0' && f.todo[0] != '\0');
@@ -103,6 +110,34 @@ static void has_only(const model *m, alp_finding_kind kind, uint32_t surface, ui
     alp_diagnosis_destroy(d);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
+    return value;
+}
+
+/// The same for COPLANAR alone, of two triangles: far from the origin and where boxes reach into
+/// each other there are other findings.
+/// @param surface −1 = none has it
+static double has_coplanar(const model *m, int surface)
+{
+    alp_context *context = test_context(1);
+    alp_scene *scene = make(context, m);
+    alp_diagnosis *d = NULL;
+    double value = (double)NAN;
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        const alp_finding f = alp_diagnosis_get_finding(d, i);
+        if (f.kind != ALP_FINDING_COPLANAR) {
+            continue;
+        }
+        assert_int_equal(f.index, surface);
+        assert_int_equal(f.count, 2);
+        assert_true(f.spot.known && (int)f.spot.surface == surface);
+        value = f.value;
+    }
+    assert_int_equal(isnan(value), surface < 0);
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    return value;
 }
 
 static model *new_model(void)
@@ -160,29 +195,118 @@ static void a_mended_edge_is_well(void **state)
     test_free(m);
 }
 
-/// The same faces on two objects are two things that touch.
-static void objects_that_touch_are_well(void **state)
+/// Faces of two materials: of one object they have a T-junction, in whichever the long edge is; two
+/// objects are two things that touch.
+static void materials_and_objects_that_touch(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t whole = (uint32_t)i / 2, parts = 1 - whole;
+        model *m = new_model();
+        m->one_object = i % 2 == 0;
+        put_quad(m, whole, (vec3){0, 0, 0}, (vec3){4, 0, 0}, (vec3){0, 0, -1});
+        put_quad(m, parts, (vec3){0, 0, 1}, (vec3){1.7f, 0, 0}, (vec3){0, 0, -1});
+        put_quad(m, parts, (vec3){1.7f, 0, 1}, (vec3){2.3f, 0, 0}, (vec3){0, 0, -1});
+        has_only(m, m->one_object ? ALP_FINDING_T_JUNCTIONS : ALP_FINDING_MESSAGE, whole, 0);
+        test_free(m);
+    }
+}
+
+/// Where materials meet in whole edges, nothing is open.
+static void materials_that_meet_are_well(void **state)
 {
     (void)state;
     model *m = new_model();
+    m->one_object = true;
     put_quad(m, 0, (vec3){0, 0, 0}, (vec3){4, 0, 0}, (vec3){0, 0, -1});
-    put_quad(m, 1, (vec3){0, 0, 1}, (vec3){1.7f, 0, 0}, (vec3){0, 0, -1});
-    put_quad(m, 1, (vec3){1.7f, 0, 1}, (vec3){2.3f, 0, 0}, (vec3){0, 0, -1});
+    put_quad(m, 1, (vec3){0, 0, 1}, (vec3){4, 0, 0}, (vec3){0, 0, -1});
     has_only(m, ALP_FINDING_MESSAGE, 0, 0);
     test_free(m);
 }
 
+// --- one plane -----------------------------------------------------------------------------------
+
+/// A quad of 4 m by 1 m, and one like it that is moved, of another object or of the same; far from
+/// the origin ones of 256 m, as floats are 2^-4 m apart there. Each may be off by four such steps.
+static void faces_in_one_plane(void **state)
+{
+    (void)state;
+    static const struct {
+        float from, size;
+        vec3 by;
+        bool turned, found;
+        double share; // of the second one
+    } cases[] = {
+        {0.0f, 1.0f, {2.0f, 0, 0}, false, true, 0.5},
+        {0.0f, 1.0f, {2.0f, 0, 0.25f}, false, true, 0.375},
+        {0.0f, 1.0f, {2.0f, 4e-6f, 0}, false, true, 0.5}, // twice 6 m · 2^-21 = 5.7e-6 m
+        {0.0f, 1.0f, {2.0f, 8e-6f, 0}, false, false, 0.0},
+        {0.0f, 1.0f, {2.0f, 0, 0}, true, false, 0.0},    // looks down
+        {0.0f, 1.0f, {4.0f, 0, 0}, false, false, 0.0},   // beside it
+        {0.0f, 1.0f, {3.999f, 0, 0}, false, false, 0.0}, // by less than a thousandth of 4.1 m
+        {1e6f, 64.0f, {2.0f, 0, 0}, false, true, 0.5},
+        {1e6f, 64.0f, {2.0f, 0x1p-9f, 0}, false, true, 0.5}, // 2^-3 m
+        {1e6f, 64.0f, {2.0f, 0x1p-5f, 0}, false, false, 0.0},
+    };
+    for (size_t i = 0; i < 2 * (sizeof cases / sizeof *cases); i++) {
+        const float x = cases[i / 2].from, size = cases[i / 2].size;
+        const vec3 from = {x, x, x}, along = {4 * size, 0, 0}, across = {0, 0, -size};
+        const vec3 moved = vec3_mad(from, size, cases[i / 2].by);
+        const uint32_t mesh = i % 2;
+        model *m = new_model();
+        put_quad(m, 0, from, along, across);
+        put_quad(m, mesh, moved, cases[i / 2].turned ? across : along,
+                 cases[i / 2].turned ? along : across);
+        const double value = has_coplanar(m, cases[i / 2].found ? (int)mesh : -1);
+        if (cases[i / 2].found) { // of one object it is a share of both
+            ASSERT_NEAR(value, cases[i / 2].share / (mesh == 0 ? 2.0 : 1.0), 1e-6);
+        }
+        test_free(m);
+    }
+}
+
+/// Two boxes reach into each other, with their tops in one plane; or below the top of a third.
+static void overlaps_that_nobody_sees(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        model *m = new_model();
+        put_box(m, 0, (vec3){0, 0, 0}, 2.0f, false);
+        put_box(m, 1, (vec3){1.8f, 0.5f, 0.2f}, 1.5f, false);
+        if (i == 1) {
+            put_box(m, 2, (vec3){-1, 1.7f, -1}, 5.0f, false);
+        }
+        const double value = has_coplanar(m, i == 0 ? 1 : -1);
+        if (i == 0) { // of six sides of 1.5 m
+            ASSERT_NEAR(value, 0.2 * 1.5 / (6.0 * 1.5 * 1.5), 1e-6);
+        }
+        test_free(m);
+    }
+}
+
 // --- inside --------------------------------------------------------------------------------------
 
+/// A box of 0.6 m, of which some is in one of 2 m: there its sixth side is, and as much of four.
 static void boxes_in_boxes(void **state)
 {
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    static const struct {
+        float inside; // metres
+        bool found;
+    } cases[] = {{1.0f, true},  {0.5f, true},  {0.4f, true},
+                 {0.3f, false}, {0.2f, false}, {-0.5f, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         model *m = new_model();
         put_box(m, 0, (vec3){0, 0, 0}, 2.0f, false);
-        // Inside; halfway out, as things stand in others; beside it.
-        put_box(m, 1, (vec3){i == 0 ? 0.7f : i == 1 ? 1.7f : 2.5f, 0.7f, 0.7f}, 0.6f, false);
-        has_only(m, i == 0 ? ALP_FINDING_BURIED : ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+        put_box(m, 1, (vec3){2.0f - cases[i].inside, 0.7f, 0.7f}, 0.6f, false);
+        const double value =
+            has_only(m, cases[i].found ? ALP_FINDING_BURIED : ALP_FINDING_MESSAGE, 1, ALPI_NONE);
+        const double depth = fmin((double)cases[i].inside / 0.6, 1.0);
+        const double share = depth < 1.0 ? (1.0 + 4.0 * depth) / 6.0 : 1.0;
+        // 2.16 m² of 26.16 have 676 points of 8192: four standard errors, at most.
+        if (cases[i].found) {
+            ASSERT_NEAR(value, share, 4.0 * sqrt(share * (1.0 - share) / 676.0) + 1e-9);
+        }
         test_free(m);
     }
 }
@@ -316,6 +440,41 @@ static void soups_take_no_square_of_time(void **state)
     test_free(indices);
 }
 
+/// Sheets upon each other, each a little smaller: all of them overlap all others.
+static void stacks_take_no_square_of_time(void **state)
+{
+    (void)state;
+    enum { SHEETS = 50000 };
+    alp_context *context = test_context(1);
+    float(*positions)[3] = test_calloc(3 * (size_t)SHEETS, sizeof *positions);
+    uint32_t *indices = test_calloc(3 * (size_t)SHEETS, sizeof *indices);
+    for (uint32_t i = 0; i < 3 * SHEETS; i++) {
+        const float side = 1.0f + 1e-5f * (float)(i / 3);
+        indices[i] = i;
+        positions[i][0] = i % 3 == 1 ? side : 0.0f;
+        positions[i][2] = i % 3 == 2 ? -side : 0.0f;
+    }
+    const alp_mesh mesh = {.vertex_count = 3 * SHEETS,
+                           .positions = positions[0],
+                           .triangle_count = SHEETS,
+                           .indices = indices,
+                           .base_color = {0.5f, 0.5f, 0.5f}};
+    alp_scene *scene = NULL;
+    alp_diagnosis *d = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d)); // 1.2·10⁹ pairs would be minutes
+    bool found = false;
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
+        found = found || alp_diagnosis_get_finding(d, i).kind == ALP_FINDING_COPLANAR;
+    }
+    assert_true(found);
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    test_free(positions);
+    test_free(indices);
+}
+
 static void any_number_of_workers_finds_the_same(void **state)
 {
     (void)state;
@@ -363,13 +522,17 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertices_within_edges),
         cmocka_unit_test(a_mended_edge_is_well),
-        cmocka_unit_test(objects_that_touch_are_well),
+        cmocka_unit_test(materials_and_objects_that_touch),
+        cmocka_unit_test(materials_that_meet_are_well),
+        cmocka_unit_test(faces_in_one_plane),
+        cmocka_unit_test(overlaps_that_nobody_sees),
         cmocka_unit_test(boxes_in_boxes),
         cmocka_unit_test(rooms_are_well),
         cmocka_unit_test(sheets_between_light_and_dark),
         cmocka_unit_test(objects_of_another_unit),
         cmocka_unit_test(scenes_of_one_triangle),
         cmocka_unit_test(soups_take_no_square_of_time),
+        cmocka_unit_test(stacks_take_no_square_of_time),
         cmocka_unit_test(any_number_of_workers_finds_the_same),
         cmocka_unit_test(every_allocation_may_fail),
     };

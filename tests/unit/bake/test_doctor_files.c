@@ -122,7 +122,7 @@ static void odd_files_have_their_finding(void **state)
         {"polylist_mixed.dae", {NULL}},
         {"relative_indices.obj", {"backs-seen"}},
         {"spot_inner_gt_outer.glb", {"light"}},
-        {"tristrips_trifans.dae", {NULL}},
+        {"tristrips_trifans.dae", {"coplanar"}}, // one square as a strip and as a fan
         {"uv1_outside_unit_square.glb", {"uv-outside"}},
         {"z_up_inches.dae", {NULL}},
         {"zero_area_uv1.glb", {"uv-flat"}},
@@ -141,6 +141,26 @@ static void odd_files_have_their_finding(void **state)
     test_free(h);
 }
 
+/// What is so: gables are prisms between walls and roof, which only their ends look out of; the
+/// fountain's lower step is let into the court; archivolts end in fans over a section that is
+/// hollow, so that some of their triangles lie on the columns.
+static bool is_meant(const char *scene, const alp_finding *f)
+{
+    static const struct {
+        const char *scene, *name;
+        alp_finding_kind kind;
+    } meant[] = {{"builtin:atrium", "lower step", ALP_FINDING_BURIED},
+                 {"builtin:atrium", "ground mouldings", ALP_FINDING_COPLANAR},
+                 {"builtin:atrium", "upper mouldings", ALP_FINDING_COPLANAR},
+                 {"builtin:terrain", "gables", ALP_FINDING_BURIED}};
+    bool any = f->kind == ALP_FINDING_NO_UVS || f->kind == ALP_FINDING_NO_LIGHT;
+    for (size_t i = 0; i < sizeof meant / sizeof *meant; i++) {
+        any = any || (f->kind == meant[i].kind && strcmp(scene, meant[i].scene) == 0 &&
+                      strcmp(f->name, meant[i].name) == 0);
+    }
+    return any;
+}
+
 static void built_in_scenes_are_well(void **state)
 {
     (void)state;
@@ -155,7 +175,7 @@ static void built_in_scenes_are_well(void **state)
         alp_diagnosis *d = look(names[i], h, &context, &scene);
         for (uint32_t k = 0; k < alp_diagnosis_finding_count(d); k++) {
             const alp_finding f = alp_diagnosis_get_finding(d, k);
-            if (f.kind != ALP_FINDING_NO_UVS && f.kind != ALP_FINDING_NO_LIGHT) {
+            if (!is_meant(names[i], &f)) {
                 fail_msg("%s: %s: %s", names[i], f.code, f.what);
             }
         }

@@ -195,6 +195,67 @@ static void gaps_of_less_than_a_tenth_of_a_texel_are_none(void **state)
     }
 }
 
+/// At 100 and 1000 km floats are 8 and 63 mm apart, more than a texel: edges with the same ends
+/// meet all the same, however short they are, and no others do that rounding cannot have moved
+/// apart.
+static void far_from_the_origin_edges_meet_by_their_ends(void **state)
+{
+    (void)state;
+    const float far[] = {1e5f, 1e6f};
+    for (int i = 0; i < 2; i++) {
+        const float x = far[i], side = 0.25f, step = nextafterf(x, 2.0f * x) - x;
+        test_tile tiles[2] = {
+            {{x, x, x}, {0, 0, side}, {side, 0, 0}, {10.3f, 12.2f}, {0, 31}, {30, 0}},
+            {{x + side, x, x}, {0, 0, side}, {side, 0, 0}, {80.7f, 20.1f}, {11, 13}, {13, -11}}};
+        double length = 0.0;
+        assert_int_equal(count_seams(tiles, 2, &length), 1);
+        ASSERT_NEAR(length, (double)side, 1e-6);
+        for (int gap = 1; gap <= 4; gap++) { // 4e-7 of the coordinate are more than five steps
+            tiles[1].p[0] = x + side + (float)gap * step;
+            assert_int_equal(count_seams(tiles, 2, &length), 0);
+        }
+    }
+}
+
+/// Edges of which one is twice as long, with texels of 0.64 m, some steps of 1000 km apart: two are
+/// 0.19 of a texel, as rounding may move them; near the origin it is a gap. Three are 0.29.
+static void far_from_the_origin_rounding_is_less_than_a_quarter_of_a_texel(void **state)
+{
+    (void)state;
+    static const struct {
+        float from, steps;
+        uint32_t seams;
+    } cases[] = {{1e6f, 2.0f, 1}, {1e6f, 3.0f, 0}, {0.0f, 2.0f, 0}, {0.0f, 1.0f, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float x = cases[i].from, gap = cases[i].steps * 0.0625f;
+        const test_tile tiles[2] = {
+            {{x, 0, x}, {0, 0, 20}, {20, 0, 0}, {10, 12}, {0, 31}, {31, 0}},
+            {{x + 20 + gap, 0, x}, {0, 0, 40}, {20, 0, 0}, {50, 12}, {0, 62}, {31, 0}}};
+        double length = 0.0;
+        assert_int_equal(count_seams(tiles, 2, &length), cases[i].seams);
+        ASSERT_NEAR(length, 20.0 * cases[i].seams, 1e-5);
+    }
+}
+
+/// Two layers, nearer to each other than a tenth of a texel: each goes on in itself alone. A wall
+/// that shares the edge takes nothing away: beyond it is a crease.
+static void edges_with_the_same_ends_need_no_others(void **state)
+{
+    (void)state;
+    test_tile tiles[4] = {pair[0], pair[1], pair[0], pair[1]};
+    for (int i = 2; i < 4; i++) {
+        tiles[i].p[1] = 0.001f; // 0.03 texels
+        tiles[i].at[1] += 50.0f;
+    }
+    double length = 0.0;
+    assert_int_equal(count_seams(tiles, 4, &length), 2);
+    ASSERT_NEAR(length, 2.0, 1e-6);
+    const test_tile wall = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {10, 62}, {0, 31}, {30, 0}};
+    tiles[2] = wall; // of the first tile: the second one is moved off a little
+    tiles[1].p[0] += 0.001f;
+    assert_int_equal(count_seams(tiles, 3, &length), 1);
+}
+
 /// Surfaces over each other, face to face, or meeting in a corner do not go on into each other.
 static void what_only_touches_is_no_seam(void **state)
 {
@@ -310,6 +371,9 @@ int main(void)
         cmocka_unit_test(a_crease_is_no_seam),
         cmocka_unit_test(partly_overlapping_edges_count_their_overlap),
         cmocka_unit_test(gaps_of_less_than_a_tenth_of_a_texel_are_none),
+        cmocka_unit_test(far_from_the_origin_edges_meet_by_their_ends),
+        cmocka_unit_test(far_from_the_origin_rounding_is_less_than_a_quarter_of_a_texel),
+        cmocka_unit_test(edges_with_the_same_ends_need_no_others),
         cmocka_unit_test(what_only_touches_is_no_seam),
         cmocka_unit_test(coordinates_that_go_on_make_no_seam),
         cmocka_unit_test(tiles_with_walls_meet_once),
