@@ -213,6 +213,38 @@ static void densities_are_kept(void **state)
     alp_context_destroy(context);
 }
 
+/// A cap of a sphere up to 87° has 2π (1 − cos 87°) of area and π sin² 87° of its plane: its chart
+/// is enlarged by s = 1.9005. What is read of it has s Σ |n_k|³ times the texels that are asked
+/// for, a sum that lies between 1/√3 and 1.
+static void what_is_read_is_as_dense_as_asked(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 256, 25.0);
+    double least = HUGE_VAL, most = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        vec3 c[3];
+        double cosines[3], density = 0.0;
+        alpi_triangle_corners(scene, t, c);
+        corner_cosines(scene, t, cosines);
+        for (uint32_t f = 0; f < atlas->face_count; f++) {
+            const double n = cosines[atlas->face_axes[f]];
+            density += atlas->face_triangles[f] == t ? n * n * fabs(texel_area(atlas, f)) : 0.0;
+        }
+        density /= vec3_triangle_area(c[0], c[1], c[2]) * 25.0 * 25.0;
+        least = fmin(least, density);
+        most = fmax(most, density);
+    }
+    // A sphere of 48 slices has facets of 7.5°: their cap ends within 3.75° of 87°, where a cosine
+    // is .065 more, of which the sum and s have the same share.
+    ASSERT_NEAR(least, 1.9005 / sqrt(3.0), 0.07 * 1.9005 / sqrt(3.0));
+    ASSERT_NEAR(most, 1.9005, 0.07 * 1.9005);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void weights_are_squares_of_the_normal(void **state)
 {
     (void)state;
@@ -329,6 +361,7 @@ int main(void)
         cmocka_unit_test(texels_name_triangles_of_the_scene),
         cmocka_unit_test(pages_keep_triangles_together),
         cmocka_unit_test(densities_are_kept),
+        cmocka_unit_test(what_is_read_is_as_dense_as_asked),
         cmocka_unit_test(weights_are_squares_of_the_normal),
         cmocka_unit_test(axes_are_those_of_the_object),
         cmocka_unit_test(is_the_same_for_any_number_of_workers),
