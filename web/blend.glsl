@@ -5,7 +5,8 @@
 // normal: interpolated between the vertices, in the frame of the mesh as the file has it (the
 // attribute NORMAL, before any matrix); its length does not matter. Of meshes without normals, that
 // of the triangle: cross(dFdx(p), dFdy(p)) of the interpolated attribute POSITION.
-// uv0, uv1, uv2: the sets that extras.alpenglow_blend.sets of the material name, in that order.
+// uv0, uv1, uv2: the sets that extras.alpenglow_blend.sets of the material name, in that order; of a
+// map that .earlier[i].maps names, those of .earlier[i].sets.
 // Textures linear, clamped, without mip levels.
 // Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU, 2007,
 // chapter 7.5.

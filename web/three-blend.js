@@ -20,7 +20,6 @@ vec4 alpenglowBlend(sampler2D map, vec2 uv0, vec2 uv1, vec2 uv2, vec3 normal) {
 }
 `;
 
-const sets = ['alpenglowUv0', 'alpenglowUv1', 'alpenglowUv2'];
 /// Of which entry of extras.alpenglow_blend.maps a map of three.js comes.
 const origins = {
   aoMap: ['occlusionTexture'],
@@ -29,27 +28,33 @@ const origins = {
 };
 const chunks = ['aomap_fragment', 'lights_fragment_maps', 'emissivemap_fragment'];
 
-const vertexHead = `
-${sets.map((name) => `attribute vec2 ${name};`).join('\n')}
-${sets.map((_, k) => `varying vec2 vAlpenglowUv${k};`).join('\n')}
+/// The sets and maps of each bake, the last one first.
+const bakesOf = (description) => [description, ...(description.earlier ?? [])];
+const sets = [0, 1, 2];
+const attributeName = (bake, k) => `alpenglowUv${bake}${k}`;
+const lines = (bakes, line) => bakes.flatMap((bake) => sets.map((k) => line(bake, k))).join('\n');
+
+const vertexHead = (bakes) => `
+${lines(bakes, (bake, k) => `attribute vec2 ${attributeName(bake, k)};`)}
+${lines(bakes, (bake, k) => `varying vec2 vAlpenglowUv${bake}${k};`)}
 varying vec3 vAlpenglowNormal;
 varying vec3 vAlpenglowPosition;
 `;
-const vertexBody = `
-${sets.map((name, k) => `vAlpenglowUv${k} = ${name};`).join('\n')}
+const vertexBody = (bakes) => `
+${lines(bakes, (bake, k) => `vAlpenglowUv${bake}${k} = ${attributeName(bake, k)};`)}
 vAlpenglowNormal = normal;
 vAlpenglowPosition = position;
 `;
 // A mesh without normals is flat: there the attribute is 0.
-const fragmentHead = `
-${sets.map((_, k) => `varying vec2 vAlpenglowUv${k};`).join('\n')}
+const fragmentHead = (bakes) => `
+${lines(bakes, (bake, k) => `varying vec2 vAlpenglowUv${bake}${k};`)}
 varying vec3 vAlpenglowNormal;
 varying vec3 vAlpenglowPosition;
 ${blendFunction}
-vec4 alpenglowRead(sampler2D map) {
+vec4 alpenglowRead(sampler2D map, vec2 uv0, vec2 uv1, vec2 uv2) {
   vec3 flatNormal = cross(dFdx(vAlpenglowPosition), dFdy(vAlpenglowPosition));
   vec3 n = dot(vAlpenglowNormal, vAlpenglowNormal) > 0.0 ? vAlpenglowNormal : flatNormal;
-  return alpenglowBlend(map, vAlpenglowUv0, vAlpenglowUv1, vAlpenglowUv2, n);
+  return alpenglowBlend(map, uv0, uv1, uv2, n);
 }
 `;
 
@@ -60,18 +65,22 @@ function loadedName(attribute) {
   return number === '0' ? 'uv' : `uv${number}`;
 }
 
-/// Gives a geometry the three sets under the names that the shader reads; false where one is absent.
+/// Gives a geometry the sets of all bakes under the names that the shader reads; false where one is
+/// absent.
 export function blendGeometry(geometry, description) {
-  const found = description.sets.map((name) => geometry.getAttribute(loadedName(name)));
-  if (found.length !== 3 || found.some((attribute) => attribute === undefined)) return false;
-  found.forEach((attribute, k) => geometry.setAttribute(sets[k], attribute));
+  const bakes = bakesOf(description).map((bake) => bake.sets.map((name) => geometry.getAttribute(loadedName(name))));
+  if (bakes.some((found) => found.length !== 3 || found.some((attribute) => attribute === undefined))) return false;
+  bakes.forEach((found, bake) => found.forEach((attribute, k) => geometry.setAttribute(attributeName(bake, k), attribute)));
   return true;
 }
 
-/// Patches the shader of a material: maps that `description.maps` names are blended. `chunk` is
-/// THREE.ShaderChunk.
+/// Patches the shader of a material: maps that `description.maps` names, or that of a bake before,
+/// are blended. `chunk` is THREE.ShaderChunk.
 export function blendMaterial(material, description, chunk) {
-  const blended = Object.keys(origins).filter((map) => origins[map].some((from) => description.maps.includes(from)));
+  const bakes = bakesOf(description);
+  const bakeOf = (map) => bakes.findIndex((bake) => origins[map].some((from) => bake.maps.includes(from)));
+  const blended = Object.keys(origins).filter((map) => bakeOf(map) >= 0);
+  const used = [...new Set(blended.map(bakeOf))];
   // The shader reads the three sets; a set beyond the fourth, that the file names, three.js does not
   // know. Textures are shared with other materials.
   for (const map of blended.filter((name) => material[name]?.channel > 3)) {
@@ -83,16 +92,17 @@ export function blendMaterial(material, description, chunk) {
   material.onBeforeCompile = function compile(shader, renderer) {
     before.call(this, shader, renderer);
     shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', `#include <common>\n${vertexHead}`)
-      .replace('#include <begin_vertex>', `#include <begin_vertex>\n${vertexBody}`);
-    let text = shader.fragmentShader.replace('#include <common>', `#include <common>\n${fragmentHead}`);
+      .replace('#include <common>', `#include <common>\n${vertexHead(used)}`)
+      .replace('#include <begin_vertex>', `#include <begin_vertex>\n${vertexBody(used)}`);
+    let text = shader.fragmentShader.replace('#include <common>', `#include <common>\n${fragmentHead(used)}`);
     for (const name of chunks) text = text.replace(`#include <${name}>`, chunk[name]);
     for (const map of blended) {
-      text = text.replace(new RegExp(`texture2D\\( ${map}, v\\w+ \\)`, 'g'), `alpenglowRead( ${map} )`);
+      const uvs = sets.map((k) => `vAlpenglowUv${bakeOf(map)}${k}`).join(', ');
+      text = text.replace(new RegExp(`texture2D\\( ${map}, v\\w+ \\)`, 'g'), `alpenglowRead( ${map}, ${uvs} )`);
     }
     shader.fragmentShader = text;
   };
-  material.customProgramCacheKey = () => `${key} alpenglow-blend ${blended.join(' ')}`;
+  material.customProgramCacheKey = () => `${key} alpenglow-blend ${blended.map((map) => map + bakeOf(map)).join(' ')}`;
   material.needsUpdate = true;
 }
 

@@ -95,6 +95,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--hemicube", OPTION_HEMICUBE, HEMICUBE},
                    {"--size", OPTION_SIZE, TEXELS},
                    {"--atlas", OPTION_ATLAS, LIGHTMAP},
+                   {"--stitch", OPTION_STITCH, LIGHTMAP},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
                    {"--bounces", OPTION_BOUNCES, LIT},
                    {"--sun", OPTION_SUN, LIT},
@@ -232,6 +233,7 @@ static alp_result bake_light(session *s, const command_line *a, const alp_render
     bake.maps = ALP_MAP_LIGHT;
     bake.atlas = o->atlas;
     bake.atlas.mode = layouts[a->values[OPTION_ATLAS].choice].mode;
+    bake.stitch = a->values[OPTION_STITCH].choice == 1;
     bake.occlusion = o->occlusion;
     bake.light.lighting = o->lighting;
     bake.light.bounces = o->bounces;

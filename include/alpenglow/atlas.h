@@ -106,16 +106,19 @@ typedef struct alp_atlas_info {
     uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
     /// L2 stretch √((Γ² + γ²) / 2) of the map from texels to the surface, Γ ≥ γ its singular
     /// values, times texels_per_metre: 1 = the mean density without shear. The mean is the root of
-    /// the mean square over the area; both leave slivers out. Factors of `densities` count as
-    /// stretch. Based on: P. V. Sander et al. Texture
+    /// the mean square over the area; both leave slivers out. Based on: P. V. Sander et al. Texture
     /// Mapping Progressive Meshes. SIGGRAPH 2001.
+    /// With `densities` a triangle of factor f is measured against what is asked of it, f times the
+    /// density of factor 1, √(texel area / Σ f² · area); and the mean is over f² · area.
     double stretch_mean, stretch_worst;
-    double density_spread; ///< 99th over 1st percentile, by area, of triangles' texels per metre
+    /// 99th over 1st percentile, by area, of triangles' texels per metre; with `densities` over
+    /// their factors, by f² · area.
+    double density_spread;
     /// Whose corners run clockwise on the page, or which have no area there. CHARTS: none, ever.
     /// KEEP: of islands that are mirrored too.
     uint32_t flipped_triangles;
-    /// Lower than 1/64 of a texel at the mean density, so that coordinates do not hold their shape:
-    /// they count as flipped only beyond their rounding.
+    /// Lower than 1/64 of a texel at the density asked of them, so that coordinates do not hold
+    /// their shape: they count as flipped only beyond their rounding.
     uint32_t sliver_triangles;
     uint64_t overlapping_texels; ///< in which triangles cover one place; 0 but of pages of 1 texel
 } alp_atlas_info;

@@ -226,6 +226,7 @@ static alp_result lay_out(builder *b, alpi_atlas_clock *clock)
         alpi_charts_create(atlas, (const uint32_t(*)[3])b->faces.neighbours, &clusters, &charts);
     alpi_clusters_destroy(atlas->context, &clusters);
     if (result == ALP_OK) {
+        charts.blend = &b->faces;
         alpi_factors_apply(atlas, &charts);
         result = alpi_layout(atlas, &charts, clock);
     }
@@ -236,7 +237,7 @@ static alp_result lay_out(builder *b, alpi_atlas_clock *clock)
 }
 
 /// Notes which sets a triangle is in: those whose chart lies on the page of its strongest axis,
-/// since a material has one map.
+/// since a material has one map (see alpi_blend_groups).
 static void name_members(builder *b)
 {
     alp_atlas *atlas = b->atlas;

@@ -38,6 +38,13 @@ typedef struct alpi_blend_faces {
 alp_result alpi_blend_clusters(const alp_scene *view, const alpi_blend_faces *faces, bool world,
                                alpi_atlas_clock *clock, alpi_clusters *clusters);
 
+/// Charts that are to lie on one page, so that triangles keep all that they are in: joined where
+/// they share triangles, what weighs most first, as long as they likely fit a page.
+/// @param items as they are packed, [charts->count]
+/// @param groups out: [charts->count] of each, less than that; released by the caller
+alp_result alpi_blend_groups(const alp_atlas *atlas, const alpi_charts *charts,
+                             const alpi_pack_item *items, uint32_t **groups);
+
 /// All stages of ALP_ATLAS_BLEND but the coordinates of what has no area.
 alp_result alpi_blend_build(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                             alpi_atlas_clock *clock);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How many texels a metre gets and where each chart goes: the highest density at which all charts
 // fit one page, or a given density and as many pages as that takes.
+#include "atlas/blend.h"
 #include "atlas/frame.h"
 #include "atlas/pack.h"
 #include "atlas/stages.h"
@@ -281,14 +282,28 @@ static alp_result share_one_texel(layout *l, double longest)
     return ALP_OK;
 }
 
+static alp_result pack_items(layout *l)
+{
+    alp_context *context = l->atlas->context;
+    uint32_t *pages = &l->atlas->info.pages, *groups = NULL;
+    if (l->charts->blend == NULL) {
+        return alpi_pack(context, &l->rules, l->items, l->charts->count, ALPI_ATLAS_PAGE_LIMIT,
+                         pages);
+    }
+    ALP_TRY(alpi_blend_groups(l->atlas, l->charts, l->items, &groups));
+    const alp_result result = alpi_pack_groups(context, &l->rules, l->items, groups,
+                                               l->charts->count, ALPI_ATLAS_PAGE_LIMIT, pages);
+    alpi_release(context, groups);
+    return result;
+}
+
 /// Into as many pages as it takes.
 static alp_result pack_pages(layout *l, double density)
 {
     bool large;
     ALP_TRY(alpi_atlas_tick(l->clock, "packing", PACKING_LIMIT, PACKING_LIMIT));
     ALP_TRY(make_items(l, density, &large));
-    ALP_TRY(alpi_pack(l->atlas->context, &l->rules, l->items, l->charts->count,
-                      ALPI_ATLAS_PAGE_LIMIT, &l->atlas->info.pages));
+    ALP_TRY(pack_items(l));
     place_all(l, density);
     return ALP_OK;
 }

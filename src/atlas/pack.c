@@ -11,6 +11,7 @@
 #include "base/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     EXACT_SIDES = 16, // sides up to this are classes of their own; longer ones by quarter octaves
@@ -173,7 +174,7 @@ alp_result alpi_pack_order(alp_context *context, const alpi_pack_item *items, ui
     return ALP_OK;
 }
 
-static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, uint32_t *order)
+static alp_result check_items(const packer *p, const alpi_pack_item *items, uint32_t count)
 {
     const uint32_t size = p->rules->size;
     for (uint32_t i = 0; i < count; i++) {
@@ -184,6 +185,12 @@ static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, ui
                              size);
         }
     }
+    return ALP_OK;
+}
+
+static alp_result place_all(packer *p, alpi_pack_item *items, uint32_t count, uint32_t *order)
+{
+    ALP_TRY(check_items(p, items, count));
     ALP_TRY(alpi_pack_order(p->context, items, count, order));
     for (uint32_t i = 0; i < count; i++) {
         ALP_TRY(place_item(p, &items[order[i]]));
@@ -272,4 +279,167 @@ alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules
     alp_result result = pack(&p, items, count);
     *fits = result == ALP_OK;
     return result == ALP_ERROR_LIMIT ? ALP_OK : result;
+}
+
+// --- groups --------------------------------------------------------------------------------------
+
+/// Items of one group, largest box first.
+typedef struct pack_group {
+    uint64_t texels;              // covered
+    uint32_t first, count, least; // in the order; its first item of all
+} pack_group;
+
+typedef struct group_packer {
+    packer pack;
+    alpi_pack_item *items;
+    uint32_t *order;    // [items] grouped
+    pack_group *groups; // [group_count] in turn
+    uint64_t *blocked;  // [size][words] a page as it was
+    uint16_t *gaps;     // [size]
+} group_packer;
+
+static int compare_groups(const void *a, const void *b)
+{
+    const pack_group *s = a, *t = b;
+    if (s->texels != t->texels) {
+        return s->texels > t->texels ? -1 : 1;
+    }
+    return s->least < t->least ? -1 : s->least > t->least;
+}
+
+/// Groups in turn, and in each its items in the order of all.
+static alp_result order_groups(group_packer *g, const uint32_t *groups, uint32_t count)
+{
+    alp_context *context = g->pack.context;
+    uint32_t *order = ALPI_NEW(context, uint32_t, count);
+    uint32_t *filled = ALPI_NEW(context, uint32_t, count);
+    alp_result result = order != NULL && filled != NULL
+                            ? alpi_pack_order(context, g->items, count, order)
+                            : ALP_ERROR_OUT_OF_MEMORY;
+    for (uint32_t i = 0; result == ALP_OK && i < count; i++) {
+        pack_group *group = &g->groups[groups[i]];
+        group->least = group->count++ == 0 ? i : group->least;
+        group->texels += texels_of(&g->items[i]);
+    }
+    for (uint32_t i = 0, first = 0; result == ALP_OK && i < count; i++) {
+        g->groups[i].first = filled[i] = first;
+        first += g->groups[i].count;
+    }
+    for (uint32_t i = 0; result == ALP_OK && i < count; i++) {
+        g->order[filled[groups[order[i]]]++] = order[i];
+    }
+    if (result == ALP_OK) {
+        qsort(g->groups, count, sizeof *g->groups, compare_groups); // the empty last
+    }
+    alpi_release(context, order);
+    alpi_release(context, filled);
+    return result;
+}
+
+/// Places a group on one page, or leaves the page as it was.
+static alp_result place_together(group_packer *g, const pack_group *group, uint32_t page,
+                                 bool *fits)
+{
+    packer *p = &g->pack;
+    alpi_pack_page *on = &p->pages[page];
+    const size_t words = (size_t)on->size * on->words;
+    const uint64_t free_texels = on->free_texels;
+    memcpy(g->blocked, on->blocked, words * sizeof *g->blocked);
+    memcpy(g->gaps, on->gaps, on->size * sizeof *g->gaps);
+    *fits = true;
+    for (uint32_t i = group->first; *fits && i < group->first + group->count; i++) {
+        alpi_pack_item *item = &g->items[g->order[i]];
+        ALP_TRY(alpi_shapes_make(&p->shapes, item));
+        const place at = find_place(p, on, 0);
+        *fits = at.found;
+        if (at.found) {
+            alpi_pack_page_take(on, &p->shapes.turned[at.turns], at.x, at.y, p->rules);
+            *item =
+                (alpi_pack_item){item->width, item->height, item->mask, at.x, at.y, page, at.turns};
+        }
+    }
+    if (!*fits) {
+        memcpy(on->blocked, g->blocked, words * sizeof *g->blocked);
+        memcpy(on->gaps, g->gaps, on->size * sizeof *g->gaps);
+        on->free_texels = free_texels;
+    }
+    return ALP_OK;
+}
+
+/// Tries the pages that there are, those behind the last group of about this size alone once so
+/// many rows were looked at that there must be very many groups, and then a new one.
+static alp_result place_on_one_page(group_packer *g, const pack_group *group, bool *fits)
+{
+    packer *p = &g->pack;
+    const alpi_pack_item *first = &g->items[g->order[group->first]];
+    const uint32_t longer = first->width > first->height ? first->width : first->height;
+    const uint32_t shorter = first->width > first->height ? first->height : first->width;
+    hint *near = &p->hints[class_of_side(longer)][class_of_side(shorter)];
+    const bool tired = p->rows_tried * ((p->rules->size + 63) / 64) > PATIENCE;
+    uint32_t page = tired ? near->page : 0;
+    for (; page < p->page_count && !*fits; page++) {
+        if (p->pages[page].free_texels >= group->texels) {
+            ALP_TRY(place_together(g, group, page, fits));
+        }
+    }
+    if (!*fits && group->texels <= (uint64_t)p->rules->size * p->rules->size) {
+        ALP_TRY(add_page(p));
+        ALP_TRY(place_together(g, group, page++, fits));
+    }
+    if (*fits) {
+        *near = (hint){page - 1, 0};
+    }
+    return ALP_OK;
+}
+
+static alp_result place_group(group_packer *g, const pack_group *group)
+{
+    packer *p = &g->pack;
+    bool fits = false;
+    if (group->count > 1) {
+        ALP_TRY(place_on_one_page(g, group, &fits));
+    }
+    for (uint32_t i = group->first; !fits && i < group->first + group->count; i++) {
+        ALP_TRY(place_item(p, &g->items[g->order[i]]));
+    }
+    const uint64_t room = (uint64_t)p->rules->size * p->rules->size;
+    if (p->page_count > 0 && p->pages[p->page_count - 1].free_texels == room) {
+        alpi_pack_page_destroy(p->context, &p->pages[--p->page_count]); // was tried in vain
+    }
+    return ALP_OK;
+}
+
+static alp_result pack_in_groups(group_packer *g, const uint32_t *groups, uint32_t count)
+{
+    alp_context *context = g->pack.context;
+    const uint32_t size = g->pack.rules->size;
+    ALP_TRY(check_items(&g->pack, g->items, count));
+    ALPI_TRY_NEW(context, g->order, count);
+    ALPI_TRY_NEW(context, g->groups, count);
+    ALPI_TRY_NEW(context, g->blocked, (size_t)size * ((size + 63) / 64));
+    ALPI_TRY_NEW(context, g->gaps, size);
+    ALP_TRY(order_groups(g, groups, count));
+    for (uint32_t i = 0; i < count && g->groups[i].count > 0; i++) {
+        ALP_TRY(place_group(g, &g->groups[i]));
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_pack_groups(alp_context *context, const alpi_pack_rules *rules,
+                            alpi_pack_item *items, const uint32_t *groups, uint32_t count,
+                            uint32_t page_limit, uint32_t *page_count)
+{
+    group_packer g = {.pack = {.context = context,
+                               .rules = rules,
+                               .page_limit = page_limit,
+                               .shapes.context = context},
+                      .items = items};
+    const alp_result result = pack_in_groups(&g, groups, count);
+    *page_count = g.pack.page_count;
+    packer_destroy(&g.pack);
+    alpi_release(context, g.order);
+    alpi_release(context, g.groups);
+    alpi_release(context, g.blocked);
+    alpi_release(context, g.gaps);
+    return result;
 }

@@ -48,7 +48,8 @@ typedef struct alpi_charts {
     uint32_t count;
     size_t capacity;
     alpi_chart *charts;
-    uint32_t *triangles; // [usable triangles] grouped by chart
+    uint32_t *triangles;                  // [usable triangles] grouped by chart
+    const struct alpi_blend_faces *blend; // BLEND: what its triangles are faces of, borrowed; NULL
 } alpi_charts;
 
 /// Projects every cluster on its plane, turns it to its tightest box and writes corner_uvs (metres)
@@ -70,6 +71,13 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 /// Finds the density, packs, and turns corner_uvs from metres into page coordinates; sets
 /// triangle_pages and info.pages.
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
+
+/// Packs like alpi_pack, but items of one group go to one page where one has room for all of them:
+/// the largest groups first. A group that no page holds is packed item by item.
+/// @param groups [count] of each item, less than count
+alp_result alpi_pack_groups(alp_context *context, const alpi_pack_rules *rules,
+                            alpi_pack_item *items, const uint32_t *groups, uint32_t count,
+                            uint32_t page_limit, uint32_t *page_count);
 
 /// Gives triangles that are thinner than the steps of floats on their page some steps of width, so
 /// that none is flat or flipped there.

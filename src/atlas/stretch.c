@@ -4,12 +4,16 @@
 // SIGGRAPH 2001.
 #include "atlas/stretch.h"
 
+<<<<<<< HEAD
 #include "base/angle.h"
+=======
+#include "atlas/factors.h"
+>>>>>>> 3669d62a06e5ea30d3d7d425ca8e40c3f6000ac7
 #include "base/memory.h"
 
 #include <math.h>
 
-static const double SLIVER_HEIGHT = 1.0 / 64.0; // texels at the mean density
+static const double SLIVER_HEIGHT = 1.0 / 64.0; // texels at the density that is asked for
 
 // Percentiles are found by counting areas into these: a bin is 0.07 % wide, and densities further
 // than 2³² from the mean lie in the last ones.
@@ -99,10 +103,10 @@ static bool is_sliver(const measured *m, double texels_per_metre)
     return !(2.0 * m->area * texels_per_metre >= SLIVER_HEIGHT * m->edge);
 }
 
-bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double texels_per_metre)
+bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double base)
 {
     const measured m = measure_triangle(atlas, triangle);
-    return is_sliver(&m, texels_per_metre);
+    return is_sliver(&m, base * alpi_factor_of(atlas, triangle));
 }
 
 /// A sliver may be turned over by its coordinates' rounding, which moves a corner in [½, 1) by half
@@ -115,22 +119,31 @@ static bool is_flipped(const alp_atlas *atlas, const measured *m, bool sliver)
 
 // --- all of them ---------------------------------------------------------------------------------
 
-/// @param area out: of the surface, m²
-static double mean_density(const alp_atlas *atlas, double *area)
+/// What a triangle counts in figures that are compared with what was asked for: the area that it
+/// takes at the density of factor 1. Weighed so, no map has a mean stretch below 1.
+static double wanted_area(const measured *m, double factor)
 {
-    double page_area = 0.0;
-    *area = 0.0;
+    return factor * factor * m->area;
+}
+
+/// @param wanted out: the area of all that is measured, at the density of factor 1; m²
+static void find_density(const alp_atlas *atlas, alpi_stretch_facts *facts, double *wanted)
+{
+    double page_area = 0.0, area = 0.0;
+    *wanted = 0.0;
     for (uint32_t t = 0; t < atlas->scene->triangle_count; t++) {
         if (is_measured(atlas, t)) {
             const measured m = measure_triangle(atlas, t);
             page_area += fabs(m.page_area);
-            *area += m.area;
+            area += m.area;
+            *wanted += wanted_area(&m, alpi_factor_of(atlas, t));
         }
     }
-    return *area > 0.0 ? sqrt(page_area / *area) : 0.0;
+    facts->texels_per_metre = area > 0.0 ? sqrt(page_area / area) : 0.0;
+    facts->base = *wanted > 0.0 ? sqrt(page_area / *wanted) : 0.0;
 }
 
-/// The bin of a density, relative to the mean.
+/// The bin of a density, relative to what is asked for.
 static uint32_t bin_of(double density)
 {
     const double bin = floor(BINS_PER_OCTAVE * (log2(density) + 0.5 * OCTAVES));
@@ -164,8 +177,10 @@ static void find_stretch(const alp_atlas *atlas, double *bins, alpi_stretch_fact
             continue;
         }
         const measured m = measure_triangle(atlas, t);
-        const bool sliver = is_sliver(&m, facts->texels_per_metre);
-        bins[bin_of(sqrt(fabs(m.page_area) / m.area) / facts->texels_per_metre)] += m.area;
+        const double factor = alpi_factor_of(atlas, t), density = facts->base * factor;
+        const double weight = wanted_area(&m, factor);
+        const bool sliver = is_sliver(&m, density);
+        bins[bin_of(sqrt(fabs(m.page_area) / m.area) / density)] += weight;
         if (is_flipped(atlas, &m, sliver)) {
             facts->first_flipped = facts->flipped++ == 0 ? t : facts->first_flipped;
         }
@@ -173,9 +188,9 @@ static void find_stretch(const alp_atlas *atlas, double *bins, alpi_stretch_fact
             facts->slivers++;
             continue;
         }
-        const double stretch = m.stretch * facts->texels_per_metre;
-        sum += stretch * stretch * m.area;
-        area += m.area;
+        const double stretch = m.stretch * density;
+        sum += stretch * stretch * weight;
+        area += weight;
         if (stretch > facts->worst) {
             facts->worst = stretch;
             facts->worst_triangle = t;
@@ -186,15 +201,15 @@ static void find_stretch(const alp_atlas *atlas, double *bins, alpi_stretch_fact
 
 alp_result alpi_stretch_measure(const alp_atlas *atlas, alpi_stretch_facts *facts)
 {
-    double area;
+    double wanted;
     *facts = (alpi_stretch_facts){.worst_triangle = ALPI_NONE, .first_flipped = ALPI_NONE};
-    facts->texels_per_metre = mean_density(atlas, &area);
+    find_density(atlas, facts, &wanted);
     double *bins = ALPI_NEW(atlas->context, double, BIN_COUNT);
     if (bins == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     find_stretch(atlas, bins, facts);
-    find_spread(bins, area, facts);
+    find_spread(bins, wanted, facts);
     alpi_release(atlas->context, bins);
     return ALP_OK;
 }

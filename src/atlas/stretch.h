@@ -13,10 +13,11 @@
 double alpi_stretch_of(const vec3 surface[3], const double map[3][2]);
 
 typedef struct alpi_stretch_facts {
-    // Times √(area in the map / area of the surface) of all: 1 = the mean density without shear.
-    double mean;   // √(Σ L2² · area / Σ area) over the triangles that are no slivers
+    double base; // texels per metre of what has a factor of 1: √(texel area / Σ factor² · area)
+    // Times base times the factor of the triangle: 1 = its share of the texels without shear.
+    double mean; // √(Σ L2² · factor² · area / Σ factor² · area) over what are no slivers; ≥ 1
     double worst;  // of them
-    double spread; // 99th over 1st percentile, by area, of the triangles' densities
+    double spread; // 99th over 1st percentile, by factor² · area, of density / (base · factor)
     double texels_per_metre; // √(texel area / area of the surface)
     uint32_t worst_triangle; // ALPI_NONE: all are slivers
     uint32_t flipped;        // signed area in the map ≤ 0
@@ -24,17 +25,17 @@ typedef struct alpi_stretch_facts {
     uint32_t slivers;
 } alpi_stretch_facts;
 /// Measures the usable triangles that have a page. Slivers are triangles lower than 1/64 of a texel
-/// at the mean density: 32-bit coordinates do not hold their shape (half a spacing of them is 1/500
-/// of such a height on a page of 1024, 1/32 on one of 16384), no texel shows it, and the layout
-/// draws charts as small as they larger than they are. They are in none of the stretches; among the
-/// flipped only where they are turned over by more than the coordinates are rounded. A triangle
-/// that is small, but no sliver, counts whole: many of them may share a texel and its stretch.
-/// A map is as dense as it is drawn: slivers and small charts that were enlarged count in the mean
-/// density as what they take.
+/// at the density asked of them: 32-bit coordinates do not hold their shape (half a spacing of them
+/// is 1/500 of such a height on a page of 1024, 1/32 on one of 16384), no texel shows it, and the
+/// layout draws charts as small as they larger than they are. They are in none of the stretches;
+/// among the flipped only where they are turned over by more than the coordinates are rounded. A
+/// triangle that is small, but no sliver, counts whole: many of them may share a texel and its
+/// stretch. A map is as dense as it is drawn: slivers and small charts that were enlarged count in
+/// the mean density as what they take.
 alp_result alpi_stretch_measure(const alp_atlas *atlas, alpi_stretch_facts *facts);
 
 /// Whether a triangle is one of these.
-/// @param texels_per_metre the mean density, as in the facts
-bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double texels_per_metre);
+/// @param base as in the facts; without factors it is the mean density
+bool alpi_stretch_is_sliver(const alp_atlas *atlas, uint32_t triangle, double base);
 
 #endif

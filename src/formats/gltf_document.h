@@ -50,6 +50,7 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document); // NULL does noth
 #define ALPI_GLTF_NO_MATERIAL "no material"
 /// In the extras of a material: the three sets that its maps are read with.
 #define ALPI_GLTF_BLEND "alpenglow_blend"
+#define ALPI_GLTF_EARLIER "earlier" // in it: sets and maps of bakes before
 
 // --- typed access to the tree; all check, none trusts -------------------------------------------
 

@@ -204,26 +204,49 @@ static uint32_t set_of(const char *name)
     return known ? (uint32_t)(name[sizeof word - 1] - '0') : ALPI_NONE;
 }
 
-/// A map of charts that overlap, after the texture is read. Where not all of its sets were kept,
+static bool names_occlusion(json_t *blend)
+{
+    json_t *maps = json_object_get(blend, "maps");
+    for (size_t i = 0; i < json_array_size(maps); i++) {
+        const char *name = json_string_value(json_array_get(maps, i));
+        if (name != NULL && strcmp(name, "occlusionTexture") == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Three sets of one bake, and whether occlusion is read with them.
+static void read_sets(json_t *blend, alpi_material *material)
+{
+    json_t *sets = json_object_get(blend, "sets");
+    const bool occlusion = names_occlusion(blend);
+    bool known = true;
+    for (size_t k = 0; k < 3; k++) {
+        const uint32_t set = set_of(json_string_value(json_array_get(sets, k)));
+        known = known && set != ALPI_NONE;
+        if (occlusion) {
+            material->occlusion_sets[k] = set != ALPI_NONE ? set : 0;
+        }
+        material->blend_sets |= (uint8_t)(set != ALPI_NONE ? 1u << set : 0u);
+    }
+    if (occlusion) {
+        material->occlusion_blended =
+            known && material->occlusion_sets[0] == material->occlusion_texture.uv_set;
+    }
+}
+
+/// Maps of charts that overlap, after the texture is read. Where not all of its sets were kept,
 /// the first alone is read, which is a map too; and where the texture is read with another set,
 /// somebody has put a map of his own there.
 static void read_blend(const source *from, alpi_material *material)
 {
     json_t *blend = json_object_get(json_object_get(from->object, "extras"), ALPI_GLTF_BLEND);
-    json_t *maps = json_object_get(blend, "maps"), *sets = json_object_get(blend, "sets");
-    bool known = false;
-    for (size_t i = 0; i < json_array_size(maps); i++) {
-        const char *name = json_string_value(json_array_get(maps, i));
-        known = known || (name != NULL && strcmp(name, "occlusionTexture") == 0);
+    json_t *earlier = json_object_get(blend, ALPI_GLTF_EARLIER);
+    for (size_t i = json_array_size(earlier); i-- > 0;) { // the newest stands first: it counts
+        read_sets(json_array_get(earlier, i), material);
     }
-    for (size_t k = 0; k < 3; k++) {
-        const uint32_t set = set_of(json_string_value(json_array_get(sets, k)));
-        known = known && set != ALPI_NONE;
-        material->occlusion_sets[k] = set != ALPI_NONE ? set : 0;
-        material->blend_sets |= (uint8_t)(set != ALPI_NONE ? 1u << set : 0u);
-    }
-    material->occlusion_blended =
-        known && material->occlusion_sets[0] == material->occlusion_texture.uv_set;
+    read_sets(blend, material);
 }
 
 static alp_result read_material(const source *from, alpi_material *material)

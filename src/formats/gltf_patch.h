@@ -208,7 +208,7 @@ alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
 /// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
-/// viewers know, else _ALPENGLOW_UV_k.
+/// viewers know, else _ALPENGLOW_UV_n, other n for each first.
 void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRIBUTE_SIZE]);
 /// Members of an object inside a material, which may not be there yet.
 typedef struct alpi_gltf_inside {
@@ -219,21 +219,23 @@ typedef struct alpi_gltf_inside {
 /// Sets them; false where the outer one is there and no object.
 bool alpi_patcher_set_inside(alpi_gltf_patcher *patcher, size_t material,
                              const alpi_gltf_inside *inside, alpi_edits *edits);
-/// What the extras of a material say of them, a JSON object: their names in the order of the axes
-/// of the mesh, and which of its maps are read with them.
-void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, uint32_t first, bool occluded,
-                              bool lit, alpi_bytes *text);
-/// Adds it to a material of the document.
-void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
-                                 alpi_edits *edits);
 /// Maps that a bake gives a material.
 typedef struct alpi_gltf_maps {
     bool occluded, lit;
 } alpi_gltf_maps;
-/// Takes them from those that an earlier bake said were blended. Its sets stay named: they hold
-/// charts that overlap all the same. Where they are named anew, its other maps bring a warning.
+/// What the extras of a material say of them, a JSON object: their names in the order of the axes
+/// of the mesh, and which of its maps are read with them; and the same of bakes before, whose maps
+/// the material keeps.
+/// @param material of the document, or ALPI_GLTF_NONE
+void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, size_t material, uint32_t first,
+                              alpi_gltf_maps maps, alpi_bytes *text);
+/// Adds it to a material of the document.
+void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
+                                 alpi_edits *edits);
+/// Takes maps from those that earlier bakes said were blended. Their sets stay named: they hold
+/// charts that overlap all the same.
 void alpi_patcher_unblend_material(alpi_gltf_patcher *patcher, size_t material,
-                                   alpi_gltf_maps replaced, bool named_anew, alpi_edits *edits);
+                                   alpi_gltf_maps replaced, alpi_edits *edits);
 
 // --- values at vertices --------------------------------------------------------------------------
 

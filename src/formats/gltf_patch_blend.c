@@ -11,8 +11,9 @@ void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRI
 {
     if (k == 0 || first + k <= LAST_TEXCOORD) {
         snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "TEXCOORD_%u", first + k);
-    } else {
-        snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "_ALPENGLOW_UV_%u", k);
+    } else { // others for each first one: those of an earlier bake stay
+        const uint32_t before = first > LAST_TEXCOORD ? 2 * (first - LAST_TEXCOORD) : 0;
+        snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "_ALPENGLOW_UV_%u", before + k);
     }
 }
 
@@ -21,8 +22,80 @@ static const char *const LIGHTS[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTextu
                                      [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
                                      [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
 
-void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, bool occluded, bool lit,
-                              alpi_bytes *text)
+/// The names in a list of "maps", less those of the maps that are replaced.
+static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gltf_maps replaced,
+                        alpi_bytes *kept)
+{
+    const char *text = p->document->text;
+    alpi_json_cursor cursor = alpi_json_open(text, maps);
+    size_t count = 0;
+    alpi_bytes_print(kept, "[");
+    while (alpi_json_next(&cursor)) {
+        const bool gone =
+            (replaced.occluded && alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
+            (replaced.lit && alpi_json_key_is(text, cursor.value, LIGHTS[p->patch->light->form]));
+        if (!gone) {
+            alpi_bytes_print(kept, "%s", count++ > 0 ? "," : "");
+            alpi_bytes_add(kept, text + cursor.value.begin, cursor.value.end - cursor.value.begin);
+        }
+    }
+    alpi_bytes_print(kept, "]");
+    return count;
+}
+
+/// What a bake before said of its sets and maps, less the maps that are replaced.
+/// @param count in, out: of the descriptions in `text`
+static void print_kept(const alpi_gltf_patcher *p, alpi_json_span blend, alpi_gltf_maps replaced,
+                       size_t *count, alpi_bytes *text)
+{
+    const char *document = p->document->text;
+    alpi_json_span sets, maps;
+    if (document[blend.begin] != '{' || !alpi_json_find(document, blend, "sets", &sets) ||
+        !alpi_json_find(document, blend, "maps", &maps)) {
+        return;
+    }
+    alpi_bytes kept = alpi_bytes_create(p->context);
+    if (keep_maps(p, maps, replaced, &kept) > 0 && !kept.failed) {
+        alpi_bytes_print(text, (*count)++ > 0 ? ",{\"sets\":" : "{\"sets\":");
+        alpi_bytes_add(text, document + sets.begin, sets.end - sets.begin);
+        alpi_bytes_print(text, ",\"maps\":");
+        alpi_bytes_add(text, kept.bytes, kept.size);
+        alpi_bytes_print(text, "}");
+    }
+    text->failed |= kept.failed;
+    alpi_bytes_destroy(&kept);
+}
+
+static void print_earlier(const alpi_gltf_patcher *p, size_t material, alpi_gltf_maps replaced,
+                          alpi_bytes *text)
+{
+    const char *document = p->document->text;
+    alpi_json_span blend, earlier;
+    if (material == ALPI_GLTF_NONE ||
+        !alpi_json_at(document, p->lists[ALPI_GLTF_MATERIALS].spans[material],
+                      "extras/" ALPI_GLTF_BLEND, &blend)) {
+        return;
+    }
+    alpi_bytes kept = alpi_bytes_create(p->context);
+    size_t count = 0;
+    print_kept(p, blend, replaced, &count, &kept);
+    if (alpi_json_find(document, blend, ALPI_GLTF_EARLIER, &earlier)) {
+        alpi_json_cursor cursor = alpi_json_open(document, earlier);
+        while (alpi_json_next(&cursor)) {
+            print_kept(p, cursor.value, replaced, &count, &kept);
+        }
+    }
+    if (count > 0) {
+        alpi_bytes_print(text, ",\"" ALPI_GLTF_EARLIER "\":[");
+        alpi_bytes_add(text, kept.bytes, kept.size);
+        alpi_bytes_print(text, "]");
+    }
+    text->failed |= kept.failed;
+    alpi_bytes_destroy(&kept);
+}
+
+void alpi_patcher_print_blend(const alpi_gltf_patcher *p, size_t material, uint32_t first,
+                              alpi_gltf_maps maps, alpi_bytes *text)
 {
     alpi_bytes_print(text, "{\"sets\":[");
     for (uint32_t k = 0; k < ALPI_GLTF_BLEND_SETS; k++) {
@@ -31,13 +104,15 @@ void alpi_patcher_print_blend(const alpi_gltf_patcher *p, uint32_t first, bool o
         alpi_bytes_print(text, "%s\"%s\"", k > 0 ? "," : "", name);
     }
     alpi_bytes_print(text, "],\"weights\":\"n*n\",\"frame\":\"object\",\"maps\":[");
-    if (occluded) {
-        alpi_bytes_print(text, "\"%s\"%s", OCCLUSION, lit ? "," : "");
+    if (maps.occluded) {
+        alpi_bytes_print(text, "\"%s\"%s", OCCLUSION, maps.lit ? "," : "");
     }
-    if (lit) {
+    if (maps.lit) {
         alpi_bytes_quote(text, LIGHTS[p->patch->light->form]);
     }
-    alpi_bytes_print(text, "]}");
+    alpi_bytes_print(text, "]");
+    print_earlier(p, material, maps, text);
+    alpi_bytes_print(text, "}");
 }
 
 bool alpi_patcher_set_inside(alpi_gltf_patcher *p, size_t material, const alpi_gltf_inside *inside,
@@ -78,46 +153,35 @@ void alpi_patcher_blend_material(alpi_gltf_patcher *p, size_t material, const ch
     }
 }
 
-/// The names that an earlier bake left in "maps", less those of the maps that this one replaces.
-static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gltf_maps replaced,
-                        alpi_bytes *kept)
-{
-    const char *text = p->document->text;
-    alpi_json_cursor cursor = alpi_json_open(text, maps);
-    size_t count = 0;
-    alpi_bytes_print(kept, "[");
-    while (alpi_json_next(&cursor)) {
-        const bool gone =
-            (replaced.occluded && alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
-            (replaced.lit && alpi_json_key_is(text, cursor.value, LIGHTS[p->patch->light->form]));
-        if (!gone) {
-            alpi_bytes_print(kept, "%s", count++ > 0 ? "," : "");
-            alpi_bytes_add(kept, text + cursor.value.begin, cursor.value.end - cursor.value.begin);
-        }
-    }
-    alpi_bytes_print(kept, "]");
-    return count;
-}
-
-void alpi_patcher_unblend_material(alpi_gltf_patcher *p, size_t material, alpi_gltf_maps replaced,
-                                   bool named_anew, alpi_edits *edits)
+static void take_maps(alpi_gltf_patcher *p, alpi_json_span blend, alpi_gltf_maps replaced,
+                      alpi_edits *edits)
 {
     alpi_json_span maps;
-    if (!alpi_json_at(p->document->text, p->lists[ALPI_GLTF_MATERIALS].spans[material],
-                      "extras/" ALPI_GLTF_BLEND "/maps", &maps) ||
+    if (!alpi_json_find(p->document->text, blend, "maps", &maps) ||
         p->document->text[maps.begin] != '[') {
         return;
     }
     alpi_bytes kept = alpi_bytes_create(p->context);
-    const size_t count = keep_maps(p, maps, replaced, &kept);
+    keep_maps(p, maps, replaced, &kept);
     p->data.failed |= kept.failed;
-    if (!named_anew) {
-        alpi_edits_replace(edits, maps, "%s", kept.failed ? "" : (const char *)kept.bytes);
-    } else if (count > 0 && !kept.failed) {
-        alpi_warn(p->context, "blend", p->document->path,
-                  "material %zu: %s of an earlier bake is read with one of its sets now, and shows "
-                  "seams, since one material names the sets of one bake; bake all maps at once",
-                  material, (const char *)kept.bytes);
-    }
+    alpi_edits_replace(edits, maps, "%s", kept.failed ? "" : (const char *)kept.bytes);
     alpi_bytes_destroy(&kept);
+}
+
+void alpi_patcher_unblend_material(alpi_gltf_patcher *p, size_t material, alpi_gltf_maps replaced,
+                                   alpi_edits *edits)
+{
+    const char *text = p->document->text;
+    alpi_json_span blend, earlier;
+    if (!alpi_json_at(text, p->lists[ALPI_GLTF_MATERIALS].spans[material],
+                      "extras/" ALPI_GLTF_BLEND, &blend)) {
+        return;
+    }
+    take_maps(p, blend, replaced, edits);
+    if (alpi_json_find(text, blend, ALPI_GLTF_EARLIER, &earlier)) {
+        alpi_json_cursor cursor = alpi_json_open(text, earlier);
+        while (alpi_json_next(&cursor)) {
+            take_maps(p, cursor.value, replaced, edits);
+        }
+    }
 }

@@ -171,7 +171,9 @@ static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char 
 {
     const bool packed = n->page == ALPI_NONE;
     const alpi_gltf_maps replaced = {packed || n->occluded, !packed && n->lit};
-    alpi_patcher_unblend_material(p, n->old, replaced, !packed && blend != NULL, edits);
+    if (packed || blend == NULL) {
+        alpi_patcher_unblend_material(p, n->old, replaced, edits);
+    }
     if (packed) {
         return alpi_patcher_pack_material(p, n->old, edits);
     }
@@ -227,7 +229,8 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
     alpi_bytes sets = alpi_bytes_create(p->context);
     if (p->patch->set_uvs != NULL) {
-        alpi_patcher_print_blend(p, n->uv_set, n->occluded, n->lit, &sets);
+        const alpi_gltf_maps maps = {n->occluded, n->lit};
+        alpi_patcher_print_blend(p, n->old, n->uv_set, maps, &sets);
     }
     const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
     alpi_bytes text = alpi_bytes_create(p->context);

@@ -17,6 +17,7 @@ let failed = false;
 for (const [name, kind] of [
   ['blend', 'blend ao'],
   ['blend', 'blend light'],
+  ['blend', 'blend earlier'],
   ['blend', 'plain ao'],
   ['full', 'blend ao'],
   ['full', 'blend light'],

@@ -12,7 +12,8 @@ async function load(kind, url) {
 }
 
 /// White surfaces under light that makes a picture of the occlusion map alone; 'blend light' shows
-/// it as a light map. Patched, but for 'plain ao'.
+/// it as a light map, 'blend earlier' as one that a later bake of light left in its own sets. Patched,
+/// but for 'plain ao'.
 function showMap(scene, kind) {
   const asLight = kind === 'blend light';
   scene.traverse((object) => {
@@ -21,6 +22,10 @@ function showMap(scene, kind) {
     object.material = new THREE.MeshLambertMaterial(asLight ? { lightMap: aoMap, lightMapIntensity: Math.PI } : { aoMap });
     object.material.userData = userData;
     if (asLight) object.material.userData.alpenglow_blend.maps = ['lightmap'];
+    if (kind === 'blend earlier') {
+      const { sets, maps } = userData.alpenglow_blend;
+      userData.alpenglow_blend = { sets: [...sets].reverse(), maps: ['lightmap'], earlier: [{ sets, maps }] };
+    }
   });
   for (const camera of scene.getObjectsByProperty('isCamera', true)) camera.removeFromParent(); // the given one is meant
   if (!asLight) scene.add(new THREE.AmbientLight(0xffffff, Math.PI));

@@ -152,6 +152,43 @@ static void texels_name_triangles_of_the_scene(void **state)
     alp_context_destroy(context);
 }
 
+/// Balls of one mesh, each of its own size.
+static alp_scene *scene_balls(alp_context *context, uint32_t count)
+{
+    alpi_builder builder;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&builder, context, "balls");
+    alpi_builder_surface(&builder, "balls", ALPI_NONE);
+    for (uint32_t i = 0; i < count; i++) {
+        const float radius = 0.25f + 0.5f * (float)keyed(3, i);
+        alpi_builder_ball(&builder, &(alpi_ball){.center = {2.0f * (float)i, 0.0f, 0.0f},
+                                                 .radius = radius,
+                                                 .top = radius,
+                                                 .slices = 24,
+                                                 .stacks = 12});
+    }
+    ASSERT_OK(context, alpi_builder_finish(&builder, &scene));
+    return scene;
+}
+
+/// Charts of what is connected lie on one page where one holds them, so that no triangle loses one.
+static void charts_of_one_piece_share_a_page(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = scene_balls(context, 8);
+    alp_atlas *atlas = blend_of(context, scene, 128, 20.0); // a ball takes half a page at most
+    const uint32_t pages = alp_atlas_get_info(atlas).pages;
+    assert_true(pages > 1 && pages < 8);
+    assert_int_equal(overlapping_texels(atlas), 0);
+    for (uint32_t f = 0; f < atlas->face_count; f++) {
+        assert_int_equal(atlas->triangle_pages[f], atlas->triangle_pages[atlas->face_triangles[f]]);
+    }
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// A material has one map: on several pages all coordinates of a triangle lie on its own.
 static void pages_keep_triangles_together(void **state)
 {
@@ -208,6 +245,38 @@ static void densities_are_kept(void **state)
         seen[kind]++;
     }
     assert_true(seen[0] > 0 && seen[1] > 0 && seen[2] > 0);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// A cap of a sphere up to 87° has 2π (1 − cos 87°) of area and π sin² 87° of its plane: its chart
+/// is enlarged by s = 1.9005. What is read of it has s Σ |n_k|³ times the texels that are asked
+/// for, a sum that lies between 1/√3 and 1.
+static void what_is_read_is_as_dense_as_asked(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = smooth_sphere(context);
+    alp_atlas *atlas = blend_of(context, scene, 256, 25.0);
+    double least = HUGE_VAL, most = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        vec3 c[3];
+        double cosines[3], density = 0.0;
+        alpi_triangle_corners(scene, t, c);
+        corner_cosines(scene, t, cosines);
+        for (uint32_t f = 0; f < atlas->face_count; f++) {
+            const double n = cosines[atlas->face_axes[f]];
+            density += atlas->face_triangles[f] == t ? n * n * fabs(texel_area(atlas, f)) : 0.0;
+        }
+        density /= vec3_triangle_area(c[0], c[1], c[2]) * 25.0 * 25.0;
+        least = fmin(least, density);
+        most = fmax(most, density);
+    }
+    // A sphere of 48 slices has facets of 7.5°: their cap ends within 3.75° of 87°, where a cosine
+    // is .065 more, of which the sum and s have the same share.
+    ASSERT_NEAR(least, 1.9005 / sqrt(3.0), 0.07 * 1.9005 / sqrt(3.0));
+    ASSERT_NEAR(most, 1.9005, 0.07 * 1.9005);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
@@ -304,6 +373,7 @@ static void running_out_of_memory_leaves_nothing(void **state)
     alp_atlas_options options = alp_atlas_options_default();
     options.mode = ALP_ATLAS_BLEND;
     options.size = 16;
+    options.texels_per_metre = 4.0; // on several pages
     for (int allowed = 0;; allowed++) {
         alp_atlas *atlas = NULL;
         left = allowed;
@@ -327,8 +397,10 @@ int main(void)
         cmocka_unit_test(sets_that_a_triangle_is_not_in_repeat_its_strongest),
         cmocka_unit_test(folds_are_cut),
         cmocka_unit_test(texels_name_triangles_of_the_scene),
+        cmocka_unit_test(charts_of_one_piece_share_a_page),
         cmocka_unit_test(pages_keep_triangles_together),
         cmocka_unit_test(densities_are_kept),
+        cmocka_unit_test(what_is_read_is_as_dense_as_asked),
         cmocka_unit_test(weights_are_squares_of_the_normal),
         cmocka_unit_test(axes_are_those_of_the_object),
         cmocka_unit_test(is_the_same_for_any_number_of_workers),

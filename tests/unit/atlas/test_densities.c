@@ -4,7 +4,11 @@
 #include "atlas_scenes.h"
 #include "page_owners.h"
 
+#include "atlas/stretch.h"
+
 #include <stdlib.h>
+
+static const double BIN = 0.0014; // two bins of the spread's histogram, each 2^(1/1024)
 
 static alp_scene *cornell(alp_context *context)
 {
@@ -49,6 +53,9 @@ static void check_factors(alp_context *context, const char *densities, double te
         // each end of 5 texels at least.
         ASSERT_NEAR(density_of(atlas, t), base * factor, 1e-4 * base * factor);
     }
+    ASSERT_NEAR(atlas->info.stretch_mean, 1.0, 2e-4); // each has what was asked of it
+    ASSERT_NEAR(atlas->info.stretch_worst, 1.0, 2e-4);
+    ASSERT_NEAR(atlas->info.density_spread, 1.0, BIN);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
 }
@@ -72,6 +79,43 @@ static void factors_are_kept(void **state)
         check_factors(context, "*block=2,material:white=1.5", density, both, 5);
         check_factors(context, "floor=1000,floor=0.002,la?p=.1,lamp=2.5", density, names, 2);
     }
+    alp_context_destroy(context);
+}
+
+/// A floor of twice the density d where half of it is asked for. Over its area F and the others' R,
+/// the density of factor 1 is b = d √((4 F + R) / (F / 4 + R)).
+static void what_is_asked_for_and_not_given_is_stretch(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = cornell(context);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.size = 256;
+    options.densities = "floor=2";
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    double floor = 0.0, rest = 0.0, d = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        vec3 c[3];
+        alpi_triangle_corners(scene, t, c);
+        const bool is_floor = atlas->factors[scene->triangle_surface[t]] > 1.0f;
+        *(is_floor ? &floor : &rest) += vec3_triangle_area(c[0], c[1], c[2]);
+        d = is_floor ? d : density_of(atlas, t);
+    }
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        atlas->factors[s] = atlas->factors[s] > 1.0f ? 0.5f : 1.0f;
+    }
+    alpi_stretch_facts facts;
+    ASSERT_OK(context, alpi_stretch_measure(atlas, &facts));
+    const double b = d * sqrt((4.0 * floor + rest) / (0.25 * floor + rest)), own = 0.25 * b / d;
+    const double mean = (0.25 * floor * own * own + rest * b * b / (d * d)) / (0.25 * floor + rest);
+    ASSERT_NEAR(facts.base, b, 1e-4 * b); // as above
+    ASSERT_NEAR(facts.worst, b / d, 1e-4 * b / d);
+    ASSERT_NEAR(facts.mean, sqrt(mean), 1e-4 * sqrt(mean));
+    ASSERT_NEAR(facts.spread, 4.0, 4.0 * BIN);
+    ASSERT_NEAR(facts.texels_per_metre, d * sqrt((4.0 * floor + rest) / (floor + rest)), 1e-4 * d);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
     alp_context_destroy(context);
 }
 
@@ -212,6 +256,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(factors_are_kept),
+        cmocka_unit_test(what_is_asked_for_and_not_given_is_stretch),
         cmocka_unit_test(charts_hold_one_density),
         cmocka_unit_test(what_is_no_density_is_refused),
         cmocka_unit_test(gaps_hold_on_whole_pages),

@@ -378,6 +378,53 @@ static void sides_at_their_ends(void **state)
     alp_context_destroy(context);
 }
 
+static void groups_stay_together(void **state)
+{
+    (void)state;
+    enum { COUNT = 90, GROUPS = 30 };
+    alp_context *context = test_context(1);
+    const alpi_pack_rules rules = {.size = 64, .padding = 2};
+    alpi_pack_item items[COUNT] = {0};
+    uint32_t groups[COUNT], pages = 0;
+    for (uint32_t i = 0; i < COUNT; i++) { // three of a group side by side fit 64 in any case
+        items[i].width = 1 + (uint32_t)(19.0 * keyed(5, 2 * i));
+        items[i].height = 1 + (uint32_t)(19.0 * keyed(5, 2 * i + 1));
+        groups[i] = i % GROUPS;
+    }
+    ASSERT_OK(context, alpi_pack_groups(context, &rules, items, groups, COUNT, 4096, &pages));
+    check_places(&rules, items, COUNT, pages);
+    assert_true(pages > 1);
+    for (uint32_t i = GROUPS; i < COUNT; i++) {
+        assert_int_equal(items[i].page, items[i % GROUPS].page);
+    }
+    assert_int_equal(alpi_pack_groups(context, &rules, items, groups, COUNT, 1, &pages),
+                     ALP_ERROR_LIMIT);
+    alp_context_destroy(context);
+}
+
+/// Two squares of 33 do not fit a page of 64; each fits the corner that a larger item leaves. The
+/// page on which both were tried goes.
+static void groups_that_fit_no_page_are_parted(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    const alpi_pack_rules rules = {.size = 64};
+    uint64_t mask[64];
+    for (uint32_t y = 0; y < 64; y++) {
+        mask[y] = y < 33 ? UINT64_MAX << 33 : UINT64_MAX;
+    }
+    alpi_pack_item items[4] = {{.width = 33, .height = 33},
+                               {.width = 64, .height = 64, .mask = mask},
+                               {.width = 33, .height = 33},
+                               {.width = 64, .height = 64, .mask = mask}};
+    static const uint32_t groups[4] = {0, 1, 0, 3};
+    uint32_t pages = 0;
+    ASSERT_OK(context, alpi_pack_groups(context, &rules, items, groups, 4, 4096, &pages));
+    check_places(&rules, items, 4, pages);
+    assert_int_equal(pages, 2);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -391,6 +438,8 @@ int main(void)
         cmocka_unit_test(other_orders_are_no_worse),
         cmocka_unit_test(pages_are_added),
         cmocka_unit_test(turning_helps),
+        cmocka_unit_test(groups_stay_together),
+        cmocka_unit_test(groups_that_fit_no_page_are_parted),
         cmocka_unit_test(work_is_linear),
         cmocka_unit_test(sides_at_their_ends),
     };

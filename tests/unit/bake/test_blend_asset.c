@@ -145,27 +145,53 @@ static void a_map_of_one_set_ends_the_blend(void **state)
     alp_context_destroy(context);
 }
 
-/// A material names the sets of one bake: what an earlier one gave it is read with one set.
-static void light_after_occlusion_warns(void **state)
+/// Light on top of the occlusion of `from`, by the one atlas or the other.
+static void bake_light(const alp_scene *from, alp_atlas_mode mode, const char *output)
+{
+    alp_bake_options options = blend_options(output);
+    options.atlas.mode = mode;
+    options.overwrite = true;
+    options.maps = ALP_MAP_LIGHT;
+    options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    options.light.samples = 4;
+    ASSERT_OK(from->context, alp_bake(from, &options, NULL, NULL));
+}
+
+/// A material says for each map with which sets it is read: what one bake gave stays blended when
+/// another adds its own, and a third that puts another map in its place takes it from the list.
+static void light_after_occlusion_keeps_both(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
     const char *folder = quad_folder();
     const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
+    const char *thrice = test_path(test_folder(), "thrice.glb");
     alp_scene *scene = load(context, "builtin:sphere-plane");
-    alp_lightmap_destroy(bake(scene, once));
+    alp_lightmap *lightmap = bake(scene, once);
     alp_scene *written = load(context, once);
-    assert_true(written->materials[0].occlusion_blended);
-    alp_bake_options options = blend_options(twice);
-    options.maps = ALP_MAP_LIGHT;
-    options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
-    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
-    options.light.samples = 4;
-    ASSERT_OK(context, alp_bake(written, &options, NULL, NULL));
-    assert_non_null(strstr(test_log_text(), "bake all maps at once"));
-    alp_scene *last = load(context, twice);
-    assert_false(last->materials[0].occlusion_blended);
-    alp_scene_destroy(last);
+    bake_light(written, ALP_ATLAS_BLEND, twice);
+    assert_true(file_has(twice,
+                         "\"sets\":[\"TEXCOORD_3\",\"_ALPENGLOW_UV_1\",\"_ALPENGLOW_UV_2\"],"
+                         "\"weights\":\"n*n\",\"frame\":\"object\","
+                         "\"maps\":[\"MOZ_lightmap\"],\"earlier\":[{\"sets\":[\"TEXCOORD_0\","
+                         "\"TEXCOORD_1\",\"TEXCOORD_2\"],\"maps\":[\"occlusionTexture\"]}]}"));
+    alp_scene *both = load(context, twice);
+    assert_true(both->materials[0].occlusion_blended);
+    check_blend(both, lightmap); // corners are where they were: their numbers differ alone
+    bake_light(both, ALP_ATLAS_BLEND, thrice);
+    assert_true(file_has(thrice,
+                         "\"sets\":[\"TEXCOORD_4\",\"_ALPENGLOW_UV_3\",\"_ALPENGLOW_UV_4\"],"
+                         "\"weights\":\"n*n\",\"frame\":\"object\","
+                         "\"maps\":[\"MOZ_lightmap\"],\"earlier\":[{\"sets\":["
+                         "\"TEXCOORD_0\",\"TEXCOORD_1\",\"TEXCOORD_2\"],"
+                         "\"maps\":[\"occlusionTexture\"]}]}"));
+    bake_light(both, ALP_ATLAS_CHARTS, thrice); // of one set: none is left to the second bake
+    assert_true(file_has(thrice,
+                         "\"maps\":[],\"earlier\":[{\"sets\":[\"TEXCOORD_0\","
+                         "\"TEXCOORD_1\",\"TEXCOORD_2\"],\"maps\":[\"occlusionTexture\"]}]}"));
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(both);
     alp_scene_destroy(written);
     alp_scene_destroy(scene);
     quad_list(once, twice);
@@ -272,7 +298,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(three_sets_come_back),
         cmocka_unit_test(a_map_of_one_set_ends_the_blend),
-        cmocka_unit_test(light_after_occlusion_warns),
+        cmocka_unit_test(light_after_occlusion_keeps_both),
         cmocka_unit_test(a_blend_of_other_sets_is_not_read),
         cmocka_unit_test(collada_has_three_sets),
         cmocka_unit_test(what_has_one_set_is_refused),
