@@ -184,11 +184,11 @@ static alp_result trace_and_take(map_job *job, uint32_t count, uint32_t before)
     return traced != ALP_OK ? traced : taken;
 }
 
-static alp_result trace_wanted(map_job *job)
+/// @param count out: how many there were
+static alp_result trace_wanted(map_job *job, uint32_t *count)
 {
-    uint32_t count = 0;
-    ALP_TRY(list_texels(job, false, &count));
-    return trace_and_take(job, count, 0);
+    ALP_TRY(list_texels(job, false, count));
+    return trace_and_take(job, *count, 0);
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -291,19 +291,22 @@ static void set_limits(map_job *job, float spacing)
 
 static alp_result run_lattice(map_job *job)
 {
+    uint32_t count = 0, flooded = 0;
     ALP_TRY(judge(job, 0, false));
-    ALP_TRY(trace_wanted(job));
+    ALP_TRY(trace_wanted(job, &count));
     ALP_TRY(measure_noise(job));
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         set_limits(job, 2.0f * (float)alpi_lattice_reach(pass));
         ALP_TRY(judge(job, pass, false));
-        ALP_TRY(trace_wanted(job));
+        ALP_TRY(trace_wanted(job, &count));
     }
-    for (int round = 0; round < FLOOD_ROUNDS; round++) {
+    count = 1;
+    for (int round = 0; round < FLOOD_ROUNDS && count > 0; round++) {
         ALP_TRY(judge(job, 0, true));
-        ALP_TRY(trace_wanted(job));
+        ALP_TRY(trace_wanted(job, &count));
+        flooded += count;
     }
-    return renew(job);
+    return flooded > 0 ? renew(job) : ALP_OK;
 }
 
 static alp_result want_all(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -360,7 +363,8 @@ static alp_result run_round(map_job *job)
     } else {
         ALP_TRY(for_texels(job, want_all));
     }
-    return adaptive ? run_lattice(job) : trace_wanted(job);
+    uint32_t count = 0;
+    return adaptive ? run_lattice(job) : trace_wanted(job, &count);
 }
 
 /// Chooses the held-out texels, more of them the more are traced.

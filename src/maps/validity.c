@@ -173,10 +173,10 @@ static vec3 lift_point(const alpi_receiver_point *p, float side)
     return vec3_mad(p->position, p->offset + 0.02f * side, p->geometric_normal);
 }
 
-/// Sends eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
+/// Eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
 /// all_tangent, 4 more tangent ones between the first.
-static void look_around(const validity_job *job, const alpi_receiver_point *p, float length,
-                        bool all_tangent, alpi_rays *rays, alpi_hits *hits)
+static void aim_around(const alpi_receiver_point *p, float length, bool all_tangent,
+                       alpi_rays *rays)
 {
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
@@ -191,7 +191,6 @@ static void look_around(const validity_job *job, const alpi_receiver_point *p, f
         alpi_rays_set(rays, i + 4, origin, vec3_normalize_or(between, n),
                       all_tangent ? length : INFINITY);
     }
-    alpi_trace_nearest(job->setup->tracer, rays, 0xffu, (alpi_trace_filter){0}, hits);
 }
 
 /// Whether a lane met the inside of a single-sided surface.
@@ -280,7 +279,8 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
-    look_around(job, point, side, false, &rays, &hits);
+    aim_around(point, side, false, &rays);
+    alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
     int tangent = 0, upward = 0;
     for (int k = 0; k < 4; k++) {
         tangent += met_back_face(scene, &rays, &hits, k);
@@ -325,12 +325,13 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
     alpi_receiver_point point;
     alpi_rays rays;
-    alpi_hits hits;
     alpi_texels_point(job->texels, texel, &point);
-    look_around(job, &point, 1.6f * texel_side(job->texels, texel), true, &rays, &hits);
+    aim_around(&point, 1.6f * texel_side(job->texels, texel), true, &rays);
+    alpi_trace_occluded(job->setup->tracer, &rays, 1, 0xffu, (alpi_trace_filter){0},
+                        ALPI_RAYS_NEAR);
     bool suspicious = false;
     for (int k = 0; k < ALPI_PACKET; k++) {
-        suspicious = suspicious || hits.triangle[k] != ALPI_NONE;
+        suspicious = suspicious || rays.maximum[k] < 0.0f;
     }
     return suspicious;
 }
