@@ -145,7 +145,7 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
-    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e6, NULL, NULL)); // too few to be worth it
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL)); // too few to be worth it
     assert_int_equal(count_slips(scene, tracer, quick, few, true), 0);
     ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e9, NULL, NULL));
     assert_int_equal(count_slips(scene, tracer, careful, few, true), 0);
