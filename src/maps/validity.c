@@ -211,16 +211,22 @@ static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const a
 
 // --- texels --------------------------------------------------------------------------------------
 
-/// Points at the middles of `count` strata.
-static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
-                         uint32_t count, alpi_receiver_point *points)
+/// Middles of `count` strata.
+static void find_middles(const uint8_t *strata, uint32_t count, float (*square)[2])
 {
-    float square[STRATA][2];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t column = strata[i] % 4u, row = strata[i] / 4u;
         square[i][0] = ((float)column + 0.5f) / 4.0f;
         square[i][1] = ((float)row + 0.5f) / 4.0f;
     }
+}
+
+/// Points at the middles of `count` strata.
+static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
+                         uint32_t count, alpi_receiver_point *points)
+{
+    float square[STRATA][2];
+    find_middles(strata, count, square);
     job->receivers->place(job->receivers->user, texel, count, (const float(*)[2])square, points);
 }
 
@@ -255,20 +261,19 @@ static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKE
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
-    alpi_receiver_point lifted[ALPI_PACKET], lying[ALPI_PACKET];
-    vec3 from[ALPI_PACKET], to[ALPI_PACKET];
-    float least[ALPI_PACKET];
-    place_strata(job, texel, chosen, ALPI_PACKET, lifted);
-    job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
-    place_strata(job, texel, chosen, ALPI_PACKET, lying);
+    alpi_receiver_point lifted[ALPI_PACKET];
+    vec3 low[ALPI_PACKET], from[ALPI_PACKET], to[ALPI_PACKET];
+    float square[ALPI_PACKET][2], least[ALPI_PACKET];
+    find_middles(chosen, ALPI_PACKET, square);
+    alpi_texels_lifts(job->texels, texel, ALPI_PACKET, (const float(*)[2])square, lifted, low);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const alpi_receiver_point *low = &lying[i];
-        from[i] = vec3_mad(low->position, low->offset, low->geometric_normal);
-        to[i] = vec3_add(from[i], vec3_sub(lifted[i].position, low->position));
-        least[i] = low->offset;
+        const alpi_receiver_point *point = &lifted[i];
+        from[i] = vec3_mad(low[i], point->offset, point->geometric_normal);
+        to[i] = vec3_add(from[i], vec3_sub(point->position, low[i]));
+        least[i] = point->offset;
     }
-    if (find_blocked(job, from, to, least) == 0) {
-        job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
+    if (find_blocked(job, from, to, least) != 0) {
+        job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     }
 }
 
