@@ -197,6 +197,11 @@ bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel);
 /// outlive the receivers.
 alpi_receivers alpi_texels_receivers(const alpi_texels *texels);
 
+/// Points of a texel as its receivers place them with all strata valid, and where each lies before
+/// its lift.
+void alpi_texels_lifts(const alpi_texels *texels, uint32_t texel, uint32_t count,
+                       const float (*square)[2], alpi_receiver_point *points, vec3 *lows);
+
 /// A place on the surface inside a texel.
 typedef struct alpi_texel_spot {
     uint32_t triangle;

@@ -64,7 +64,7 @@ static void load_shape(alpi_facet *f, const vec3 corner[3])
 /// Heights of the corners above each other's tangent planes; whether any point must be lifted.
 static void load_lift(alpi_facet *f, const vec3 corner[3])
 {
-    float longest = 0.0f, lowest = 0.0f;
+    float square = 0.0f, lowest = 0.0f; // of the longest edge
     for (int i = 0; i < 3; i++) {
         const vec3 normal = vec3_load(f->normals[i]);
         if (!(vec3_dot(normal, f->geometric) > 0.0f)) {
@@ -73,10 +73,11 @@ static void load_lift(alpi_facet *f, const vec3 corner[3])
         for (int j = 0; j < 3; j++) {
             const vec3 edge = vec3_sub(corner[j], corner[i]);
             f->heights[i][j] = j == i ? 0.0f : vec3_dot(edge, normal);
-            longest = fmaxf(longest, vec3_length(edge));
-            lowest = fminf(lowest, f->heights[i][j]);
+            square = larger(square, vec3_dot(edge, edge));
+            lowest = f->heights[i][j] < lowest ? f->heights[i][j] : lowest;
         }
     }
+    const float longest = sqrtf(square);
     f->lift_limit = LARGEST_LIFT * longest;
     f->lifted = lowest < -LEAST_HEIGHT * longest && isfinite(longest);
 }
@@ -127,7 +128,9 @@ static vec3 find_lift(const alpi_facet *f, const float w[3])
     return length > f->lift_limit ? vec3_scale(lift, f->lift_limit / length) : lift;
 }
 
-static void find_point(const alpi_facet *f, const double b[2], alpi_receiver_point *point)
+/// @param low NULL, or out: the position before any lift
+static void find_point(const alpi_facet *f, const double b[2], alpi_receiver_point *point,
+                       vec3 *low)
 {
     point->position.x = (float)(f->corner[0] + b[0] * f->edges[0][0] + b[1] * f->edges[1][0]);
     point->position.y = (float)(f->corner[1] + b[0] * f->edges[0][1] + b[1] * f->edges[1][1]);
@@ -135,6 +138,9 @@ static void find_point(const alpi_facet *f, const double b[2], alpi_receiver_poi
     point->geometric_normal = f->geometric;
     point->shading_normal = f->geometric;
     point->offset = f->offset;
+    if (low != NULL) {
+        *low = point->position;
+    }
     if (f->smooth) {
         const float w[3] = {(float)(1.0 - b[0] - b[1]), (float)b[0], (float)b[1]};
         point->shading_normal = alpi_facet_normal(f, w);
@@ -144,9 +150,10 @@ static void find_point(const alpi_facet *f, const double b[2], alpi_receiver_poi
     }
 }
 
-void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point)
+void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point,
+                      vec3 *low)
 {
-    find_point(facet, b, point);
+    find_point(facet, b, point, low);
 }
 
 /// The same for a triangle that is flat: all but the position is one for all points.
@@ -172,10 +179,13 @@ static void find_flat_points(const alpi_facet *f, const alpi_facet_patch *patch,
 }
 
 void alpi_facet_points(const alpi_facet *facet, const alpi_facet_patch *patch, uint32_t count,
-                       const float (*square)[2], alpi_receiver_point *points)
+                       const float (*square)[2], alpi_receiver_point *points, vec3 *lows)
 {
     if (!facet->smooth) {
         find_flat_points(facet, patch, count, square, points);
+        for (uint32_t i = 0; i < count && lows != NULL; i++) {
+            lows[i] = points[i].position;
+        }
         return;
     }
     const alpi_facet_patch p = *patch;
@@ -183,6 +193,6 @@ void alpi_facet_points(const alpi_facet *facet, const alpi_facet_patch *patch, u
         const double x = (double)square[i][0], y = (double)square[i][1];
         const double b[2] = {p.at[0] + x * p.by_x[0] + y * p.by_y[0],
                              p.at[1] + x * p.by_x[1] + y * p.by_y[1]};
-        find_point(facet, b, &points[i]);
+        find_point(facet, b, &points[i], lows != NULL ? &lows[i] : NULL);
     }
 }

@@ -23,7 +23,9 @@ typedef struct alpi_facet {
 void alpi_facet_load(const alp_scene *scene, uint32_t triangle, bool lift, alpi_facet *facet);
 
 /// The point at barycentrics b (weights of corners 1 and 2).
-void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point);
+/// @param low NULL, or out: its position before any lift
+void alpi_facet_point(const alpi_facet *facet, const double b[2], alpi_receiver_point *point,
+                      vec3 *low);
 
 /// Points of a parallelogram of the triangle: that of (x, y) of the unit square lies at
 /// barycentrics at + x · by_x + y · by_y.
@@ -31,7 +33,7 @@ typedef struct alpi_facet_patch {
     double at[2], by_x[2], by_y[2];
 } alpi_facet_patch;
 void alpi_facet_points(const alpi_facet *facet, const alpi_facet_patch *patch, uint32_t count,
-                       const float (*square)[2], alpi_receiver_point *points);
+                       const float (*square)[2], alpi_receiver_point *points, vec3 *lows);
 
 /// The shading normal there: the corners' interpolated, or the geometric one where that would point
 /// below the triangle, since a hemisphere inside the surface sees nothing.

@@ -120,7 +120,7 @@ static double piece_begin(const alpi_texels *texels, uint32_t texel, uint32_t pi
 
 /// Each piece is clipped once for all points that fall into it.
 static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t count,
-                            const float (*square)[2], alpi_receiver_point *points)
+                            const float (*square)[2], alpi_receiver_point *points, vec3 *lows)
 {
     uint32_t pieces[BATCH];
     for (uint32_t i = 0; i < count; i++) {
@@ -140,7 +140,7 @@ static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t 
                 const double u = width > 0.0 ? ((double)square[j][0] - begin) / width : 0.0;
                 double b[2];
                 find_in_fan(&f, u, (double)square[j][1], b);
-                alpi_facet_point(&f.facet, b, &points[j]);
+                alpi_facet_point(&f.facet, b, &points[j], lows != NULL ? &lows[j] : NULL);
                 pieces[j] = ALPI_NONE;
             }
         }
@@ -175,13 +175,15 @@ static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2],
 
 // --- texels --------------------------------------------------------------------------------------
 
+/// @param lows NULL, or out: the positions before any lift
 static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t count,
-                           const float (*square)[2], alpi_receiver_point *points)
+                           const float (*square)[2], alpi_receiver_point *points, vec3 *lows)
 {
     if (texels->piece_first[texel] != texels->piece_first[texel + 1]) {
         for (uint32_t i = 0; i < count; i += BATCH) {
             const uint32_t batch = count - i < BATCH ? count - i : BATCH;
-            place_in_pieces(texels, texel, batch, square + i, points + i);
+            place_in_pieces(texels, texel, batch, square + i, points + i,
+                            lows != NULL ? lows + i : NULL);
         }
         return;
     }
@@ -192,7 +194,7 @@ static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t c
     const alpi_facet_patch map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
     alpi_facet_load(texels->atlas->scene, texels->triangles[texel],
                     (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
-    alpi_facet_points(&facet, &map, count, square, points);
+    alpi_facet_points(&facet, &map, count, square, points, lows);
 }
 
 static void place(const void *user, uint32_t texel, uint32_t count, const float (*square)[2],
@@ -201,15 +203,21 @@ static void place(const void *user, uint32_t texel, uint32_t count, const float 
     const alpi_texels *texels = user;
     const uint32_t valid = texels->valid == NULL ? 0 : texels->valid[texel];
     if (valid == 0 || valid == 0xffffu) {
-        place_in_texel(texels, texel, count, square, points);
+        place_in_texel(texels, texel, count, square, points, NULL);
         return;
     }
     float moved[BATCH][2];
     for (uint32_t i = 0; i < count; i += BATCH) {
         const uint32_t batch = count - i < BATCH ? count - i : BATCH;
         keep_valid(valid, batch, square + i, moved);
-        place_in_texel(texels, texel, batch, (const float(*)[2])moved, points + i);
+        place_in_texel(texels, texel, batch, (const float(*)[2])moved, points + i, NULL);
     }
+}
+
+void alpi_texels_lifts(const alpi_texels *texels, uint32_t texel, uint32_t count,
+                       const float (*square)[2], alpi_receiver_point *points, vec3 *lows)
+{
+    place_in_texel(texels, texel, count, square, points, lows);
 }
 
 void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float square[2],
@@ -266,5 +274,5 @@ void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_
                     (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
     const double b[2] = {(double)texels->barycentrics[texel][0],
                          (double)texels->barycentrics[texel][1]};
-    alpi_facet_point(&facet, b, point);
+    alpi_facet_point(&facet, b, point, NULL);
 }

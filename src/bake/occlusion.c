@@ -204,6 +204,15 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alpi_tracer *tracer = NULL, *owned = NULL;
     ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
                                &tracer, &owned));
+    if (alpi_bake_wants_occlusion(job)) {
+        const double rays = (double)object->texel_count * job->options.occlusion.samples;
+        const alp_result quickened =
+            alpi_tracer_quicken(tracer, rays, options->progress, options->progress_user);
+        if (quickened != ALP_OK) {
+            alpi_tracer_destroy(owned);
+            return quickened;
+        }
+    }
     job->report.seconds_build += alpi_seconds() - started;
     alp_occlusion_options occlusion = job->options.occlusion;
     occlusion.distance = object->distance;

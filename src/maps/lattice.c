@@ -144,24 +144,43 @@ uint32_t alpi_lattice_reach(uint32_t pass)
     return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
 }
 
-/// The texel (dx, dy) away, if it is known, of the chart of texel t, and turned at most so far.
-static uint32_t find_turned(const alpi_lattice *l, uint32_t t, int dx, int dy, float cosine)
+/// A texel that looks at those around it.
+typedef struct centre {
+    const uint32_t *at; // its place in the grid
+    int x, y;
+    uint32_t chart;
+    vec3 normal;
+} centre;
+
+static inline centre find_centre(const alpi_lattice *l, uint32_t t)
 {
     const uint16_t *p = l->texels->pixels[t];
-    const uint32_t n =
-        alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + dx, (int64_t)p[1] + dy);
-    if (n == ALPI_NONE || l->states[n] == ALPI_TEXEL_OPEN ||
-        l->texels->charts[n] != l->texels->charts[t]) {
-        return ALPI_NONE;
-    }
-    const float turn = vec3_dot(vec3_load(l->texels->normals[n]), vec3_load(l->texels->normals[t]));
-    return turn >= cosine ? n : ALPI_NONE;
+    return (centre){.at = &l->grid[alpi_lattice_pixel(l, l->texels->pages[t], p[0], p[1])],
+                    .x = p[0],
+                    .y = p[1],
+                    .chart = l->texels->charts[t],
+                    .normal = vec3_load(l->texels->normals[t])};
 }
 
-/// The texel (dx, dy) away, if texel t may be interpolated from it.
-static uint32_t neighbour(const alpi_lattice *l, uint32_t t, int dx, int dy)
+/// The texel (dx, dy) away, if it is known, of the chart of the centre, and turned at most so far.
+static inline uint32_t find_turned(const alpi_lattice *l, const centre *c, int dx, int dy,
+                                   float cosine)
 {
-    return find_turned(l, t, dx, dy, SMOOTH_COSINE);
+    const int x = c->x + dx, y = c->y + dy;
+    if (x < 0 || y < 0 || x >= (int)l->width || y >= (int)l->height) {
+        return ALPI_NONE;
+    }
+    const uint32_t n = c->at[(ptrdiff_t)dy * (ptrdiff_t)l->width + dx];
+    if (n == ALPI_NONE || l->states[n] == ALPI_TEXEL_OPEN || l->texels->charts[n] != c->chart) {
+        return ALPI_NONE;
+    }
+    return vec3_dot(vec3_load(l->texels->normals[n]), c->normal) >= cosine ? n : ALPI_NONE;
+}
+
+/// The texel (dx, dy) away, if the centre may be interpolated from it.
+static inline uint32_t neighbour(const alpi_lattice *l, const centre *c, int dx, int dy)
+{
+    return find_turned(l, c, dx, dy, SMOOTH_COSINE);
 }
 
 static void add_to_stencil(alpi_stencil *s, uint32_t texel, float weight)
@@ -172,7 +191,7 @@ static void add_to_stencil(alpi_stencil *s, uint32_t texel, float weight)
 
 /// Along one axis, the four nearest at −3h, −h, h, 3h: cubic weights (−1, 9, 9, −1) / 16, or the
 /// mean of the inner two where an outer one is missing. @return false: an inner one is missing
-static bool add_axis(const alpi_lattice *l, uint32_t t, int dx, int dy, float share,
+static bool add_axis(const alpi_lattice *l, const centre *t, int dx, int dy, float share,
                      alpi_stencil *s)
 {
     const uint32_t a = neighbour(l, t, -dx, -dy), b = neighbour(l, t, dx, dy);
@@ -189,7 +208,7 @@ static bool add_axis(const alpi_lattice *l, uint32_t t, int dx, int dy, float sh
         add_to_stencil(s, d, share * -0.0625f);
         bend = 0.0625f * fabsf(l->values[a] + l->values[b] - l->values[c] - l->values[d]);
     }
-    s->bend = fmaxf(s->bend, bend);
+    s->bend = bend > s->bend ? bend : s->bend;
     return true;
 }
 
@@ -199,8 +218,9 @@ static float find_spread(const alpi_lattice *l, const alpi_stencil *s)
     float low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < s->count; i++) {
         if (s->weights[i] > 0.0f) {
-            low = fminf(low, l->values[s->texels[i]]);
-            high = fmaxf(high, l->values[s->texels[i]]);
+            const float value = l->values[s->texels[i]];
+            low = value < low ? value : low;
+            high = value > high ? value : high;
         }
     }
     return high - low;
@@ -214,12 +234,13 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     stencil->count = 0;
     stencil->bend = 0.0f;
     bool whole = false;
+    const centre c = find_centre(lattice, texel);
     if (pass == 1 || pass == 3) { // halfway between two
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
-        whole = add_axis(lattice, texel, across ? h : 0, across ? 0 : h, 1.0f, stencil);
+        whole = add_axis(lattice, &c, across ? h : 0, across ? 0 : h, 1.0f, stencil);
     } else if (pass != 0) { // in the middle of four
-        whole = add_axis(lattice, texel, h, 0, 0.5f, stencil) &&
-                add_axis(lattice, texel, 0, h, 0.5f, stencil);
+        whole = add_axis(lattice, &c, h, 0, 0.5f, stencil) &&
+                add_axis(lattice, &c, 0, h, 0.5f, stencil);
     }
     stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
     return whole;
@@ -238,10 +259,11 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
                                     uint32_t around[ALPI_NEIGHBOUR_LIMIT])
 {
     uint32_t count = 0;
+    const centre c = find_centre(lattice, texel);
     for (int dy = -1; dy <= 1; dy++) {
         for (int dx = -1; dx <= 1; dx++) {
             const uint32_t n =
-                dx == 0 && dy == 0 ? ALPI_NONE : find_turned(lattice, texel, dx, dy, ALIKE_COSINE);
+                dx == 0 && dy == 0 ? ALPI_NONE : find_turned(lattice, &c, dx, dy, ALIKE_COSINE);
             if (n != ALPI_NONE && lattice->states[n] == ALPI_TEXEL_TRACED) {
                 around[count++] = n;
             }
@@ -253,12 +275,13 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
 float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
 {
     static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const centre c = find_centre(lattice, texel);
     const float value = lattice->values[texel];
     float step = 0.0f, sum = 0.0f;
     uint32_t count = 0;
     bool traced = false;
     for (int i = 0; i < 4; i++) {
-        const uint32_t n = neighbour(lattice, texel, around[i][0], around[i][1]);
+        const uint32_t n = neighbour(lattice, &c, around[i][0], around[i][1]);
         if (n == ALPI_NONE) {
             continue;
         }
@@ -266,7 +289,8 @@ float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
         sum += lattice->values[n];
         if (lattice->states[n] == ALPI_TEXEL_TRACED) {
             traced = true;
-            step = fmaxf(step, fabsf(lattice->values[n] - value));
+            const float to = fabsf(lattice->values[n] - value);
+            step = to > step ? to : step;
         }
     }
     if (!traced) {

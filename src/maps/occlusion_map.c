@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/bent.h"
+#include "maps/chart_deal.h"
 #include "maps/stated_error.h"
 #include "maps/validity.h"
 
@@ -39,15 +40,16 @@ typedef struct map_job {
     alpi_probes probes;
     float *errors;
     alpi_occlusion_map_report *report;
-    uint8_t *wanted;   // [texels] to be traced next
-    uint32_t *list;    // [order_count]
-    uint32_t samples;  // of this round
-    uint32_t before;   // of the round before, 0 in the first
-    double started;    // alpi_seconds()
-    alp_progress told; // last
-    double asked;      // alpi_seconds() when the user was
-    bool refused;      // by the user
-    float noise;       // standard deviation of a traced texel by its spread, root mean square
+    uint8_t *wanted;      // [texels] to be traced next
+    uint32_t *list;       // [order_count]
+    alpi_chart_deal deal; // of the lists
+    uint32_t samples;     // of this round
+    uint32_t before;      // of the round before, 0 in the first
+    double started;       // alpi_seconds()
+    alp_progress told;    // last
+    double asked;         // alpi_seconds() when the user was
+    bool refused;         // by the user
+    float noise;          // standard deviation of a traced texel by its spread, root mean square
 
     // Of the pass that runs.
     uint32_t pass;
@@ -112,15 +114,29 @@ static alp_result tick(map_job *job)
     return result;
 }
 
-/// Lists the texels that are wanted, or those that are traced already, in their order.
+/// Lists the texels that are wanted, or those that are traced already: chart by chart, in their
+/// order.
 static alp_result list_texels(map_job *job, bool traced, uint32_t *count)
 {
-    *count = 0;
+    alpi_chart_deal_clear(&job->deal);
     for (uint32_t i = 0; i < job->order_count; i++) {
         const uint32_t t = job->order[i];
-        if (traced ? job->lattice->states[t] == ALPI_TEXEL_TRACED : job->wanted[t] != 0) {
+        if (traced) {
+            job->wanted[t] = job->lattice->states[t] == ALPI_TEXEL_TRACED;
+        }
+        if (job->wanted[t] != 0) {
+            alpi_chart_deal_count(&job->deal, t);
+        }
+        if (i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
+            ALP_TRY(tick(job));
+        }
+    }
+    *count = alpi_chart_deal_start(&job->deal);
+    for (uint32_t i = 0; i<job->order_count && * count> 0; i++) {
+        const uint32_t t = job->order[i];
+        if (job->wanted[t] != 0) {
             job->wanted[t] = 0;
-            job->list[(*count)++] = t;
+            job->list[alpi_chart_deal_place(&job->deal, t)] = t;
         }
         if (i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
             ALP_TRY(tick(job));
@@ -168,11 +184,11 @@ static alp_result trace_and_take(map_job *job, uint32_t count, uint32_t before)
     return traced != ALP_OK ? traced : taken;
 }
 
-static alp_result trace_wanted(map_job *job)
+/// @param count out: how many there were
+static alp_result trace_wanted(map_job *job, uint32_t *count)
 {
-    uint32_t count = 0;
-    ALP_TRY(list_texels(job, false, &count));
-    return trace_and_take(job, count, 0);
+    ALP_TRY(list_texels(job, false, count));
+    return trace_and_take(job, *count, 0);
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -275,19 +291,22 @@ static void set_limits(map_job *job, float spacing)
 
 static alp_result run_lattice(map_job *job)
 {
+    uint32_t count = 0, flooded = 0;
     ALP_TRY(judge(job, 0, false));
-    ALP_TRY(trace_wanted(job));
+    ALP_TRY(trace_wanted(job, &count));
     ALP_TRY(measure_noise(job));
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         set_limits(job, 2.0f * (float)alpi_lattice_reach(pass));
         ALP_TRY(judge(job, pass, false));
-        ALP_TRY(trace_wanted(job));
+        ALP_TRY(trace_wanted(job, &count));
     }
-    for (int round = 0; round < FLOOD_ROUNDS; round++) {
+    count = 1;
+    for (int round = 0; round < FLOOD_ROUNDS && count > 0; round++) {
         ALP_TRY(judge(job, 0, true));
-        ALP_TRY(trace_wanted(job));
+        ALP_TRY(trace_wanted(job, &count));
+        flooded += count;
     }
-    return renew(job);
+    return flooded > 0 ? renew(job) : ALP_OK;
 }
 
 static alp_result want_all(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -344,7 +363,8 @@ static alp_result run_round(map_job *job)
     } else {
         ALP_TRY(for_texels(job, want_all));
     }
-    return adaptive ? run_lattice(job) : trace_wanted(job);
+    uint32_t count = 0;
+    return adaptive ? run_lattice(job) : trace_wanted(job, &count);
 }
 
 /// Chooses the held-out texels, more of them the more are traced.
@@ -354,8 +374,10 @@ static alp_result choose_probes(map_job *job)
     ALP_TRY(sum_texels(job, sum_noise, sums));
     uint32_t count = (uint32_t)sums[1] / TRACED_PER_PROBE;
     count = count < LEAST_PROBES ? LEAST_PROBES : count > MOST_PROBES ? MOST_PROBES : count;
-    return alpi_probes_create(job->setup, job->receivers, job->order, job->order_count, count,
-                              &job->probes);
+    ALP_TRY(alpi_probes_create(job->setup, job->receivers, job->order, job->order_count, count,
+                               &job->probes));
+    alpi_probes_deal(&job->probes, &job->deal);
+    return ALP_OK;
 }
 
 static void requarter_probes(map_job *job)
@@ -486,7 +508,10 @@ static alp_result finish(map_job *job, bool late)
 
 static alp_result run(map_job *job)
 {
-    ALPI_TRY_NEW(job->setup->context, job->list, job->order_count);
+    alp_context *context = job->setup->context;
+    ALPI_TRY_NEW(context, job->list, job->order_count);
+    ALP_TRY(alpi_chart_deal_open(context, job->lattice->texels->charts, job->order,
+                                 job->order_count, &job->deal));
     job->wanted = job->scratch->marks;
     alp_result result = run_rounds(job);
     const bool late = !job->refused && alpi_seconds() >= job->options->deadline;
@@ -522,6 +547,7 @@ alp_result alpi_occlusion_map(const alpi_occlusion_setup *setup, const alpi_rece
     alp_result result = run(&job);
     alpi_probes_destroy(&job.probes);
     alpi_scratch_destroy(&own);
+    alpi_chart_deal_close(&job.deal);
     alpi_release(setup->context, job.list);
     return result;
 }

@@ -26,11 +26,13 @@ static alp_result create(const alpi_occlusion_setup *setup, const uint32_t *orde
                          uint32_t order_count, alpi_probes *p)
 {
     ALPI_TRY_NEW(p->context, p->texels, p->count);
+    ALPI_TRY_NEW(p->context, p->list, p->count);
     const double stride = (double)order_count / p->count;
     for (uint32_t i = 0; i < p->count; i++) {
         const uint32_t key = alpi_random_key(setup->options.seed, i, STREAM_CHOICE);
         const uint32_t at = (uint32_t)(stride * ((double)i + (double)alpi_unit_float(key)));
         p->texels[i] = order[at < order_count ? at : order_count - 1];
+        p->list[i] = i;
     }
     for (int k = 0; k < 2; k++) {
         ALP_TRY(alpi_occlusion_prepare_again(setup, setup->options.seed ^ PROBE_SEEDS[k],
@@ -54,6 +56,18 @@ alp_result alpi_probes_create(const alpi_occlusion_setup *setup, const alpi_rece
     return result;
 }
 
+void alpi_probes_deal(alpi_probes *probes, alpi_chart_deal *deal)
+{
+    alpi_chart_deal_clear(deal);
+    for (uint32_t i = 0; i < probes->count; i++) {
+        alpi_chart_deal_count(deal, probes->texels[i]);
+    }
+    (void)alpi_chart_deal_start(deal);
+    for (uint32_t i = 0; i < probes->count; i++) {
+        probes->list[alpi_chart_deal_place(deal, probes->texels[i])] = i;
+    }
+}
+
 void alpi_probes_destroy(alpi_probes *probes)
 {
     for (int k = 0; k < 2 && probes->context != NULL; k++) {
@@ -64,6 +78,7 @@ void alpi_probes_destroy(alpi_probes *probes)
     }
     if (probes->context != NULL) {
         alpi_release(probes->context, probes->texels);
+        alpi_release(probes->context, probes->list);
     }
     *probes = (alpi_probes){0};
 }
@@ -76,8 +91,8 @@ alp_result alpi_probes_add(alpi_probes *probes, uint32_t first, uint32_t count, 
                                       .place = place_probe,
                                       .user = probes};
     for (int k = 0; k < 2; k++) {
-        ALP_TRY(alpi_occlusion_add(&probes->setups[k], &receivers, NULL, probes->count, first,
-                                   count, total, progress, &probes->sums[k]));
+        ALP_TRY(alpi_occlusion_add(&probes->setups[k], &receivers, probes->list, probes->count,
+                                   first, count, total, progress, &probes->sums[k]));
     }
     return ALP_OK;
 }

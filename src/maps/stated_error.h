@@ -14,6 +14,7 @@
 #ifndef ALPI_MAPS_STATED_ERROR_H
 #define ALPI_MAPS_STATED_ERROR_H
 
+#include "maps/chart_deal.h"
 #include "maps/lattice.h"
 #include "transport/occlusion.h"
 
@@ -23,6 +24,7 @@ typedef struct alpi_probes {
     const alpi_receivers *base;
     uint32_t count;
     uint32_t *texels;               // [count]
+    uint32_t *list;                 // [count] probes, in the order they are traced in
     alpi_occlusion_setup setups[2]; // the map's, with other random numbers
     alpi_occlusion_sums sums[2];
 } alpi_probes;
@@ -31,6 +33,8 @@ typedef struct alpi_probes {
 alp_result alpi_probes_create(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *order, uint32_t order_count, uint32_t count,
                               alpi_probes *probes);
+/// Has them traced chart by chart: faster, and the same.
+void alpi_probes_deal(alpi_probes *probes, alpi_chart_deal *deal);
 void alpi_probes_destroy(alpi_probes *probes);
 /// Sends samples [first, first + count) from all of them.
 alp_result alpi_probes_add(alpi_probes *probes, uint32_t first, uint32_t count, uint32_t total,

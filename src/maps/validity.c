@@ -91,7 +91,7 @@ static alp_result make_short_setup(const validity_job *job, const uint32_t *list
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
     near.bent = false;
-    near.filter = (alpi_trace_filter){0};
+    near.filter = (alpi_trace_filter){.quick = true};
     near.samples = NEAR_SAMPLES;
     return alpi_occlusion_prepare_again(&near, NEAR_SEED, setup);
 }
@@ -173,10 +173,10 @@ static vec3 lift_point(const alpi_receiver_point *p, float side)
     return vec3_mad(p->position, p->offset + 0.02f * side, p->geometric_normal);
 }
 
-/// Sends eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
+/// Eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
 /// all_tangent, 4 more tangent ones between the first.
-static void look_around(const validity_job *job, const alpi_receiver_point *p, float length,
-                        bool all_tangent, alpi_rays *rays, alpi_hits *hits)
+static void aim_around(const alpi_receiver_point *p, float length, bool all_tangent,
+                       alpi_rays *rays)
 {
     vec3 t, b, n = p->geometric_normal;
     vec3_frame(n, &t, &b);
@@ -191,7 +191,6 @@ static void look_around(const validity_job *job, const alpi_receiver_point *p, f
         alpi_rays_set(rays, i + 4, origin, vec3_normalize_or(between, n),
                       all_tangent ? length : INFINITY);
     }
-    alpi_trace_nearest(job->setup->tracer, rays, 0xffu, (alpi_trace_filter){0}, hits);
 }
 
 /// Whether a lane met the inside of a single-sided surface.
@@ -212,16 +211,22 @@ static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const a
 
 // --- texels --------------------------------------------------------------------------------------
 
-/// Points at the middles of `count` strata.
-static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
-                         uint32_t count, alpi_receiver_point *points)
+/// Middles of `count` strata.
+static void find_middles(const uint8_t *strata, uint32_t count, float (*square)[2])
 {
-    float square[STRATA][2];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t column = strata[i] % 4u, row = strata[i] / 4u;
         square[i][0] = ((float)column + 0.5f) / 4.0f;
         square[i][1] = ((float)row + 0.5f) / 4.0f;
     }
+}
+
+/// Points at the middles of `count` strata.
+static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
+                         uint32_t count, alpi_receiver_point *points)
+{
+    float square[STRATA][2];
+    find_middles(strata, count, square);
     job->receivers->place(job->receivers->user, texel, count, (const float(*)[2])square, points);
 }
 
@@ -256,20 +261,19 @@ static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKE
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
-    alpi_receiver_point lifted[ALPI_PACKET], lying[ALPI_PACKET];
-    vec3 from[ALPI_PACKET], to[ALPI_PACKET];
-    float least[ALPI_PACKET];
-    place_strata(job, texel, chosen, ALPI_PACKET, lifted);
-    job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
-    place_strata(job, texel, chosen, ALPI_PACKET, lying);
+    alpi_receiver_point lifted[ALPI_PACKET];
+    vec3 low[ALPI_PACKET], from[ALPI_PACKET], to[ALPI_PACKET];
+    float square[ALPI_PACKET][2], least[ALPI_PACKET];
+    find_middles(chosen, ALPI_PACKET, square);
+    alpi_texels_lifts(job->texels, texel, ALPI_PACKET, (const float(*)[2])square, lifted, low);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const alpi_receiver_point *low = &lying[i];
-        from[i] = vec3_mad(low->position, low->offset, low->geometric_normal);
-        to[i] = vec3_add(from[i], vec3_sub(lifted[i].position, low->position));
-        least[i] = low->offset;
+        const alpi_receiver_point *point = &lifted[i];
+        from[i] = vec3_mad(low[i], point->offset, point->geometric_normal);
+        to[i] = vec3_add(from[i], vec3_sub(point->position, low[i]));
+        least[i] = point->offset;
     }
-    if (find_blocked(job, from, to, least) == 0) {
-        job->texels->flags[texel] &= (uint8_t)~ALPI_TEXEL_NO_LIFT;
+    if (find_blocked(job, from, to, least) != 0) {
+        job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     }
 }
 
@@ -280,7 +284,8 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
-    look_around(job, point, side, false, &rays, &hits);
+    aim_around(point, side, false, &rays);
+    alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
     int tangent = 0, upward = 0;
     for (int k = 0; k < 4; k++) {
         tangent += met_back_face(scene, &rays, &hits, k);
@@ -325,12 +330,13 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
 {
     alpi_receiver_point point;
     alpi_rays rays;
-    alpi_hits hits;
     alpi_texels_point(job->texels, texel, &point);
-    look_around(job, &point, 1.6f * texel_side(job->texels, texel), true, &rays, &hits);
+    aim_around(&point, 1.6f * texel_side(job->texels, texel), true, &rays);
+    alpi_trace_occluded(job->setup->tracer, &rays, 1, 0xffu, (alpi_trace_filter){0},
+                        ALPI_RAYS_NEAR);
     bool suspicious = false;
     for (int k = 0; k < ALPI_PACKET; k++) {
-        suspicious = suspicious || hits.triangle[k] != ALPI_NONE;
+        suspicious = suspicious || rays.maximum[k] < 0.0f;
     }
     return suspicious;
 }

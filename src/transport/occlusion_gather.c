@@ -18,9 +18,10 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    POINTS_PER_CHUNK = 33, // a quarter of 1024 samples, and one that is in use already
-    // Work is cut so that one range takes a few milliseconds and cancelling stays prompt.
-    RAYS_PER_RANGE = 1 << 15,
+    POINTS_PER_CHUNK = 33, // of 256 samples, and one that is in use already
+    // Work is cut so that one range takes less than a millisecond: cancelling stays prompt, and
+    // workers end together also where a list is short.
+    RAYS_PER_RANGE = 1 << 13,
     SAMPLES_PER_ROUND = 1 << 14
 };
 
@@ -96,27 +97,41 @@ static uint32_t find_quarter(const gather_job *job, uint32_t sample, uint32_t *e
     return quarter;
 }
 
-/// Samples [first, end): as many points of each lane as they take, and from each its block of them.
-static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t first,
-                      uint32_t end, alpi_occlusion_lanes *lanes, alpi_occlusion_tally *tally)
-{
+/// The lanes' points for some samples, of more than one quarter: what a receiver's points share is
+/// looked up once for them.
+typedef struct placed_points {
+    uint32_t block; // samples that leave from one point
+    uint32_t first; // point
     alpi_receiver_point points[ALPI_PACKET][POINTS_PER_CHUNK];
-    const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
-    const uint32_t block = job->receivers->extended ? ALPI_SAMPLES_PER_POINT : UINT32_MAX;
-    const uint32_t first_point = first / block, point_count = (end - 1) / block - first_point + 1;
+} placed_points;
+
+static void place_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t first,
+                        uint32_t end, placed_points *placed)
+{
+    placed->block = job->receivers->extended ? ALPI_SAMPLES_PER_POINT : UINT32_MAX;
+    placed->first = first / placed->block;
+    const uint32_t count = (end - 1) / placed->block - placed->first + 1;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        place_points(job, ids[i], first_point, point_count, points[i]);
+        place_points(job, ids[i], placed->first, count, placed->points[i]);
     }
-    uint32_t at = first;
-    for (uint32_t p = 0; p < point_count; p++) {
+}
+
+/// Samples [first, end) from the points that were placed for them, from each its block of them.
+static void run_samples(const gather_job *job, const placed_points *placed, uint32_t first,
+                        uint32_t end, alpi_occlusion_lanes *lanes, alpi_occlusion_tally *tally)
+{
+    const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
+    for (uint32_t at = first; at < end;) {
+        const uint32_t point = at / placed->block - placed->first;
         for (int i = 0; i < ALPI_PACKET; i++) {
-            set_lane(lanes, i, &points[i][p]);
+            set_lane(lanes, i, &placed->points[i][point]);
         }
-        const uint32_t left = block - at % block; // of the point's samples
+        const uint32_t left = placed->block - at % placed->block; // of the point's samples
         const uint32_t count = end - at < left ? end - at : left;
         job->setup->kernel(job->setup, lanes, samples + at, count, tally);
         at += count;
     }
+    job->setup->kernel(job->setup, lanes, NULL, 0, tally);
 }
 
 /// Adds what the lanes that are in use met in samples of one quarter.
@@ -128,6 +143,23 @@ static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], ui
         for (int k = 0; k < 3 && job->sums->vectors != NULL; k++) {
             job->sums->vectors[ids[i]][k] += tally->sum[k][i];
         }
+    }
+}
+
+/// Samples [first, end) of a packet, quarter by quarter.
+static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t used,
+                      uint32_t first, uint32_t end, alpi_occlusion_lanes *lanes)
+{
+    placed_points placed;
+    place_chunk(job, ids, first, end, &placed);
+    for (uint32_t at = first; at < end;) {
+        uint32_t next;
+        const uint32_t quarter = find_quarter(job, at, &next);
+        next = next < end ? next : end;
+        alpi_occlusion_tally tally = {{0}, {{0}}};
+        run_samples(job, &placed, at, next, lanes, &tally);
+        add_tally(job, ids, used, quarter, &tally);
+        at = next;
     }
 }
 
@@ -144,14 +176,9 @@ static void run_packet(const gather_job *job, uint32_t first_item, alpi_occlusio
         set_shifts(job->setup, lanes, (int)i, ids[i]);
     }
     for (uint32_t at = job->first; at < job->end;) {
-        uint32_t end;
-        const uint32_t quarter = find_quarter(job, at, &end);
-        end = end < job->end ? end : job->end;
-        end = job->receivers->extended && end - at > chunk ? at + chunk : end;
-        alpi_occlusion_tally tally = {{0}, {{0}}};
-        run_chunk(job, ids, at, end, lanes, &tally);
-        job->setup->kernel(job->setup, lanes, NULL, 0, &tally);
-        add_tally(job, ids, used, quarter, &tally);
+        const bool whole = !job->receivers->extended || job->end - at <= chunk;
+        const uint32_t end = whole ? job->end : at + chunk;
+        run_chunk(job, ids, used, at, end, lanes);
         at = end;
     }
     for (uint32_t i = 0; i < used; i++) {

@@ -16,22 +16,21 @@ typedef struct lattice_setup {
 } lattice_setup;
 
 /// A square that fills a page of SIZE² and one beside it that does not touch it.
-static lattice_setup set_up(void)
+static void set_up(lattice_setup *s)
 {
-    lattice_setup s = {.context = test_context(2)};
+    *s = (lattice_setup){.context = test_context(2)};
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
     test_mesh_quad(mesh, (double[]){3, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
-    s.scene = test_mesh_scene(s.context, mesh, 1);
+    s->scene = test_mesh_scene(s->context, mesh, 1);
     alp_atlas_options options = alp_atlas_options_default();
     options.size = SIZE;
     options.texels_per_metre = SIZE;
     options.padding = 0;
-    ASSERT_OK(s.context, alp_atlas_create(s.scene, &options, &s.atlas));
-    ASSERT_OK(s.context, alpi_texels_create(s.atlas, &s.texels));
-    ASSERT_OK(s.context, alpi_lattice_create(s.atlas, &s.texels, &s.lattice));
-    assert_int_equal(s.texels.count, 2 * SIZE * SIZE);
-    return s;
+    ASSERT_OK(s->context, alp_atlas_create(s->scene, &options, &s->atlas));
+    ASSERT_OK(s->context, alpi_texels_create(s->atlas, &s->texels));
+    ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, &s->lattice));
+    assert_int_equal(s->texels.count, 2 * SIZE * SIZE);
 }
 
 static void tear_down(lattice_setup *s)
@@ -60,7 +59,8 @@ static void every_texel_has_its_pass_and_its_turn(void **state)
     assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 10}), 3);
     assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 9}), 4);
 
-    lattice_setup s = set_up();
+    lattice_setup s;
+    set_up(&s);
     static uint8_t seen[2 * SIZE * SIZE];
     memset(seen, 0, sizeof seen);
     for (uint32_t i = 0; i < s.texels.count; i++) {
@@ -86,7 +86,8 @@ static float cubic(const uint16_t *p)
 static void cubics_are_interpolated_exactly(void **state)
 {
     (void)state;
-    lattice_setup s = set_up();
+    lattice_setup s;
+    set_up(&s);
     alpi_lattice *l = &s.lattice;
     uint32_t cubic_count = 0;
     for (uint32_t i = 0; i < s.texels.count; i++) {
@@ -117,7 +118,8 @@ static void cubics_are_interpolated_exactly(void **state)
 static void no_stencil_crosses_a_chart_or_takes_the_unknown(void **state)
 {
     (void)state;
-    lattice_setup s = set_up();
+    lattice_setup s;
+    set_up(&s);
     alpi_lattice *l = &s.lattice;
     for (uint32_t i = 0; i < s.texels.count; i++) {
         l->states[i] = ALPI_TEXEL_TRACED;
@@ -149,7 +151,8 @@ static void no_stencil_crosses_a_chart_or_takes_the_unknown(void **state)
 static void kinks_are_found_beside_traced_texels_only(void **state)
 {
     (void)state;
-    lattice_setup s = set_up();
+    lattice_setup s;
+    set_up(&s);
     alpi_lattice *l = &s.lattice;
     for (uint32_t i = 0; i < s.texels.count; i++) {
         l->states[i] = ALPI_TEXEL_INTERPOLATED;

@@ -92,6 +92,73 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
     }
 }
 
+/// Turns the rays of a packet towards points of the edges of a scene.
+static void aim_at_edges(const alp_scene *scene, uint32_t packet, alpi_rays *rays)
+{
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t key = 17 * (ALPI_PACKET * packet + i);
+        const uint32_t *corners = scene->triangles[alpi_hash32(key) % scene->triangle_count];
+        const vec3 a = vec3_load(scene->positions[corners[0]]);
+        const vec3 b = vec3_load(scene->positions[corners[1]]);
+        const vec3 at = vec3_mad(a, alpi_unit_float(alpi_hash32(key + 1)), vec3_sub(b, a));
+        const vec3 from = {rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]};
+        const vec3 d = vec3_normalize_or(vec3_sub(at, from), (vec3){0, 0, 1});
+        rays->direction_x[i] = d.x;
+        rays->direction_y[i] = d.y;
+        rays->direction_z[i] = d.z;
+    }
+}
+
+/// Rays out of a closed sphere that meet nothing.
+static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
+                            alpi_trace_filter filter, uint32_t packets, bool edges)
+{
+    uint32_t slips = 0;
+    for (uint32_t packet = 0; packet < packets; packet++) {
+        alpi_rays rays;
+        fill_rays(&rays, packet);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            rays.origin_x[i] *= 0.5f; // inside: √3 / 2 away at most
+            rays.origin_y[i] *= 0.5f;
+            rays.origin_z[i] *= 0.5f;
+            rays.maximum[i] = INFINITY;
+        }
+        if (edges) {
+            aim_at_edges(scene, packet, &rays);
+        }
+        alpi_trace_occluded(tracer, &rays, 1, 0xffu, filter, ALPI_RAYS_NEAR);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            slips += rays.maximum[i] >= 0.0f;
+        }
+    }
+    return slips;
+}
+
+static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
+{
+    (void)state;
+    const uint32_t few = 1u << 12, many = 1u << 18;
+    const alpi_trace_filter quick = {.quick = true}, careful = {0};
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 200, 100, 1.0, 1); // 40,000 triangles
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL)); // too few to be worth it
+    assert_int_equal(count_slips(scene, tracer, quick, few, true), 0);
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e9, NULL, NULL));
+    assert_int_equal(count_slips(scene, tracer, careful, few, true), 0);
+    const uint32_t aimed = count_slips(scene, tracer, quick, few, true);
+    const uint32_t slips = count_slips(scene, tracer, quick, many, false);
+    print_message("quick rays that slip: %u of %u at edges, %u of %u random ones\n", aimed,
+                  ALPI_PACKET * few, slips, ALPI_PACKET * many);
+    assert_true(aimed > 0);  // they are quick
+    assert_true(slips <= 8); // one in a million, and four standard errors
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void random_rays_hit_what_brute_force_hits(void **state)
 {
     (void)state;
@@ -257,6 +324,7 @@ static void building_can_be_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quick_rays_slip_through_edges_as_rarely_as_is_told),
         cmocka_unit_test(random_rays_hit_what_brute_force_hits),
         cmocka_unit_test(alpha_cuts_let_rays_through),
         cmocka_unit_test(chosen_surfaces_alone_are_hit),
