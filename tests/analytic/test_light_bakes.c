@@ -293,8 +293,9 @@ static void the_mean_over_a_closed_room(void **state)
     alp_scene_destroy(scene);
 }
 
-/// A block on a wide slab under an even sky. Its lower side is black to the last bit; round it the
-/// slab's texels are half hidden, and what they show is none of the block's business.
+/// A block on a slab under an even sky, and a bar through the slab that looks out on both sides. The
+/// block's lower side is black to the last bit, although rays from it meet the bar in texels that
+/// are half out of the slab.
 static void nothing_below_a_block_is_lit(void **state)
 {
     (void)state;
@@ -306,7 +307,9 @@ static void nothing_below_a_block_is_lit(void **state)
     alpi_builder_surface(&b, "block", grey);
     alpi_builder_box(&b, (vec3){0.37f, 0, 0.37f}, (vec3){0.64f, 0.3f, 0.64f}, ALPI_FACE_ALL);
     alpi_builder_surface(&b, "slab", grey);
-    alpi_builder_box(&b, (vec3){0, -0.2f, 0}, (vec3){1, 0, 1}, ALPI_FACE_ALL);
+    alpi_builder_box(&b, (vec3){0.33f, -0.2f, 0.1f}, (vec3){0.68f, 0, 0.9f}, ALPI_FACE_ALL);
+    alpi_builder_surface(&b, "bar", grey);
+    alpi_builder_box(&b, (vec3){0.2f, -0.1f, 0.3f}, (vec3){0.8f, -0.03f, 0.7f}, ALPI_FACE_ALL);
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
     alp_bake_options o = light_options(64);
     o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
@@ -323,7 +326,7 @@ static void nothing_below_a_block_is_lit(void **state)
         }
         lit += t.value > 0.0;
     }
-    assert_true(below >= 9 && lit > 10 * below);
+    assert_true(below >= 9 && lit > 5 * below);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
 }
