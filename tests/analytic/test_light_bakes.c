@@ -293,9 +293,9 @@ static void the_mean_over_a_closed_room(void **state)
     alp_scene_destroy(scene);
 }
 
-/// A block on a slab under an even sky, and a bar through the slab that looks out on both sides. The
-/// block's lower side is black to the last bit, although rays from it meet the bar in texels that
-/// are half out of the slab.
+/// A block on a slab under an even sky, and a bar through the slab that looks out on both sides.
+/// The block's lower side is black to the last bit, although rays from it meet the bar in texels
+/// that are half out of the slab.
 static void nothing_below_a_block_is_lit(void **state)
 {
     (void)state;
