@@ -102,6 +102,7 @@ static alp_result grow_cluster(grower *g, uint32_t seed_triangle)
 static alp_result grow_all(grower *g, float max_angle, alpi_atlas_clock *clock)
 {
     ALP_TRY(alpi_regions_create(g->growth.scene, g->growth.neighbours, max_angle, &g->regions));
+    ALP_TRY(alpi_regions_straighten(g->growth.scene, g->growth.neighbours, max_angle, &g->regions));
     ALP_TRY(grower_create(g));
     uint32_t usable = g->growth.scene->usable_count;
     for (uint32_t i = 0; i < usable; i++) {

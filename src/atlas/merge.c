@@ -18,7 +18,7 @@ static const double TINY_TEXELS = 4.0;
 // The box of a pair, with its padding, may be this much larger than both before: what is concave
 // leaves room that others cannot use. And a chart of more than LARGE of the scene fills at least
 // LARGE_FILL of its box: few large discs fill a page badly.
-static const double BOX_GROWTH = 1.2, LARGE = 0.125, LARGE_FILL = 0.8;
+static const double BOX_GROWTH = 1.08, LARGE = 0.125, LARGE_FILL = 0.8;
 // Who wants charts to be flatter than this gets them as they are projected.
 static const float LEAST_ANGLE = 0.35f; // radians
 // Share of a page that charts fill, about: to know how many texels a metre there will be.

@@ -17,8 +17,6 @@
 static const double SHAPE_COST = 0.35, CREASE_COST = 1.2;
 // A pair that others of its round have made dearer by this much waits for the next.
 static const double COST_SLACK = 0.04;
-// No region crosses what is sharper: it would be seen in a texel that holds both sides.
-static const float SHARPEST_CREASE = 0.79f; // radians: 45°
 // Rounds grow regions fourfold: 4^24 triangles are more than there can be.
 enum { ROUND_LIMIT = 40, GROWTH = 4 };
 
@@ -101,7 +99,7 @@ static alp_result begin(gatherer *g)
                 continue;
             }
             const float crease = alpi_crease(scene, g->neighbours, t, k);
-            if (crease <= SHARPEST_CREASE) {
+            if (crease <= ALPI_SHARPEST_CREASE) {
                 const float length = edge_length(scene, t, k);
                 g->meetings[g->count++] = (meeting){t, across, length, length * crease, 0.0};
             }

@@ -5,6 +5,10 @@
 
 #include "scene/scene.h"
 
+/// No region crosses what is sharper, in radians (45°): it would be seen in a texel that holds both
+/// sides.
+#define ALPI_SHARPEST_CREASE 0.79f
+
 /// Connected triangles of one node whose normals lie in a cone. They may fold over themselves.
 typedef struct alpi_regions {
     uint32_t *of_triangle; // [triangle_count] a triangle of the region, the same for all of it
@@ -17,6 +21,11 @@ typedef struct alpi_regions {
 /// that the region is projected on. O(n log n).
 alp_result alpi_regions_create(const alp_scene *scene, const uint32_t (*neighbours)[3],
                                float max_angle, alpi_regions *regions);
+/// Makes the borders of regions shorter: triangles that jut out go over to the region beside them.
+/// No region falls apart, and no triangle leans more than max_angle from its region's plane. Where
+/// light steps, a border counts less. Linear in triangles.
+alp_result alpi_regions_straighten(const alp_scene *scene, const uint32_t (*neighbours)[3],
+                                   float max_angle, alpi_regions *regions);
 void alpi_regions_destroy(alp_context *context, alpi_regions *regions);
 
 /// Whether one node shows both triangles, in one instance of its mesh.
