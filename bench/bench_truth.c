@@ -291,8 +291,10 @@ static void print_scenes(const truth_summary *told, int count, const bench_optio
         "Irradiance of texels chosen at random on all surfaces, the outsides of rooms too, by the "
         "reference: all bounces, as many paths as bring its own error to 1 % of the mean, 16,384 "
         "at most. Own error: root mean square of the texels' standard errors over the mean of E; "
-        "of the mean: that of the mean of E. The clear sky is that of a sun at azimuth 150°, 40° "
-        "high, without the sun.",
+        "of the mean: that of the mean of E. A texel partly inside other geometry is its part "
+        "outside, for the truth as for all others; one wholly inside, at the rim of what is seen, "
+        "is filled from beside and not asked, others there are and have no light. The clear sky "
+        "is that of a sun at azimuth 150°, 40° high, without the sun.",
         "scene|light|map|asked|mean of E|paths|own error|of the mean");
     for (const truth_summary *t = told; t < told + count; t++) {
         if (t->known) {
@@ -373,7 +375,9 @@ static void print_all(const truth_summary *told, int count, const bench_options 
     print_matrix(told, count, MATRIX_STATED, "Stated error over the true one",
                  "Of techniques that state one: √ mean variance of the texels asked, over the error "
                  "above. 1 is the truth; where an error is below the truth's own, the latter's "
-                 "chance is in it.",
+                 "chance is in it. Radiosity states the noise of its rays and what interpolation "
+                 "misses. It does not state that a texel's light is taken for even where a ray "
+                 "meets it: beside edges and contacts, the more the coarser the texels.",
                  options);
 }
 

@@ -65,8 +65,9 @@ static inline const float *alpi_atlas_set_uv(const alp_atlas *atlas, uint32_t tr
 
 /// What is special about a texel.
 enum {
-    ALPI_TEXEL_NO_LIFT = 1 // its points stay on their triangles: the lift to the smooth surface
-                           // would pass through something
+    ALPI_TEXEL_NO_LIFT = 1, // its points stay on their triangles: the lift to the smooth surface
+                            // would pass through something
+    ALPI_TEXEL_HIDDEN = 2   // it lies wholly inside other geometry: no light reaches it
 };
 
 /// The covered texels of an atlas, page by page, row by row: index i is receiver i. About 50 bytes

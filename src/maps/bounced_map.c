@@ -135,7 +135,9 @@ static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t 
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->options->order[i];
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
-        job->wanted[t] = !job->options->adaptive || alpi_lattice_needs_rays(&job->lattice, t, near);
+        job->wanted[t] =
+            job->lattice.states[t] == ALPI_TEXEL_OPEN &&
+            (!job->options->adaptive || alpi_lattice_needs_rays(&job->lattice, t, near));
     }
     return ALP_OK;
 }
@@ -358,6 +360,18 @@ static alp_result state_errors(bounced_job *job)
 
 // --- the map -------------------------------------------------------------------------------------
 
+/// What is hidden is known. Rays from within a solid would meet places that are hidden themselves,
+/// but in texels that show what light falls on the rest of them.
+static void start_texel(bounced_job *job, uint32_t texel)
+{
+    const bool hidden = (job->lattice.texels->flags[texel] & ALPI_TEXEL_HIDDEN) != 0;
+    job->lattice.states[texel] = hidden ? ALPI_TEXEL_TRACED : ALPI_TEXEL_OPEN;
+    if (hidden) {
+        job->options->gather->values[texel] = (alpi_reference_value){0};
+        job->lattice.values[texel] = 0.0f;
+    }
+}
+
 static alp_result run(bounced_job *job)
 {
     alp_context *context = job->lattice.context;
@@ -369,7 +383,7 @@ static alp_result run(bounced_job *job)
         ALPI_TRY_NEW(context, job->lattice.values, texels);
     }
     for (uint32_t i = 0; i < job->options->count; i++) {
-        job->lattice.states[job->options->order[i]] = ALPI_TEXEL_OPEN;
+        start_texel(job, job->options->order[i]);
     }
     ALP_TRY(run_lattice(job));
     return state_errors(job);

@@ -277,21 +277,76 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
     }
 }
 
+/// Sends lanes 4 to 7 of a look around on to the end of the scene, and as many rays back along
+/// them, and counts the fronts that each meets: those on the way back are the backs on the way out,
+/// which are told apart so even where two surfaces lie in one place. @return false: too many to
+/// tell
+static bool count_crossings(const validity_job *job, const alpi_rays *look, int fronts[ALPI_PACKET])
+{
+    enum { CROSSINGS = 32 };
+    const alp_scene *scene = job->texels->atlas->scene;
+    const float length = 2.0f * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
+    const float step = 0.5e-5f * length; // past what was met, by more than rounding
+    alpi_rays rays;
+    alpi_hits hits;
+    alpi_rays_clear(&rays);
+    for (int i = 0; i < 4; i++) {
+        const vec3 from = {look->origin_x[i + 4], look->origin_y[i + 4], look->origin_z[i + 4]};
+        const vec3 way = {look->direction_x[i + 4], look->direction_y[i + 4],
+                          look->direction_z[i + 4]};
+        alpi_rays_set(&rays, i, from, way, length);
+        alpi_rays_set(&rays, i + 4, vec3_mad(from, length, way), vec3_scale(way, -1.0f), length);
+    }
+    uint32_t active = 0xffu;
+    for (int crossing = 0; active != 0 && crossing < CROSSINGS; crossing++) {
+        alpi_trace_nearest(job->setup->tracer, &rays, active,
+                           (alpi_trace_filter){.one_sided = true}, &hits);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            const bool met = (active >> i & 1u) != 0 && hits.triangle[i] != ALPI_NONE;
+            fronts[i] += met;
+            rays.minimum[i] = met ? hits.distance[i] + step : length;
+            active &= met && rays.minimum[i] < length ? UINT32_MAX : ~(1u << i);
+        }
+    }
+    return active == 0;
+}
+
+/// Whether in three of four directions a look around leaves more solids than it enters: it began
+/// inside. Where solids reach into each other, what it meets first may be the front of the next;
+/// where three surfaces lie in one place, one is not counted.
+static bool is_enclosed(const validity_job *job, const alpi_rays *look)
+{
+    int fronts[ALPI_PACKET] = {0}, out = 0;
+    const bool counted = count_crossings(job, look, fronts);
+    for (int i = 0; i < 4; i++) {
+        out += fronts[i + 4] > fronts[i];
+    }
+    return counted && out >= 3;
+}
+
 /// Whether a point lies inside other geometry: a back face is the first thing beside it within a
-/// texel, or above it in three of four directions.
+/// texel, or above it in three of four directions. Where one is in any, or something in all and
+/// near, surfaces are counted.
 static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
 {
+    enum { CAVE = 4 }; // texels
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
+<<<<<<< HEAD
     aim_around(point, side, false, &rays);
     alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
     int tangent = 0, upward = 0;
+=======
+    look_around(job, point, side, false, &rays, &hits);
+    int tangent = 0, upward = 0, closed = 0;
+>>>>>>> c8a44d85a487e233d27ec3c5a3d8f16726de291a
     for (int k = 0; k < 4; k++) {
         tangent += met_back_face(scene, &rays, &hits, k);
         upward += met_back_face(scene, &rays, &hits, k + 4);
+        closed += hits.triangle[k + 4] != ALPI_NONE && hits.distance[k + 4] < CAVE * side;
     }
-    return tangent > 0 || upward >= 3;
+    return tangent > 0 || upward >= 3 || ((upward > 0 || closed == 4) && is_enclosed(job, &rays));
 }
 
 /// Which strata of a texel lie inside other geometry: those that are seen from its middle, where
@@ -341,6 +396,14 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
     return suspicious;
 }
 
+/// Whether a texel with nothing beside it is far inside: what it touches is the solid around it.
+static bool is_covered(const validity_job *job, uint32_t texel)
+{
+    alpi_receiver_point point;
+    alpi_texels_point(job->texels, texel, &point);
+    return is_inside(job, &point, texel_side(job->texels, texel));
+}
+
 static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -372,8 +435,13 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     const validity_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
-        if (job->out->near[t] && is_suspicious(job, t)) {
+        if (job->out->near[t] == ALPI_FAR) {
+            continue;
+        }
+        if (is_suspicious(job, t)) {
             job->inside[t] = find_inside(job, t);
+        } else if (job->out->near[t] == ALPI_TOUCHING && is_covered(job, t)) {
+            job->texels->flags[t] |= ALPI_TEXEL_HIDDEN;
         }
     }
     return ALP_OK;
@@ -395,7 +463,7 @@ static bool is_beside_seen(const validity_job *job, uint32_t texel)
 }
 
 /// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those
-/// farther in, which nobody sees, stay what they are.
+/// farther in, which nobody sees, are called hidden.
 static alp_result settle(validity_job *job)
 {
     alpi_texels *texels = job->texels;
@@ -406,6 +474,7 @@ static alp_result settle(validity_job *job)
         if (job->inside[t] == UINT16_MAX) {
             job->out->dropped[t] = is_beside_seen(job, t);
             job->out->dropped_count += job->out->dropped[t];
+            texels->flags[t] |= job->out->dropped[t] ? 0 : ALPI_TEXEL_HIDDEN;
         } else if (job->inside[t] != 0) {
             if (texels->valid == NULL) {
                 ALPI_TRY_NEW(job->setup->context, texels->valid, texels->count);

@@ -66,6 +66,14 @@ static bool ask(const alpi_reference *r, const alpi_path_wave *w, uint32_t i, al
                : alpi_lighting_sample_by_area(r->lighting, origin, normal, w->pick[i], u, s);
 }
 
+/// Whether a direction goes into the surface that a path has met: the hemisphere of a smooth normal
+/// reaches below its facet. That facet is what is met there, and a plane that glows does not light
+/// itself. Where a path begins, its point may lie above the facet.
+static bool goes_inside(const alpi_path_wave *w, uint32_t i, vec3 direction)
+{
+    return w->depth[i] > 0 && vec3_dot(direction, at(&w->side, i)) <= 0.0f;
+}
+
 /// What a light sample brings through a path if nothing is in between.
 static bool weigh_sample(const alpi_path_wave *w, uint32_t i, const alpi_light_sample *s,
                          vec3 *given)
@@ -77,7 +85,7 @@ static bool weigh_sample(const alpi_path_wave *w, uint32_t i, const alpi_light_s
     *given =
         (vec3){w->throughput.x[i] * s->light.x * factor, w->throughput.y[i] * s->light.y * factor,
                w->throughput.z[i] * s->light.z * factor};
-    return cosine > 0.0f && isfinite(factor);
+    return cosine > 0.0f && isfinite(factor) && !goes_inside(w, i, s->direction);
 }
 
 static void bring(alpi_path_wave *w, uint32_t path, vec3 light)
@@ -160,7 +168,7 @@ static void add_next_event(const alpi_reference *r, alpi_path_wave *w)
 static void add_met(const alpi_reference *r, alpi_path_wave *w, uint32_t i, vec3 radiance,
                     uint32_t triangle, float distance)
 {
-    if (!is_lit(radiance)) {
+    if (!is_lit(radiance) || goes_inside(w, i, at(&w->direction, i))) {
         return;
     }
     float weight = (float)ALPI_PI;

@@ -293,12 +293,53 @@ static void the_mean_over_a_closed_room(void **state)
     alp_scene_destroy(scene);
 }
 
+/// A block on a slab under an even sky, and a bar through the slab that looks out on both sides.
+/// The block's lower side is black to the last bit, although rays from it meet the bar in texels
+/// that are half out of the slab.
+static void nothing_below_a_block_is_lit(void **state)
+{
+    (void)state;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alp_lightmap *lightmap = NULL;
+    alpi_builder_start(&b, context, "block");
+    const uint32_t grey = alpi_builder_material(&b, "grey", (vec3){0.8f, 0.8f, 0.8f}, (vec3){0});
+    alpi_builder_surface(&b, "block", grey);
+    alpi_builder_box(&b, (vec3){0.37f, 0, 0.37f}, (vec3){0.64f, 0.3f, 0.64f}, ALPI_FACE_ALL);
+    alpi_builder_surface(&b, "slab", grey);
+    alpi_builder_box(&b, (vec3){0.33f, -0.2f, 0.1f}, (vec3){0.68f, 0, 0.9f}, ALPI_FACE_ALL);
+    alpi_builder_surface(&b, "bar", grey);
+    alpi_builder_box(&b, (vec3){0.2f, -0.1f, 0.3f}, (vec3){0.8f, -0.03f, 0.7f}, ALPI_FACE_ALL);
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_bake_options o = light_options(64);
+    o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    o.light.lighting.sky.up[0] = o.light.lighting.sky.down[0] = 1.0f;
+    o.stitch = false;
+    ASSERT_OK(context, alp_bake(scene, &o, &lightmap, NULL));
+    uint32_t below = 0, lit = 0;
+    for (uint32_t i = 0; i < lightmap->texels.count; i++) {
+        const texel t = texel_of(lightmap, i, 0);
+        const uint32_t surface = scene->triangle_surface[lightmap->texels.triangles[i]];
+        if (surface == 0 && t.normal.y < -0.5f) {
+            assert_true(t.value == 0.0);
+            below++;
+        }
+        lit += t.value > 0.0;
+    }
+    assert_true(below >= 9 && lit > 5 * below);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_solid_under_a_sun),         cmocka_unit_test(a_solid_under_a_sky),
-        cmocka_unit_test(a_solid_under_a_lamp),        cmocka_unit_test(every_texel_of_the_furnace),
+        cmocka_unit_test(a_solid_under_a_sun),
+        cmocka_unit_test(a_solid_under_a_sky),
+        cmocka_unit_test(a_solid_under_a_lamp),
+        cmocka_unit_test(every_texel_of_the_furnace),
         cmocka_unit_test(the_mean_over_a_closed_room),
+        cmocka_unit_test(nothing_below_a_block_is_lit),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -198,6 +198,33 @@ static void a_picture_that_glows(void **state)
     compare("a picture that glows", scene, NULL, EVERYWHERE, 1024);
 }
 
+/// A coarse ball of smooth normals that glows: from where its normals look below its facets, it
+/// would light itself. It is convex, so that no bounce brings anything.
+static void a_smooth_ball_does_not_light_itself(void **state)
+{
+    (void)state;
+    enum { PATHS = 1 << 14 };
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, context, "ball");
+    alpi_builder_surface(
+        &b, "ball", alpi_builder_material(&b, "glow", (vec3){0.9f, 0.9f, 0.9f}, (vec3){1, 1, 1}));
+    alpi_builder_ball(&b, &(alpi_ball){{0, 2, 0}, 1.0f, 1.0f, 8, 4, false});
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    test_lit lit = test_lit_open(scene, NULL);
+    for (int next_event = 0; next_event < 2; next_event++) {
+        alpi_reference bounced = test_lit_reference(&lit, 8, PATHS), direct = bounced;
+        bounced.next_event = direct.next_event = next_event == 1;
+        direct.bounces = 0;
+        const vec3 origin = {0, 0, 0}, up = {0, 1, 0};
+        const alpi_reference_value all = test_lit_point(&bounced, origin, up);
+        const alpi_reference_value first = test_lit_point(&direct, origin, up);
+        assert_true(first.mean[0] > 0.5f);            // π/4 for a round one
+        ASSERT_NEAR(all.mean[0], first.mean[0], 0.0); // by the same paths
+    }
+    test_lit_close(&lit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -205,6 +232,7 @@ int main(void)
         cmocka_unit_test(a_sun_and_a_sky_through_windows),
         cmocka_unit_test(a_clear_sky_over_open_country_and_a_court),
         cmocka_unit_test(a_picture_that_glows),
+        cmocka_unit_test(a_smooth_ball_does_not_light_itself),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -160,6 +160,45 @@ static void a_one_sided_wall_has_a_behind(void **state)
     end(&s);
 }
 
+static void add_box(test_mesh *mesh, const double low[3], const double high[3])
+{
+    const double x[3] = {high[0] - low[0], 0, 0}, y[3] = {0, high[1] - low[1], 0};
+    const double z[3] = {0, 0, high[2] - low[2]};
+    test_mesh_quad(mesh, low, x, z);
+    test_mesh_quad(mesh, low, z, y);
+    test_mesh_quad(mesh, low, y, x);
+    test_mesh_quad(mesh, (double[]){low[0], high[1], low[2]}, z, x);
+    test_mesh_quad(mesh, (double[]){high[0], low[1], low[2]}, y, z);
+    test_mesh_quad(mesh, (double[]){low[0], low[1], high[2]}, x, y);
+}
+
+static void what_stands_on_a_solid_is_hidden_below(void **state)
+{
+    (void)state;
+    // A block on a slab, in which a bar is hidden: whoever looks down from below the block meets
+    // the front of the bar, and then the backs of both.
+    alp_context *context = test_context(2);
+    test_mesh *mesh = test_mesh_start();
+    add_box(mesh, (double[]){0.4, 0, 0.4}, (double[]){1.6, 0.5, 1.6});
+    add_box(mesh, (double[]){0, -0.5, 0}, (double[]){2, 0, 2});
+    add_box(mesh, (double[]){0.1, -0.3, 0.1}, (double[]){1.9, -0.1, 1.9});
+    validity_setup s;
+    look(&s, test_mesh_scene(context, mesh, 0), context);
+    uint32_t hidden = 0, below = 0;
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        const bool is = (s.texels.flags[t] & ALPI_TEXEL_HIDDEN) != 0;
+        hidden += is;
+        if (s.texels.triangles[t] < 2) { // the block's lower side
+            assert_true(is);
+            below++;
+        } else if (s.texels.triangles[t] < 12) { // what else there is of it
+            assert_false(is || s.validity.dropped[t] != 0);
+        }
+    }
+    assert_true(below >= 19 * 19 && hidden > below); // 19.2 texels wide; the slab's middle, the bar
+    end(&s);
+}
+
 static void lifts_end_at_what_they_would_pass(void **state)
 {
     (void)state;
@@ -384,6 +423,7 @@ int main(void)
         cmocka_unit_test(strata_under_a_box_are_left_out),
         cmocka_unit_test(double_sided_walls_hide_no_inside),
         cmocka_unit_test(a_one_sided_wall_has_a_behind),
+        cmocka_unit_test(what_stands_on_a_solid_is_hidden_below),
         cmocka_unit_test(lifts_end_at_what_they_would_pass),
         cmocka_unit_test(lifts_through_a_floor_are_not_made),
         cmocka_unit_test(nearness_is_told_in_texels_of_each_chart),
