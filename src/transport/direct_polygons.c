@@ -427,9 +427,10 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
 }
 
 /// Enough for the mean of what is even, and, with those of the neighbours, to find penumbrae.
+/// Directions have no closed form, and may not change what is gathered: half of what is many.
 static uint32_t first_samples(uint32_t samples)
 {
-    const uint32_t few = samples / 8 / R * R;
+    const uint32_t few = samples > 64 ? samples / 2 / R * R : FEWEST;
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
