@@ -70,10 +70,20 @@ static uint32_t most_rays(const alp_light_options *o)
     return o->error > 0.0f ? MOST_SAMPLES : alpi_cosine_rays_samples(o->samples, REPLICATES);
 }
 
+/// Without rounds, as many as make direct light's error the smaller one of the two by a half:
+/// measured on the Cornell box, 64 beside 256 rays, and 128 beside 512.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job)
 {
-    enum { DIRECT_SAMPLES = 64 };
-    return alpi_light_has_rounds(&job->options) ? FIRST_DIRECT : DIRECT_SAMPLES;
+    enum { DIRECT_SAMPLES = 64, MOST_DIRECT = 512, RAYS = 128 };
+    uint32_t samples = DIRECT_SAMPLES;
+    if (alpi_light_has_rounds(&job->options)) {
+        return FIRST_DIRECT;
+    }
+    while (samples < MOST_DIRECT &&
+           pow(samples * 2.0 / DIRECT_SAMPLES, 2.0) * RAYS <= job->options.light.samples) {
+        samples *= 2;
+    }
+    return samples;
 }
 
 // --- one round -----------------------------------------------------------------------------------

@@ -153,6 +153,40 @@ static void find_places(alpi_patches *p)
     }
 }
 
+/// The pixel of a point of a triangle, which may be off the page.
+static void find_pixel(const alpi_patches *p, uint32_t triangle, float b1, float b2, int32_t at[2])
+{
+    const float(*uv)[2] = (const float(*)[2])p->atlas->corner_uvs[triangle];
+    const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
+    const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
+    at[0] = (int32_t)(u * (float)p->lattice->width);
+    at[1] = (int32_t)(v * (float)p->lattice->height);
+}
+
+/// NULL: off the page.
+static const alpi_patch_place *place_at(const alpi_patches *p, uint32_t page, const int32_t at[2])
+{
+    const alpi_lattice *l = p->lattice;
+    const bool on =
+        at[0] >= 0 && at[1] >= 0 && at[0] < (int32_t)l->width && at[1] < (int32_t)l->height;
+    return on ? &p->places[alpi_lattice_pixel(l, page, (uint32_t)at[0], (uint32_t)at[1])] : NULL;
+}
+
+static void fetch_place(const void *user, const alpi_surface_point *point)
+{
+    const alpi_patches *p = user;
+    const uint32_t page = p->atlas->triangle_pages[point->triangle];
+    int32_t at[2];
+    if (page == ALPI_NONE) {
+        return;
+    }
+    find_pixel(p, point->triangle, point->b1, point->b2, at);
+    const alpi_patch_place *place = place_at(p, page, at);
+    if (place != NULL) {
+        __builtin_prefetch(place);
+    }
+}
+
 uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2)
 {
     const alp_atlas *atlas = patches->atlas;
@@ -160,19 +194,13 @@ uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float
     if (page == ALPI_NONE || chart == ALPI_NONE) {
         return ALPI_NONE;
     }
-    const alpi_lattice *l = patches->lattice;
-    const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
-    const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
-    const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
-    const int32_t x = (int32_t)(u * (float)l->width), y = (int32_t)(v * (float)l->height);
-    if (x >= 0 && y >= 0 && x < (int32_t)l->width && y < (int32_t)l->height) {
-        const alpi_patch_place place =
-            patches->places[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
-        if (place.chart == chart) {
-            return place.texel;
-        }
+    int32_t at[2];
+    find_pixel(patches, triangle, b1, b2, at);
+    const alpi_patch_place *place = place_at(patches, page, at);
+    if (place != NULL && place->chart == chart) {
+        return place->texel;
     }
-    const uint32_t near = find_near(patches, page, x, y, chart, 1);
+    const uint32_t near = find_near(patches, page, at[0], at[1], chart, 1);
     return near != ALPI_NONE ? near : patches->chart_texels[chart];
 }
 
@@ -210,6 +238,7 @@ alpi_surface_light alpi_patches_light(const alpi_patches *patches)
     return (alpi_surface_light){.reflected = look_up,
                                 .user = patches,
                                 .cell = find_cell,
+                                .fetch = fetch_place,
                                 .cells = (const float(*)[4])patches->cells};
 }
 

@@ -5,15 +5,16 @@
 #include "transport/direct_polygon_aim.h"
 #include "transport/panes.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { STREAM_POLYGON = 13, USE_PLACE = 0, USE_POLYGON = 1 };
 enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
 enum { MISSED = 2 * R }; // rays of those that met nothing
-_Static_assert(CHUNK % R == 0 && SCOUTS % R == 0, "replicates take turns");
+_Static_assert(CHUNK % R == 0 && SCOUTS <= R, "replicates take turns");
 /// Means of form factors over a half's replicates are uneven where their range is more of their
-/// mean.
-static const double UNEVEN = 1.0 / 32.0;
+/// mean than this over the root of all samples.
+static const double UNEVEN = 0.25;
 
 /// The loops for this machine, unless the context asks for less.
 static const alpi_polygon_loops *loops_of(const alp_context *context)
@@ -245,33 +246,32 @@ static bool want(alpi_polygon_gather *g, uint32_t polygon)
     return w->any_wanted[0] || w->any_wanted[1];
 }
 
-/// Numbers as drawn for the use, from sample `first` on; of scouts from the corners of the square.
+/// Numbers as drawn for the use, from sample `first` on; of scouts from the corners of the square,
+/// which the lanes share out.
 /// @param turn of which corner the first scout is
 static void draw(alpi_polygon_gather *g, uint32_t use, uint32_t first, uint32_t turn)
 {
     alpi_polygon_wave *w = &g->wave;
     g->loops->draw(w, (const uint32_t(*)[ALPI_PACKET])g->keys, use, first);
     for (uint32_t k = 0; k < w->scouts; k++) {
-        const uint32_t corner = (k + turn * (k / 4)) % 4;
-        for (int i = 0; i < ALPI_PACKET; i++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            const uint32_t number = k + i, corner = (number + turn * (number / 4)) % 4;
             w->u[w->count - w->scouts + k][i] = (corner == 1 || corner == 2) ? 0.98f : 0.02f;
             w->v[w->count - w->scouts + k][i] = corner >= 2 ? 0.98f : 0.02f;
         }
     }
 }
 
-/// Lanes whose scouts were of different minds.
-static uint32_t mixed_scouts(const alpi_polygon_wave *w)
+/// Notes whether any scout was free, and any stopped.
+static void note_scouts(const alpi_polygon_wave *w, uint8_t scouts[2])
 {
-    uint32_t free = 0, hidden = 0;
     for (uint32_t s = w->count - w->scouts; s < w->count; s++) {
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            const uint32_t gives = w->weight[s][i] > 0.0f ? 1u << i : 0u;
-            free |= w->rays[s].maximum[i] >= 0.0f ? gives : 0u;
-            hidden |= w->rays[s].maximum[i] >= 0.0f ? 0u : gives;
+            if (w->weight[s][i] > 0.0f) {
+                scouts[w->rays[s].maximum[i] >= 0.0f ? 0 : 1] = 1;
+            }
         }
     }
-    return free & hidden;
 }
 
 static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32_t active)
@@ -296,7 +296,7 @@ static void ask(alpi_polygon_gather *g, uint32_t polygon, uint32_t first, uint32
         }
     }
     trace(g, active);
-    g->mixed[polygon] |= mixed_scouts(w);
+    note_scouts(w, g->scouts[polygon]);
     g->loops->tally(w, panes, &g->tallies[polygon]);
     if (panes) {
         tally_panes(g, polygon);
@@ -326,10 +326,18 @@ static void gather_chunk(alpi_polygon_gather *g, const uint32_t *receivers, uint
     }
 }
 
-/// Whether half of the replicates were of different minds: rays about what is hidden, or points of
-/// the receiver about how much light there is.
-static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uint32_t lane)
+/// What the first samples found of a polygon: bit i, lane i by that half of its replicates.
+typedef struct first_look {
+    uint32_t free[ALPI_POLYGON_HALVES], hidden[ALPI_POLYGON_HALVES]; // by any ray
+    uint32_t unclear[ALPI_POLYGON_HALVES]; // points of the receiver were of different minds about
+                                           // how much light there is, or no ray went there
+} first_look;
+
+static void look_at(const alpi_polygon_gather *g, uint32_t polygon, uint32_t half, uint32_t lane,
+                    first_look *look)
 {
+    const alpi_polygon_tally *t = &g->tallies[polygon];
+    const double limit = UNEVEN / sqrt((double)g->samples) / ALPI_POLYGON_HALF;
     double factor = 0.0, weight = 0.0, seen = 0.0, least = HUGE_VAL, most = 0.0;
     for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
         factor += t->factor[r][lane];
@@ -337,27 +345,47 @@ static bool is_mixed(const alpi_polygon_tally *t, bool panes, uint32_t half, uin
         most = fmax(most, t->factor[r][lane]);
         weight += t->weight[r][lane];
         for (int k = 0; k < 3; k++) {
-            seen += t->seen[panes ? k : 0][r][lane] / 3.0;
+            seen += t->seen[g->options->filter.panes ? k : 0][r][lane] / 3.0;
         }
     }
-    const bool hidden = seen < weight * (1.0 - 1e-9) || weight == 0.0;
-    const bool uneven = (most - least) * ALPI_POLYGON_HALF > UNEVEN * factor;
-    return factor > 0.0 && (uneven || (hidden && (seen > 0.0 || weight == 0.0)));
+    if (factor > 0.0) {
+        const bool uneven = most - least > limit * factor;
+        look->free[half] |= seen > 0.0 ? 1u << lane : 0u;
+        look->hidden[half] |= seen < weight * (1.0 - 1e-9) ? 1u << lane : 0u;
+        look->unclear[half] |= uneven || weight == 0.0 ? 1u << lane : 0u;
+    }
 }
 
-/// After the first samples, only receivers that found a polygon partly hidden, or uneven, go on:
-/// where their scouts did, which count in no mean, and each half of the replicates where the other
-/// did. What decides is independent of what it decides about, so nothing is biased.
+/// Lanes of a half of which something is unclear, by all rays but their own.
+static uint32_t find_unclear(const first_look *l, const uint8_t scouts[2], uint32_t half,
+                             uint32_t count)
+{
+    uint32_t found = l->unclear[1 - half];
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t own = 1u << i;
+        const uint32_t free = l->free[1 - half] | (l->free[half] & ~own);
+        const uint32_t hidden = l->hidden[1 - half] | (l->hidden[half] & ~own);
+        found |= (free != 0 || scouts[0] != 0) && (hidden != 0 || scouts[1] != 0) ? own : 0u;
+    }
+    return found;
+}
+
+/// After the first samples, only receivers go on that found a polygon uneven, or that are in its
+/// penumbra: where any of those side by side finds it free, and any hidden. Scouts tell, which
+/// count in no mean, neighbours, and each half of the replicates the other. What decides is
+/// independent of what it decides about, so nothing is biased.
 static bool choose(alpi_polygon_gather *g, uint32_t count)
 {
     bool any = false;
     for (uint32_t k = 0; k < g->polygon_count; k++) {
-        for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
-            g->wanted[k][h] = g->mixed[k] & ((1u << count) - 1u);
-            for (uint32_t i = 0; i < count; i++) {
-                const bool mixed = is_mixed(&g->tallies[k], g->options->filter.panes, 1 - h, i);
-                g->wanted[k][h] |= mixed ? 1u << i : 0u;
+        first_look look = {.free = {0}};
+        for (uint32_t i = 0; i < count; i++) {
+            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+                look_at(g, k, h, i, &look);
             }
+        }
+        for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+            g->wanted[k][h] = find_unclear(&look, g->scouts[k], h, count);
             any = any || g->wanted[k][h] != 0;
         }
     }
@@ -398,16 +426,17 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
     }
 }
 
-/// Half of them, but enough for both halves to tell.
+/// Enough for the mean of what is even, and, with those of the neighbours, to find penumbrae.
+/// Directions have no closed form, and may not change what is gathered: half of what is many.
 static uint32_t first_samples(uint32_t samples)
 {
-    const uint32_t few = samples / 2 / R * R;
+    const uint32_t few = samples > 64 ? samples / 2 / R * R : FEWEST;
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
 uint32_t alpi_polygon_rays(uint32_t samples)
 {
-    return samples + (first_samples(samples) < samples ? SCOUTS : 0);
+    return samples + (first_samples(samples) < samples ? 1 : 0);
 }
 
 /// @param scouts sent with the first of them
@@ -416,7 +445,7 @@ static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receive
 {
     alpi_polygon_wave *w = &g->wave;
     for (uint32_t first = range[0]; first < range[1]; first += w->count) {
-        const uint32_t left = range[1] - first, room = CHUNK - scouts;
+        const uint32_t left = range[1] - first, room = CHUNK - (scouts > 0 ? R : 0);
         w->scouts = scouts;
         w->count = (left < room ? left : room) + scouts;
         gather_chunk(g, receivers, count, first);
@@ -502,8 +531,9 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     }
     const uint32_t few = first_samples(g->samples);
     const uint32_t stages[3] = {0, few, g->samples};
-    memset(g->mixed, 0, sizeof g->mixed);
-    ALP_TRY(gather_samples(g, receivers, count, stages, few < g->samples ? SCOUTS : 0));
+    memset(g->scouts, 0, sizeof g->scouts);
+    const uint32_t scouts = (SCOUTS + count - 1) / count; // of each, so that all corners are seen
+    ALP_TRY(gather_samples(g, receivers, count, stages, few < g->samples ? scouts : 0));
     if (few < g->samples && choose(g, count)) {
         ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
     }

@@ -53,7 +53,7 @@ typedef struct alpi_polygon_gather {
     alpi_polygon_directional directional[ALPI_PACKET][ALPI_POLYGON_LIMIT];
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
-    uint32_t mixed[ALPI_POLYGON_LIMIT];                       // bit i: scouts of lane i disagreed
+    uint8_t scouts[ALPI_POLYGON_LIMIT][2];                    // whether any was free, any stopped
     uint32_t missed[ALPI_POLYGON_LIMIT]; // bit i: no ray of lane i went to what it sees
     uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
@@ -69,8 +69,8 @@ uint32_t alpi_polygon_rays(uint32_t samples);
 void alpi_polygons_start(const alpi_direct_options *options, const alpi_receivers *receivers,
                          uint32_t samples, alpi_polygon_gather *gather);
 
-/// Fills `sums` of up to eight receivers, best if neighbours; what one gets does not depend on the
-/// others. @return ALP_OK; CANCELLED
+/// Fills `sums` of up to eight receivers, best if neighbours: where one finds a penumbra, the
+/// others take more samples too. @return ALP_OK; CANCELLED
 alp_result alpi_polygons_gather(alpi_polygon_gather *gather, const uint32_t *receivers,
                                 uint32_t count);
 

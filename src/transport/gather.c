@@ -239,22 +239,29 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
     } else {
         alpi_trace_nearest(from->tracer, rays, packet->active, from->filter, &hits);
     }
+    uint32_t met = 0; // bit i: lane i met a surface that is not black
+    alpi_surface_point points[ALPI_PACKET];
     for (int i = 0; i < ALPI_PACKET; i++) {
-        cells[i] = ALPI_CELL_BLACK;
-        if ((packet->active >> i & 1u) == 0) {
-            continue;
-        }
         const uint32_t triangle = hits.triangle[i];
-        if (triangle == ALPI_NONE) {
-            cells[i] = ALPI_CELL_ESCAPED;
+        cells[i] = triangle == ALPI_NONE && (packet->active >> i & 1u) != 0 ? ALPI_CELL_ESCAPED
+                                                                            : ALPI_CELL_BLACK;
+        if ((packet->active >> i & 1u) == 0 || triangle == ALPI_NONE) {
             continue;
         }
         const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
         const bool behind = is_behind(from->scene, triangle, direction);
         if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
-            const alpi_surface_point point = {triangle, hits.b1[i], hits.b2[i],
-                                              vec3_scale(direction, -1.0f), behind};
-            cells[i] = from->light.cell(from->light.user, &point);
+            met |= 1u << i;
+            points[i] = (alpi_surface_point){triangle, hits.b1[i], hits.b2[i],
+                                             vec3_scale(direction, -1.0f), behind};
+            if (from->light.fetch != NULL) {
+                from->light.fetch(from->light.user, &points[i]);
+            }
+        }
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((met >> i & 1u) != 0) {
+            cells[i] = from->light.cell(from->light.user, &points[i]);
         }
     }
 }

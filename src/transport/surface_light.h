@@ -29,6 +29,9 @@ typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *point
 enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
 /// The cell that holds a point, CELL_FIRST or more, or CELL_BLACK. Asked like alpi_reflected_fn.
 typedef uint32_t alpi_light_cell_fn(const void *user, const alpi_surface_point *point);
+/// Has what tells the cell of a point brought near: asked for some points before the first cell,
+/// so that memory fetches for all of them at once.
+typedef void alpi_light_fetch_fn(const void *user, const alpi_surface_point *point);
 
 typedef struct alpi_surface_light {
     alpi_reflected_fn *reflected; // NULL: surfaces reflect nothing
@@ -36,7 +39,8 @@ typedef struct alpi_surface_light {
     // Of light that is the same all over each of some cells, or NULL: then a ray that was traced
     // once need not be again when the light changes.
     alpi_light_cell_fn *cell;
-    const float (*cells)[4]; // radiance in RGB; black in the first CELL_FIRST
+    alpi_light_fetch_fn *fetch; // NULL: nothing to fetch
+    const float (*cells)[4];    // radiance in RGB; black in the first CELL_FIRST
 } alpi_surface_light;
 
 #endif

@@ -136,9 +136,9 @@ static void counts_are_true(void **state)
     ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, &told, &output));
     assert_true(l.done == l.total && !l.backwards);
     // The lamp, the quad with its scouts, and the even sky: all points see the first two, of which
-    // none is below their horizon; who sees all of the quad asks half as often.
-    assert_int_equal(l.total, (3 * 64 + 8) * POINTS);
-    assert_in_range(output.rays - 5, (2 * 64 + 32 + 8) * POINTS, (3 * 64 + 8) * POINTS - 1);
+    // none is below their horizon; who sees all of the quad asks a quarter as often.
+    assert_int_equal(l.total, (3 * 64 + 1) * POINTS);
+    assert_in_range(output.rays - 5, (2 * 64 + 16 + 1) * POINTS, (3 * 64 + 1) * POINTS - 1);
     alpi_direct_destroy(direct);
     test_stage_close(&stage);
     alp_context_destroy(context);

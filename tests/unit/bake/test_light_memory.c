@@ -75,7 +75,7 @@ static void memory_limit_is_kept(void **state)
         alp_scene *scene = load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);
         alp_bake_options options = light_options(128);
-        options.light.samples = 32;
+        options.light.samples = 256;
         options.sampling.memory_limit = (uint64_t)(limit * 0x1p20);
         alp_bake_report report;
         alp_lightmap *lightmap = NULL;
