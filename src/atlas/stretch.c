@@ -4,11 +4,9 @@
 // SIGGRAPH 2001.
 #include "atlas/stretch.h"
 
-<<<<<<< HEAD
-#include "base/angle.h"
-=======
 #include "atlas/factors.h"
->>>>>>> 3669d62a06e5ea30d3d7d425ca8e40c3f6000ac7
+
+#include "base/angle.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -333,14 +333,9 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
-<<<<<<< HEAD
     aim_around(point, side, false, &rays);
     alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
-    int tangent = 0, upward = 0;
-=======
-    look_around(job, point, side, false, &rays, &hits);
     int tangent = 0, upward = 0, closed = 0;
->>>>>>> c8a44d85a487e233d27ec3c5a3d8f16726de291a
     for (int k = 0; k < 4; k++) {
         tangent += met_back_face(scene, &rays, &hits, k);
         upward += met_back_face(scene, &rays, &hits, k + 4);
