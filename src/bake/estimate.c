@@ -19,9 +19,9 @@ static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
-static const double BOUNCED_ERROR = 0.04;  // of 64 rays, over the mean of all light
+static const double BOUNCED_ERROR = 0.037; // of 64 rays, over the mean of all light
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
-static const double EDGE_SHARE = 1.5;      // noisy texels with those around them, over noisy ones
+static const double EDGE_SHARE = 1.0;      // noisy texels with those around them, over noisy ones
 static const double PACKET_SHARE = 0.22;   // time of a ray in a packet, over that of a path
 static const double TEXEL_SECONDS = 1e-6;  // atlas, files
 
