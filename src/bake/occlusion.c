@@ -204,10 +204,11 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alpi_tracer *tracer = NULL, *owned = NULL;
     ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
                                &tracer, &owned));
+    bool quick = false;
     if (alpi_bake_wants_occlusion(job)) {
         const double rays = (double)object->texel_count * job->options.occlusion.samples;
         const alp_result quickened =
-            alpi_tracer_quicken(tracer, rays, options->progress, options->progress_user);
+            alpi_tracer_quicken(tracer, rays, options->progress, options->progress_user, &quick);
         if (quickened != ALP_OK) {
             alpi_tracer_destroy(owned);
             return quickened;
@@ -220,6 +221,7 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
     if (result == ALP_OK) {
         setup.bent = job->bent != NULL;
+        setup.filter.quick = quick;
         if (options->error > 0.0f || options->deadline < HUGE_VAL) {
             setup.shift_mask |= UINT32_MAX >> 3; // the first round, of 64, has 8 × 8 cells
         }

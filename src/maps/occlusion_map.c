@@ -132,7 +132,8 @@ static alp_result list_texels(map_job *job, bool traced, uint32_t *count)
         }
     }
     *count = alpi_chart_deal_start(&job->deal);
-    for (uint32_t i = 0; i<job->order_count && * count> 0; i++) {
+    const uint32_t listed = *count;
+    for (uint32_t i = 0; i < job->order_count && listed > 0; i++) {
         const uint32_t t = job->order[i];
         if (job->wanted[t] != 0) {
             job->wanted[t] = 0;

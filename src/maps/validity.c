@@ -91,7 +91,7 @@ static alp_result make_short_setup(const validity_job *job, const uint32_t *list
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
     near.bent = false;
-    near.filter = (alpi_trace_filter){.quick = true};
+    near.filter = (alpi_trace_filter){.quick = job->setup->filter.quick};
     near.samples = NEAR_SAMPLES;
     return alpi_occlusion_prepare_again(&near, NEAR_SEED, setup);
 }

@@ -58,7 +58,8 @@ typedef struct alpi_trace_filter {
                 // and meet other rays whatever their alpha. Else BLEND is cut at one half and
                 // transmission opaque
     bool quick; // rays of random directions that are only asked whether they are blocked: one that
-                // meets the edge between two triangles may slip through; see alpi_tracer_quicken
+                // meets the edge between two triangles may slip through. For a job of which
+                // alpi_tracer_quicken says so, no other
 } alpi_trace_filter;
 
 /// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets
@@ -73,13 +74,14 @@ alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progre
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails); CANCELLED
 alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
                               alp_progress_fn *progress, void *progress_user, alpi_tracer **tracer);
-/// Readies a tracer for so many quick rays (alpi_trace_filter), where they are worth a second
-/// hierarchy: a tenth to a quarter less time. Of random rays less than one in a million slips
-/// through an edge (a sphere of 40,000 triangles; counted), of those aimed at edges one in 20.
-/// Without it they are traced as all are.
+/// Readies a tracer for a job of so many rays, where they are worth a second hierarchy: a tenth to
+/// a quarter less time. Of random rays less than one in a million slips through an edge (a sphere
+/// of 40,000 triangles; counted), of those aimed at edges one in 20.
+/// @param quick out: whether the job's rays may be quick (alpi_trace_filter). Depends on their
+///              number alone, not on what the tracer was readied for before
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED; CANCELLED: the tracer is what it was
 alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn *progress,
-                               void *progress_user);
+                               void *progress_user, bool *quick);
 void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
 
 /// How many triangles stop its rays.

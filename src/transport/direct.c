@@ -28,6 +28,7 @@ typedef struct direct_job {
     const alpi_direct *direct;
     const alpi_receivers *receivers;
     const uint32_t *list;
+    uint32_t count; // of the list
     alpi_direct_output *output;
     _Atomic uint64_t rays;
 } direct_job;
@@ -563,6 +564,7 @@ static void start_gather(gather *g, direct_job *job)
     g->horizon_width = job->output->directional != NULL ? alpi_horizon_width(d->samples) : 0.0;
 }
 
+/// By blocks: who is beside whom may not depend on how a host's scheduler cuts the list.
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     direct_job *job = user;
@@ -570,10 +572,10 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     (void)worker;
     start_gather(&g, job);
     alp_result result = ALP_OK;
-    for (uint32_t i = begin; i < end && result == ALP_OK; i += ALPI_PACKET) {
+    for (uint32_t b = begin; b < end && result == ALP_OK; b++) {
         uint32_t block[ALPI_PACKET], count = 0;
-        for (; count < ALPI_PACKET && i + count < end; count++) {
-            block[count] = job->list != NULL ? job->list[i + count] : i + count;
+        for (uint32_t i = b * ALPI_PACKET; count < ALPI_PACKET && i < job->count; i++) {
+            block[count++] = job->list != NULL ? job->list[i] : i;
         }
         result = gather_block(&g, block, count);
     }
@@ -586,13 +588,13 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
                                   const alpi_task_progress *progress, alpi_direct_output *output)
 {
     direct_job job = {.direct = direct, .receivers = receivers, .list = list, .output = output};
-    const uint32_t count = list != NULL ? list_count : receivers->count;
+    job.count = list != NULL ? list_count : receivers->count;
+    const uint32_t blocks = job.count / ALPI_PACKET + (job.count % ALPI_PACKET != 0);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    const double rays = fmax(alpi_direct_most_rays(direct, receivers->extended), 1.0);
-    const uint32_t blocks = rays < 1024.0 ? (uint32_t)(1024.0 / rays) : 1; // some milliseconds
-    told.units_per_item = rays;
-    const alp_result result = alpi_parallel_for(direct->options.context, count,
-                                                blocks * ALPI_PACKET, gather_range, &job, &told);
+    told.units_per_item = fmax(alpi_direct_most_rays(direct, receivers->extended, job.count), 1.0);
+    const uint32_t grain = (uint32_t)fmax(8192.0 / told.units_per_item, 1.0); // some milliseconds
+    const alp_result result =
+        alpi_parallel_for(direct->options.context, blocks, grain, gather_range, &job, &told);
     output->rays += atomic_load(&job.rays);
     return result;
 }

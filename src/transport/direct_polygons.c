@@ -434,9 +434,17 @@ static uint32_t first_samples(uint32_t samples)
     return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
 }
 
-uint32_t alpi_polygon_rays(uint32_t samples)
+/// Of each receiver of a block, so that all corners of a polygon are seen.
+static uint32_t scouts_of(uint32_t samples, uint32_t receivers)
 {
-    return samples + (first_samples(samples) < samples ? 1 : 0);
+    return first_samples(samples) < samples ? (SCOUTS + receivers - 1) / receivers : 0;
+}
+
+double alpi_polygon_rays(uint32_t samples, uint32_t receivers)
+{
+    // Only who met nothing sends those to what it missed.
+    const double each = samples > MISSED ? samples : MISSED;
+    return receivers > 0 ? receivers * (each + scouts_of(samples, receivers)) : 0.0;
 }
 
 /// @param scouts sent with the first of them
@@ -532,8 +540,7 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     const uint32_t few = first_samples(g->samples);
     const uint32_t stages[3] = {0, few, g->samples};
     memset(g->scouts, 0, sizeof g->scouts);
-    const uint32_t scouts = (SCOUTS + count - 1) / count; // of each, so that all corners are seen
-    ALP_TRY(gather_samples(g, receivers, count, stages, few < g->samples ? scouts : 0));
+    ALP_TRY(gather_samples(g, receivers, count, stages, scouts_of(g->samples, count)));
     if (few < g->samples && choose(g, count)) {
         ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
     }

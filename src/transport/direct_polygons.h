@@ -61,8 +61,8 @@ typedef struct alpi_polygon_gather {
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];
 } alpi_polygon_gather;
 
-/// The most rays that a polygon takes at a receiver.
-uint32_t alpi_polygon_rays(uint32_t samples);
+/// The most rays that a polygon takes at so many receivers, up to eight, side by side.
+double alpi_polygon_rays(uint32_t samples, uint32_t receivers);
 
 /// Readies all but the polygons and whether light is wanted by direction, which are the caller's to
 /// set. @param samples see above

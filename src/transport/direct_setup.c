@@ -186,7 +186,7 @@ void alpi_direct_destroy(alpi_direct *direct)
     alpi_release(context, direct);
 }
 
-double alpi_direct_most_rays(const alpi_direct *d, bool extended)
+double alpi_direct_most_rays(const alpi_direct *d, bool extended, uint32_t receivers)
 {
     const bool meets = d->emitters.all.count > 0 || d->sky_met;
     double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
@@ -194,8 +194,9 @@ double alpi_direct_most_rays(const alpi_direct *d, bool extended)
     of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
     const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
     const bool once = !extended && !d->lamps_drawn;
-    const double polygons = (double)d->polygon_count * alpi_polygon_rays(d->samples);
-    return polygons + of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
+    const double others = of_each_sample * d->samples + (once ? lamps : lamps * d->samples);
+    const uint32_t block = receivers < ALPI_PACKET ? receivers : ALPI_PACKET;
+    return block * others + d->polygon_count * alpi_polygon_rays(d->samples, block);
 }
 
 uint32_t alpi_direct_samples(const alpi_direct *direct)

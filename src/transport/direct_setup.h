@@ -36,8 +36,9 @@ struct alpi_direct {
     bool sky_met;   // by cosine-distributed rays too: it is not all spots
 };
 
-/// The most rays that a receiver may take. @param extended see alpi_receivers
-double alpi_direct_most_rays(const alpi_direct *direct, bool extended);
+/// The most rays that a block may take, of eight receivers or so many if they are fewer; a shorter
+/// block never takes more. @param extended see alpi_receivers
+double alpi_direct_most_rays(const alpi_direct *direct, bool extended, uint32_t receivers);
 
 /// Writes one part of a receiver to the parts and groups of an output.
 void alpi_direct_put_part(const alpi_direct_output *output, uint32_t part_count, uint32_t part,

@@ -160,7 +160,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .distance = alp_occlusion_distance(scene, options),
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),
         .cone_cos = hemisphere ? 0.0f : cosf(options->cone),
-        .filter = {.one_sided = options->one_sided, .quick = true},
+        .filter = {.one_sided = options->one_sided},
         .streams = alpi_tracer_triangle_count(tracer) >= STREAM_TRIANGLES,
         .beams = alpi_tracer_triangle_count(tracer) >= BEAM_TRIANGLES,
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,

@@ -52,7 +52,8 @@ typedef struct alpi_occlusion_setup {
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
 alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_options *options);
 
-/// `options` must have passed the check. Release the setup in the end.
+/// `options` must have passed the check. Rays are careful; the filter is the caller's to make quick
+/// (alpi_tracer_quicken). Release the setup in the end.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options,

@@ -251,12 +251,109 @@ static void the_same_bits(void **state)
     test_stage_close(&s);
 }
 
+/// A host that hands out ragged ranges, the last ones first. @param user how long they are
+static void ragged_parallel_for(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
+                                void *body_user)
+{
+    const uint32_t step = *(const uint32_t *)user;
+    (void)grain;
+    for (uint32_t end = count; end > 0;) {
+        const uint32_t begin = end > step ? end - step : 0;
+        body(body_user, begin, end, 0);
+        end = begin;
+    }
+}
+
+/// Receivers side by side share penumbrae, and who is beside whom is the list's to say, not the
+/// host's: the same bits however it cuts loops.
+static void a_host_changes_nothing(void **state)
+{
+    (void)state;
+    static test_patch points[POINTS];
+    static alpi_reference_value values[POINTS], others[POINTS];
+    static const vec3 screen[4] = {// which the first samples of few receivers find
+                                   {-0.005f, 1, -5},
+                                   {0.005f, 1, -5},
+                                   {0.005f, 1, 5},
+                                   {-0.005f, 1, 5}};
+    for (uint32_t i = 0; i < POINTS; i++) {
+        points[i] = test_point((vec3){0.006f * (float)i - 1.5f, 0, 0.1f}, UP);
+    }
+    test_stage s = open_quad(context, false, screen);
+    gather_by(64, &s, points, NULL, 0, values);
+    test_stage_close(&s);
+    for (uint32_t step = 1; step <= 16; step += 5) {
+        alp_context_options o = alp_context_options_default();
+        alp_context *host = NULL;
+        o.worker_count = 1;
+        o.parallel_for = ragged_parallel_for;
+        o.parallel_user = &step;
+        assert_int_equal(alp_context_create(&o, &host), ALP_OK);
+        s = open_quad(host, false, screen);
+        gather_by(64, &s, points, NULL, 0, others);
+        assert_memory_equal(values, others, sizeof values);
+        test_stage_close(&s);
+        alp_context_destroy(host);
+    }
+}
+
+static bool note_total(void *user, const alp_progress *progress)
+{
+    *(uint64_t *)user = progress->total;
+    return true;
+}
+
+static void check_rays(const test_stage *s, const test_patch *points, uint32_t count,
+                       uint32_t samples)
+{
+    alpi_reference_value values[16];
+    const test_patches patches = {.count = count, .patches = points, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&patches);
+    const alpi_direct_options o = test_stage_options(s, samples);
+    uint64_t told = 0;
+    const alpi_task_progress progress = {.callback = note_total, .user = &told};
+    alpi_direct *direct = NULL;
+    alpi_direct_output output = {.values = values};
+    ASSERT_OK(context, alpi_direct_create(&o, &direct));
+    ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, &progress, &output));
+    alpi_direct_destroy(direct);
+    assert_true(output.rays <= told);
+}
+
+/// Rays that are sent are no more than is told: however few receivers share the scouts, and where
+/// others look for what the samples missed.
+static void no_more_rays_than_are_told(void **state)
+{
+    (void)state;
+    enum { MOST = 16 };
+    const vec3 screen[4] = {{-0.4f, 1, -5}, {5, 1, -5}, {5, 1, 5}, {-0.4f, 1, 5}};
+    static test_patch points[POINTS];
+    test_patch beside[MOST]; // in the penumbra
+    test_stage s = open_quad(context, false, screen);
+    for (uint32_t i = 0; i < MOST; i++) {
+        beside[i] = test_point((vec3){-0.7f, 0, 0}, UP);
+    }
+    for (uint32_t count = 1; count <= MOST; count++) {
+        check_rays(&s, beside, count, 24);
+    }
+    scatter(points);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        check_rays(&s, &points[i], 1, 8);
+    }
+    test_stage_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_of_it),       cmocka_unit_test(nothing_of_it),
-        cmocka_unit_test(on_it),           cmocka_unit_test(a_penumbra),
-        cmocka_unit_test(neighbours_find), cmocka_unit_test(the_same_bits),
+        cmocka_unit_test(all_of_it),
+        cmocka_unit_test(nothing_of_it),
+        cmocka_unit_test(on_it),
+        cmocka_unit_test(a_penumbra),
+        cmocka_unit_test(neighbours_find),
+        cmocka_unit_test(the_same_bits),
+        cmocka_unit_test(a_host_changes_nothing),
+        cmocka_unit_test(no_more_rays_than_are_told),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

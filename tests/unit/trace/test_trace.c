@@ -145,9 +145,13 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
-    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL)); // too few to be worth it
-    assert_int_equal(count_slips(scene, tracer, quick, few, true), 0);
-    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e9, NULL, NULL));
+    bool worth = true;
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL, &worth));
+    assert_false(worth); // too few
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e9, NULL, NULL, &worth));
+    assert_true(worth);
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL, &worth));
+    assert_false(worth); // whatever was before
     assert_int_equal(count_slips(scene, tracer, careful, few, true), 0);
     const uint32_t aimed = count_slips(scene, tracer, quick, few, true);
     const uint32_t slips = count_slips(scene, tracer, quick, many, false);
