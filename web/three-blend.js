@@ -69,6 +69,7 @@ function loadedName(attribute) {
 /// absent.
 export function blendGeometry(geometry, description) {
   const bakes = bakesOf(description).map((bake) => bake.sets.map((name) => geometry.getAttribute(loadedName(name))));
+  // All of them or none: one shader serves the whole mesh.
   if (bakes.some((found) => found.length !== 3 || found.some((attribute) => attribute === undefined))) return false;
   bakes.forEach((found, bake) => found.forEach((attribute, k) => geometry.setAttribute(attributeName(bake, k), attribute)));
   return true;

@@ -292,15 +292,20 @@ typedef struct pack_group {
 typedef struct group_packer {
     packer pack;
     alpi_pack_item *items;
-    uint32_t *order;    // [items] grouped
-    pack_group *groups; // [group_count] in turn
-    uint64_t *blocked;  // [size][words] a page as it was
-    uint16_t *gaps;     // [size]
+    uint32_t *order;              // [items] grouped
+    pack_group *groups;           // [group_count] in turn
+    hint hints[CLASSES][CLASSES]; // of groups, by their largest item: pages that have no room for
+                                  // one may have room for an item
+    uint64_t *blocked;            // [size][words] a page as it was
+    uint16_t *gaps;               // [size]
 } group_packer;
 
 static int compare_groups(const void *a, const void *b)
 {
     const pack_group *s = a, *t = b;
+    if ((s->count == 0) != (t->count == 0)) {
+        return s->count == 0 ? 1 : -1;
+    }
     if (s->texels != t->texels) {
         return s->texels > t->texels ? -1 : 1;
     }
@@ -374,7 +379,7 @@ static alp_result place_on_one_page(group_packer *g, const pack_group *group, bo
     const alpi_pack_item *first = &g->items[g->order[group->first]];
     const uint32_t longer = first->width > first->height ? first->width : first->height;
     const uint32_t shorter = first->width > first->height ? first->height : first->width;
-    hint *near = &p->hints[class_of_side(longer)][class_of_side(shorter)];
+    hint *near = &g->hints[class_of_side(longer)][class_of_side(shorter)];
     const bool tired = p->rows_tried * ((p->rules->size + 63) / 64) > PATIENCE;
     uint32_t page = tired ? near->page : 0;
     for (; page < p->page_count && !*fits; page++) {
@@ -382,7 +387,8 @@ static alp_result place_on_one_page(group_packer *g, const pack_group *group, bo
             ALP_TRY(place_together(g, group, page, fits));
         }
     }
-    if (!*fits && group->texels <= (uint64_t)p->rules->size * p->rules->size) {
+    const uint64_t room = (uint64_t)p->rules->size * p->rules->size;
+    if (!*fits && group->texels <= room && p->page_count < p->page_limit) {
         ALP_TRY(add_page(p));
         ALP_TRY(place_together(g, group, page++, fits));
     }

@@ -126,8 +126,8 @@ static void join_cones(const region *a, const region *b, double axis[3], double 
         return;
     }
     *angle = 0.5 * (apart + a->angle + b->angle);
-    const double turn = *angle - wide->angle,
-                 sine = alpi_sine(apart); // from the wider axis to the other
+    const double turn = *angle - wide->angle; // from the wider axis to the other
+    const double sine = alpi_sine(apart);
     const double of_wide = sine > 1e-9 ? alpi_sine(apart - turn) / sine : 1.0;
     const double of_other = sine > 1e-9 ? alpi_sine(turn) / sine : 0.0;
     double square = 0.0;

@@ -11,7 +11,7 @@
 
 /// Connected triangles of one node whose normals lie in a cone. They may fold over themselves.
 typedef struct alpi_regions {
-    uint32_t *of_triangle; // [triangle_count] a triangle of the region, the same for all of it
+    uint32_t *of_triangle; // [triangle_count] the region's name, that of a triangle which it had
     float (*planes)[3];    // [triangle_count] unit normal of the plane of the region that has this
                            // triangle in of_triangle
 } alpi_regions;

@@ -14,8 +14,8 @@
 #include <math.h>
 
 enum {
-    STEPS = 8,        // from the middle of a neighbourhood over edges to its rim
-    MOST_AROUND = 96, // triangles in a neighbourhood
+    STEPS = 3,        // from the middle of a neighbourhood over edges to its rim
+    MOST_AROUND = 22, // triangles in a neighbourhood: 1 + 3 + 6 + 12
     MOST_BESIDE = 8,  // regions that are told apart in one
     MOST_MOVES = 8,   // of one triangle
     MOST_TURNS = 64   // triangles around a corner

@@ -208,7 +208,8 @@ alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
 /// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
-/// viewers know, else _ALPENGLOW_UV_n, other n for each first.
+/// viewers know, else _ALPENGLOW_UV_n, where the sets of no
+/// two bakes of a mesh have the same n.
 void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRIBUTE_SIZE]);
 /// Members of an object inside a material, which may not be there yet.
 typedef struct alpi_gltf_inside {

@@ -16,7 +16,8 @@ typedef struct alpi_chart_deal {
     uint32_t *places;       // [count] texels of each, then the next one's place
 } alpi_chart_deal;
 
-/// Readies for the charts of some texels: what it costs grows with these and their charts alone.
+/// Readies for the charts of some texels: it costs as much as these, and as the numbers
+/// from the least of their charts to the greatest.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_chart_deal_open(alp_context *context, const uint32_t *charts,
                                 const uint32_t *texels, uint32_t texel_count,

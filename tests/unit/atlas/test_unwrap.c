@@ -277,7 +277,7 @@ static void every_machine_makes_the_same(void **state)
     alp_atlas *atlas = charts_of_size(context, scene, 256);
     const size_t bytes = scene->triangle_count * sizeof *atlas->corner_uvs;
     // As gcc 12 and clang 14 make it; who changes how charts are made changes it too.
-    assert_true(alpi_hash_bytes(ALPI_HASH_START, atlas->corner_uvs, bytes) == 0x5ec057ffa94434c0u);
+    assert_true(alpi_hash_bytes(ALPI_HASH_START, atlas->corner_uvs, bytes) == 0x6d6357accf5f335eu);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
