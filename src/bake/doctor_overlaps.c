@@ -16,8 +16,13 @@
 static const double NARROW_OF_EDGE = 1e-3, NARROW_OF_ROUNDING = 16.0;
 /// Of a surface's area: less is what a square of a hundredth of its length has.
 static const double WORTH_A_WORD = 1e-4;
-/// Overlaps whose sight is asked; of more than that none is told to be hidden.
+/// Overlaps whose sight is asked; those that are found after them are not told, for most of so many
+/// lie where solids are joined, and nobody sees them.
 enum { SIGHT_LIMIT = 1 << 12, STREAM_OVERLAPS = 203, CORNERS = 6 };
+
+/// Of the rays of an overlap that nobody sees. Half, as of what is buried (doctor_sides.c), is more
+/// than where solids are joined closely: on the columns of builtin:atrium most rays meet fronts of
+/// what else is inside. In a good place it is a tenth (doctor_backs.c).
 enum { BACKS_INSIDE = ALPI_DOCTOR_RAYS / 4 };
 
 /// Convex, counter-clockwise, in a plane: of two triangles at most six corners.
@@ -47,6 +52,7 @@ typedef struct search {
     uint32_t *with;  // [surface_count] surface of the other one
     float (*at)[3];  // [surface_count]
     uint32_t sights;
+    bool all; // pairs were visited, and sights asked
 } search;
 
 // --- two triangles -------------------------------------------------------------------------------
@@ -187,15 +193,16 @@ static bool find_overlap(const facet *a, const facet *b, double rounding, overla
 
 // --- sight ---------------------------------------------------------------------------------------
 
-/// Whether an overlap is inside of something, where nobody sees it: none of its rays meet the sky,
-/// and more meet backs of single-sided surfaces than in any good place (see doctor_backs.c).
-static bool is_hidden(search *s, uint32_t triangle, const facet *f, const overlap *o,
-                      double rounding)
+/// Whether an overlap is seen, as far as is asked: not inside of something, as surfaces are that
+/// are buried.
+static bool is_seen(search *s, uint32_t triangle, const facet *f, const overlap *o, double rounding)
 {
     uint32_t open = 0, backs = 0;
-    if (s->sights++ >= SIGHT_LIMIT) {
+    if (s->sights >= SIGHT_LIMIT) {
+        s->all = false;
         return false;
     }
+    s->sights++;
     const double3 start = double3_add(o->at, double3_scale(f->normal, 4.0 * rounding));
     const alpi_doctor_eye eye = {double3_to_vec3(start), double3_to_vec3(f->normal),
                                  alpi_random_key(0, triangle, STREAM_OVERLAPS)};
@@ -207,7 +214,7 @@ static bool is_hidden(search *s, uint32_t triangle, const facet *f, const overla
             backs += hits[i].back;
         }
     }
-    return open == 0 && backs >= BACKS_INSIDE;
+    return open > 0 || backs < BACKS_INSIDE;
 }
 
 // --- all of them ---------------------------------------------------------------------------------
@@ -248,7 +255,7 @@ static alp_result look_at_pair(void *user, uint32_t a, uint32_t b)
     alpi_triangle_corners(s->scene, b, c);
     const double rounding = alpi_doctor_rounding(c);
     if (is_twin(&first, &second) || !find_overlap(&first, &second, rounding, &o) ||
-        is_hidden(s, b, &second, &o, rounding)) {
+        !is_seen(s, b, &second, &o, rounding)) {
         return ALP_OK;
     }
     const uint32_t surface = s->scene->triangle_surface[b];
@@ -293,9 +300,9 @@ static alp_result tell(alp_diagnosis *d, const search *s, uint32_t *counts)
                                           counts[surface], s->areas[surface]};
         ALP_TRY(alpi_diagnosis_add(
             d, facts,
-            "%u of %u triangle%s partly in the plane and place of others, of %.60s, %.2g "
+            "%s%u of %u triangle%s partly in the plane and place of others, of %.60s, %.2g "
             "m² at most",
-            counts[surface], d->scene->surfaces[surface].triangle_count,
+            s->all ? "" : "at least ", counts[surface], d->scene->surfaces[surface].triangle_count,
             d->scene->surfaces[surface].triangle_count == 1 ? " lies" : "s lie",
             with == surface ? "itself" : d->scene->surfaces[with].name, s->largest[surface]));
         alpi_diagnosis_mark(d, s->worst[surface], vec3_load(s->at[surface]), NULL);
@@ -315,7 +322,9 @@ static alp_result look(alp_diagnosis *d, search *s)
     ALPI_TRY_NEW(d->context, s->worst, count);
     ALPI_TRY_NEW(d->context, s->with, count);
     ALPI_TRY_NEW(d->context, s->at, count);
-    ALP_TRY(alpi_doctor_visit_pairs(d->scene, look_at_pair, s));
+    bool visited = true;
+    ALP_TRY(alpi_doctor_visit_pairs(d->scene, look_at_pair, s, &visited));
+    s->all = s->all && visited;
     uint32_t *counts = ALPI_NEW(d->context, uint32_t, count);
     const alp_result result = counts != NULL ? tell(d, s, counts) : ALP_ERROR_OUT_OF_MEMORY;
     alpi_release(d->context, counts);
@@ -327,7 +336,7 @@ alp_result alpi_doctor_look_at_overlaps(alp_diagnosis *diagnosis)
     if (diagnosis->scene->usable_count == 0) {
         return ALP_OK;
     }
-    search s = {.scene = diagnosis->scene};
+    search s = {.scene = diagnosis->scene, .all = true};
     const alp_result result = look(diagnosis, &s);
     void *const own[] = {s.flags, s.areas, s.largest, s.worst, s.with, s.at};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {

@@ -21,9 +21,6 @@ enum {
     STACK = 128 // four for one at each of 30 levels
 };
 static const double LEAST_HEIGHT = 64.0; // roundings: normals are right to 1/16
-/// Pairs and looks for them, for each triangle; of a plane of triangles there are six and some
-/// tens.
-enum { PAIRS_EACH = 32, LOOKS_EACH = 512, LEAST_LIMIT = 1 << 22 };
 
 /// Places and normals, both with room for rounding.
 typedef struct box {
@@ -269,10 +266,10 @@ static uint32_t part(const tree *t, meeting m, meeting *stack, uint32_t height)
 }
 
 /// Goes down from the root, both nodes of a pair at a time.
-static alp_result visit_all(const tree *t, alpi_doctor_pair_fn *each, void *user)
+static alp_result visit_all(const tree *t, alpi_doctor_pair_fn *each, void *user, bool *all)
 {
-    visit v = {t, LEAST_LIMIT + (uint64_t)LOOKS_EACH * t->count,
-               LEAST_LIMIT + (uint64_t)PAIRS_EACH * t->count, each, user};
+    visit v = {t, ALPI_DOCTOR_PAIRS_LEAST + (uint64_t)ALPI_DOCTOR_LOOKS_EACH * t->count,
+               ALPI_DOCTOR_PAIRS_LEAST + (uint64_t)ALPI_DOCTOR_PAIRS_EACH * t->count, each, user};
     meeting stack[STACK] = {{1, 1}};
     uint32_t height = 1, steps = 0;
     while (height > 0 && v.looks_left > 0 && v.pairs_left > 0) {
@@ -286,13 +283,16 @@ static alp_result visit_all(const tree *t, alpi_doctor_pair_fn *each, void *user
             height = part(t, m, stack, height);
         }
     }
+    *all = height == 0;
     return ALP_OK;
 }
 
-alp_result alpi_doctor_visit_pairs(const alp_scene *scene, alpi_doctor_pair_fn *each, void *user)
+alp_result alpi_doctor_visit_pairs(const alp_scene *scene, alpi_doctor_pair_fn *each, void *user,
+                                   bool *all)
 {
     tree t = {.context = scene->context, .scene = scene};
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    *all = true;
     t.orders = ALPI_NEW(t.context, order, scene->usable_count);
     if (t.orders != NULL) {
         collect(&t);
@@ -300,7 +300,7 @@ alp_result alpi_doctor_visit_pairs(const alp_scene *scene, alpi_doctor_pair_fn *
     }
     if (result == ALP_OK && t.count > 0) {
         result = build(&t);
-        result = result == ALP_OK ? visit_all(&t, each, user) : result;
+        result = result == ALP_OK ? visit_all(&t, each, user, all) : result;
     }
     alpi_release(t.context, t.orders);
     alpi_release(t.context, t.items);

@@ -20,14 +20,24 @@ static inline double alpi_doctor_rounding(const vec3 c[3])
     return 4.0 * 0x1p-23 * (double)largest;
 }
 
+/// Pairs that are visited, besides one leaf's, and looks for them: for each triangle, and the least
+/// for them all. Of a plane of triangles there are six and some tens.
+enum {
+    ALPI_DOCTOR_PAIRS_EACH = 32,
+    ALPI_DOCTOR_LOOKS_EACH = 512,
+    ALPI_DOCTOR_PAIRS_LEAST = 1 << 22
+};
+
 /// Gets each pair once, lower triangle first; in an order that is always the same.
 typedef alp_result alpi_doctor_pair_fn(void *user, uint32_t a, uint32_t b);
 
 /// Visits the pairs of a scene. Triangles whose height is less than 64 times the rounding of their
 /// coordinates face nowhere in particular, and are left out. Where very many lie in one place, the
-/// search ends after some millions of pairs and 32 for each triangle.
+/// search ends at its limits.
+/// @param all out: whether every pair was visited, not as many as the limits allow
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED; what `each` says
-/// Cost: about n log n; 100 bytes for each triangle.
-alp_result alpi_doctor_visit_pairs(const alp_scene *scene, alpi_doctor_pair_fn *each, void *user);
+/// Cost: about n log n; 92 to 116 bytes for each triangle.
+alp_result alpi_doctor_visit_pairs(const alp_scene *scene, alpi_doctor_pair_fn *each, void *user,
+                                   bool *all);
 
 #endif

@@ -193,12 +193,19 @@ static void aim_around(const alpi_receiver_point *p, float length, bool all_tang
     }
 }
 
+/// Whether a triangle is of glass, or of another thing that one sees into: it ends no solid.
+static bool is_pane(const alp_scene *scene, uint32_t triangle)
+{
+    return alpi_surface_is_pane(scene, scene->triangle_surface[triangle]);
+}
+
 /// Whether a lane met the inside of a single-sided surface.
 static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const alpi_hits *hits,
                           int lane)
 {
     const uint32_t triangle = hits->triangle[lane];
-    if (triangle == ALPI_NONE || alpi_surface_is_double_sided(scene, triangle)) {
+    if (triangle == ALPI_NONE || alpi_surface_is_double_sided(scene, triangle) ||
+        is_pane(scene, triangle)) {
         return false;
     }
     vec3 c[3];
@@ -279,8 +286,8 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 
 /// Sends lanes 4 to 7 of a look around on to the end of the scene, and as many rays back along
 /// them, and counts the fronts that each meets: those on the way back are the backs on the way out,
-/// which are told apart so even where two surfaces lie in one place. @return false: too many to
-/// tell
+/// which are told apart so even where two surfaces lie in one place. Panes are passed uncounted.
+/// @return false: too many to tell
 static bool count_crossings(const validity_job *job, const alpi_rays *look, int fronts[ALPI_PACKET])
 {
     enum { CROSSINGS = 32 };
@@ -303,7 +310,7 @@ static bool count_crossings(const validity_job *job, const alpi_rays *look, int 
                            (alpi_trace_filter){.one_sided = true}, &hits);
         for (int i = 0; i < ALPI_PACKET; i++) {
             const bool met = (active >> i & 1u) != 0 && hits.triangle[i] != ALPI_NONE;
-            fronts[i] += met;
+            fronts[i] += met && !is_pane(scene, hits.triangle[i]);
             rays.minimum[i] = met ? hits.distance[i] + step : length;
             active &= met && rays.minimum[i] < length ? UINT32_MAX : ~(1u << i);
         }

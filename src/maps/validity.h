@@ -33,9 +33,9 @@ alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratc
 /// - lifted points that the lift carries through a surface stay on their triangle (flag NO_LIFT);
 /// - of texels near another surface, each of 16 strata is inside when one of four tangent rays of a
 ///   texel's length meets a back face first, or three of four rays upwards do; texels->valid leaves
-///   those strata out. Back faces of double-sided materials are no sign of an inside. Where solids
-///   reach into each other, surfaces are counted: more backs than fronts on the way out in three
-///   directions of four;
+///   those strata out. Back faces of double-sided materials and of panes (glass, BLEND) are no sign
+///   of an inside: light gets in. Where solids reach into each other, surfaces are counted: more
+///   backs than fronts on the way out in three directions of four;
 /// - texels wholly inside that no filter reads with one that is seen get the flag HIDDEN: those
 ///   judged so, and those that touch something with nothing beside them.
 /// @param setup  of the bake; its tracer and random numbers   @param receivers of `texels`

@@ -159,15 +159,19 @@ static void archivolt_at(const void *shape, uint32_t i, uint32_t j, vec3 *positi
     *normal = (vec3){(float)(n[0] * c), (float)(n[0] * s), (float)n[1]};
 }
 
-/// The section itself, where the arch stands on something: a fan about its middle.
+/// The section itself, where the arch stands on something: a fan about a point an eighth of its
+/// height above its lowest, which sees all of a section that is flat below, though it be hollow
+/// above.
 static void build_archivolt_end(alpi_shaper *shaper, archivolt *a,
                                 const alpi_profile_point *section, uint32_t count, bool last)
 {
-    double middle[2] = {0.0, 0.0};
+    double middle[2] = {0.0, 0.0}, low = HUGE_VAL, high = -HUGE_VAL;
     for (uint32_t k = 0; k < count; k++) {
         middle[0] += (double)section[k].out / count;
-        middle[1] += (double)section[k].up / count;
+        low = fmin(low, (double)section[k].up);
+        high = fmax(high, (double)section[k].up);
     }
+    middle[1] = low + (high - low) / 8.0;
     uint32_t i = last ? a->cells : 0;
     vec3 centre = archivolt_point(a, i, middle);
     for (uint32_t k = 0; k < count; k++) {

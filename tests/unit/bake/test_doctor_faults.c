@@ -440,41 +440,6 @@ static void soups_take_no_square_of_time(void **state)
     test_free(indices);
 }
 
-/// Sheets upon each other, each a little smaller: all of them overlap all others.
-static void stacks_take_no_square_of_time(void **state)
-{
-    (void)state;
-    enum { SHEETS = 50000 };
-    alp_context *context = test_context(1);
-    float(*positions)[3] = test_calloc(3 * (size_t)SHEETS, sizeof *positions);
-    uint32_t *indices = test_calloc(3 * (size_t)SHEETS, sizeof *indices);
-    for (uint32_t i = 0; i < 3 * SHEETS; i++) {
-        const float side = 1.0f + 1e-5f * (float)(i / 3);
-        indices[i] = i;
-        positions[i][0] = i % 3 == 1 ? side : 0.0f;
-        positions[i][2] = i % 3 == 2 ? -side : 0.0f;
-    }
-    const alp_mesh mesh = {.vertex_count = 3 * SHEETS,
-                           .positions = positions[0],
-                           .triangle_count = SHEETS,
-                           .indices = indices,
-                           .base_color = {0.5f, 0.5f, 0.5f}};
-    alp_scene *scene = NULL;
-    alp_diagnosis *d = NULL;
-    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
-    ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d)); // 1.2·10⁹ pairs would be minutes
-    bool found = false;
-    for (uint32_t i = 0; i < alp_diagnosis_finding_count(d); i++) {
-        found = found || alp_diagnosis_get_finding(d, i).kind == ALP_FINDING_COPLANAR;
-    }
-    assert_true(found);
-    alp_diagnosis_destroy(d);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-    test_free(positions);
-    test_free(indices);
-}
-
 static void any_number_of_workers_finds_the_same(void **state)
 {
     (void)state;
@@ -532,7 +497,6 @@ int main(void)
         cmocka_unit_test(objects_of_another_unit),
         cmocka_unit_test(scenes_of_one_triangle),
         cmocka_unit_test(soups_take_no_square_of_time),
-        cmocka_unit_test(stacks_take_no_square_of_time),
         cmocka_unit_test(any_number_of_workers_finds_the_same),
         cmocka_unit_test(every_allocation_may_fail),
     };

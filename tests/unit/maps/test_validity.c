@@ -4,6 +4,7 @@
 #include "atlas/facet.h"
 #include "base/context.h"
 #include "maps/validity.h"
+#include "scene/mesh_builder.h"
 #include "test_scenes.h"
 
 #include <math.h>
@@ -197,6 +198,47 @@ static void what_stands_on_a_solid_is_hidden_below(void **state)
     }
     assert_true(below >= 19 * 19 && hidden > below); // 19.2 texels wide; the slab's middle, the bar
     end(&s);
+}
+
+static void what_stands_in_glass_is_not_inside(void **state)
+{
+    (void)state;
+    // A cube on the floor of a case that is less than a texel wider and higher: all of it touches.
+    // Rays from its texels come to backs in every direction.
+    enum { GLASS, BLENDED, SOLID, CASES };
+    for (int i = 0; i < CASES; i++) {
+        alp_context *context = test_context(2);
+        alp_scene *scene = NULL;
+        alpi_builder b;
+        alpi_builder_start(&b, context, "case");
+        const vec3 white = {1, 1, 1}, dark = {0, 0, 0};
+        const uint32_t stone = alpi_builder_material(&b, "stone", white, dark);
+        const uint32_t glass = alpi_builder_material(&b, "glass", white, dark);
+        alpi_builder_surface(&b, "cube", stone);
+        alpi_builder_box(&b, (vec3){0, 0, 0}, (vec3){1, 1, 1}, ALPI_FACE_ALL);
+        alpi_builder_surface(&b, "case", glass);
+        alpi_builder_box(&b, (vec3){-0.05f, 0, -0.05f}, (vec3){1.05f, 1.05f, 1.05f}, ALPI_FACE_ALL);
+        ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+        scene->materials[glass].transmission = i == GLASS ? 0.5f : 0.0f;
+        scene->materials[glass].alpha_mode = i == BLENDED ? ALPI_ALPHA_BLEND : ALPI_ALPHA_OPAQUE;
+        scene->materials[glass].base_color[3] = 0.75f;
+        validity_setup s;
+        look(&s, scene, context);
+        uint32_t cube = 0;
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            const bool hidden = (s.texels.flags[t] & ALPI_TEXEL_HIDDEN) != 0;
+            vec3 c[3];
+            alpi_triangle_corners(scene, s.texels.triangles[t], c);
+            const bool below = fmaxf(c[0].y, fmaxf(c[1].y, c[2].y)) <= 0.0f;
+            if (scene->triangle_surface[s.texels.triangles[t]] == 0 && !below) {
+                assert_int_equal(hidden || s.validity.dropped[t] != 0, i == SOLID);
+                cube++;
+            }
+        }
+        assert_true(cube >= 5 * SIZE * SIZE);
+        assert_true(i == SOLID || (s.texels.valid == NULL && s.validity.dropped_count == 0));
+        end(&s);
+    }
 }
 
 static void lifts_end_at_what_they_would_pass(void **state)
@@ -424,6 +466,7 @@ int main(void)
         cmocka_unit_test(double_sided_walls_hide_no_inside),
         cmocka_unit_test(a_one_sided_wall_has_a_behind),
         cmocka_unit_test(what_stands_on_a_solid_is_hidden_below),
+        cmocka_unit_test(what_stands_in_glass_is_not_inside),
         cmocka_unit_test(lifts_end_at_what_they_would_pass),
         cmocka_unit_test(lifts_through_a_floor_are_not_made),
         cmocka_unit_test(nearness_is_told_in_texels_of_each_chart),
