@@ -318,22 +318,26 @@ static bool count_crossings(const validity_job *job, const alpi_rays *look, int 
     return active == 0;
 }
 
-/// Whether in three of four directions a look around leaves more solids than it enters: it began
-/// inside. Where solids reach into each other, what it meets first may be the front of the next;
-/// where three surfaces lie in one place, one is not counted.
+/// Whether a look around began inside solids: along each of its lines, backs met less fronts met
+/// are then as many as there are solids around it. Open surfaces give other numbers from line to
+/// line. One of four may differ: where three surfaces lie in one place, one is not counted.
 static bool is_enclosed(const validity_job *job, const alpi_rays *look)
 {
-    int fronts[ALPI_PACKET] = {0}, out = 0;
+    int fronts[ALPI_PACKET] = {0}, alike[4] = {0};
     const bool counted = count_crossings(job, look, fronts);
     for (int i = 0; i < 4; i++) {
-        out += fronts[i + 4] > fronts[i];
+        for (int k = 0; k < 4; k++) {
+            const int deep = fronts[i + 4] - fronts[i];
+            alike[i] += deep > 0 && fronts[k + 4] - fronts[k] == deep;
+        }
     }
-    return counted && out >= 3;
+    const int most = alike[0] > alike[1] ? alike[0] : alike[1]; // three alike are one of these
+    return counted && most >= 3;
 }
 
 /// Whether a point lies inside other geometry: a back face is the first thing beside it within a
-/// texel, or above it in three of four directions. Where one is in any, or something in all and
-/// near, surfaces are counted.
+/// texel, or above it in three of four directions. Where something is near in all four, surfaces
+/// are counted.
 static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
 {
     enum { CAVE = 4 }; // texels
@@ -348,7 +352,7 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
         upward += met_back_face(scene, &rays, &hits, k + 4);
         closed += hits.triangle[k + 4] != ALPI_NONE && hits.distance[k + 4] < CAVE * side;
     }
-    return tangent > 0 || upward >= 3 || ((upward > 0 || closed == 4) && is_enclosed(job, &rays));
+    return tangent > 0 || upward >= 3 || (closed == 4 && is_enclosed(job, &rays));
 }
 
 /// Which strata of a texel lie inside other geometry: those that are seen from its middle, where

@@ -200,6 +200,46 @@ static void what_stands_on_a_solid_is_hidden_below(void **state)
     end(&s);
 }
 
+/// Under a roof of one side, whose back is seen from below, nothing beside a box is hidden.
+/// @param columns how many of 8 texels, the first next to the box
+static void check_beside_box(test_mesh *mesh, uint32_t columns)
+{
+    alp_context *context = test_context(2);
+    validity_setup s;
+    look(&s, test_mesh_scene(context, mesh, 0), context);
+    const float end_x = 1.4375f + (float)columns / SIZE;
+    uint32_t beside = 0;
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        alpi_receiver_point p;
+        alpi_texels_point(&s.texels, t, &p);
+        const vec3 at = p.position;
+        const bool along = at.x > 1.44f && at.x < end_x && at.z > 0.7f && at.z < 1.2f;
+        if (s.texels.triangles[t] < 2 && along) { // of the floor, the box beside it
+            assert_true(s.texels.valid == NULL || s.texels.valid[t] == 0);
+            assert_true((s.texels.flags[t] & ALPI_TEXEL_HIDDEN) == 0 && !s.validity.dropped[t]);
+            beside++;
+        }
+    }
+    assert_int_equal(beside, 8 * columns);
+    end(&s);
+}
+
+static void roofs_of_one_side_enclose_nothing(void **state)
+{
+    (void)state;
+    // One looks up at the back of the roof to two sides, and through the box at it to the others:
+    // along every line there is one back more than fronts, and nothing is near all around.
+    test_mesh *mesh = box_on_floor();
+    test_mesh_quad(mesh, (double[]){-1, 0.8, -1}, (double[]){0, 0, 4}, (double[]){4, 0, 0});
+    check_beside_box(mesh, 2);
+    // So low that it is near, and a second one above it to two sides: there are two backs more to
+    // these, one to the others.
+    mesh = box_on_floor();
+    test_mesh_quad(mesh, (double[]){-1, 0.12, -1}, (double[]){0, 0, 4}, (double[]){4, 0, 0});
+    test_mesh_quad(mesh, (double[]){1.8, 0.9, -1}, (double[]){0, 0, 4}, (double[]){2, 0, 0});
+    check_beside_box(mesh, 1);
+}
+
 static void what_stands_in_glass_is_not_inside(void **state)
 {
     (void)state;
@@ -466,6 +506,7 @@ int main(void)
         cmocka_unit_test(double_sided_walls_hide_no_inside),
         cmocka_unit_test(a_one_sided_wall_has_a_behind),
         cmocka_unit_test(what_stands_on_a_solid_is_hidden_below),
+        cmocka_unit_test(roofs_of_one_side_enclose_nothing),
         cmocka_unit_test(what_stands_in_glass_is_not_inside),
         cmocka_unit_test(lifts_end_at_what_they_would_pass),
         cmocka_unit_test(lifts_through_a_floor_are_not_made),
