@@ -7,6 +7,7 @@
 //   collada_patch_material.c  images, effects and materials
 //   collada_patch_again.c     coordinates of an earlier bake, and sets that others read
 //   collada_patch_tidy.c      what else an earlier bake left
+//   collada_patch_names.c     the word that new ids begin with
 //   collada_patch_instance.c  instances: geometry shown, materials bound, sets bound
 //   collada_patch_text.c      pieces of XML text
 //   collada_write.c           the whole sequence, files
@@ -40,6 +41,13 @@ typedef struct alpi_collada_class {
     size_t symbol_capacity;
 } alpi_collada_class;
 
+/// Inputs of a primitive that an earlier bake wrote, which share their indices.
+typedef struct alpi_collada_own {
+    const xmlNode *inputs[ALPI_COLLADA_SETS]; // [count] in the order of the text
+    uint32_t numbers[ALPI_COLLADA_SETS];      // [count] of their sets
+    uint32_t count, offset;
+} alpi_collada_own;
+
 /// A material made for one page.
 typedef struct alpi_collada_made {
     uint32_t material; // of the scene, ALPI_NONE: for primitives without one
@@ -55,7 +63,8 @@ typedef struct alpi_collada_patcher {
     const alpi_collada_document *document;
     alpi_collada_reader reader; // of primitives, once more
     alpi_edits edits;           // of the document's text
-    char prefix[32];            // of all new ids; no id of the document holds it
+    char prefix[32];            // of all new ids; the document does not hold it
+    bool endings;               // names of the document were given endings with it
     bool is_1_5;
 
     uint32_t *pages;           // [scene triangles] page of each, ALPI_NONE = no map
@@ -80,7 +89,9 @@ typedef struct alpi_collada_patcher {
     bool foreign_sets_known;
     bool tidy_known, may_tidy; // whether what an earlier bake left may be taken out
     bool *removed;             // [elements] taken out
-    bool *image_read;          // [elements] an <image> with an id of ours that something reads
+    bool *left_out;            // [elements] of the copy of an effect; false between copies
+    bool *rebound;             // [elements] an <instance_material> that another one replaces
+    bool *named;               // [elements] with an id of ours that something names
     alpi_bytes images, effects, materials; // what the libraries gain
 } alpi_collada_patcher;
 
@@ -103,37 +114,57 @@ void alpi_collada_print_geometry_id(const alpi_collada_patcher *patcher, uint32_
 
 // --- collada_patch_again.c -----------------------------------------------------------------------
 
-/// Whether all primitives of a geometry have coordinates of an earlier bake as their last set, all
-/// are baked anew, and nothing else reads that set. *source: what held them, where no other element
-/// needs it; else NULL.
-bool alpi_collada_find_own_set(alpi_collada_patcher *patcher, const alpi_collada_class *class_of,
-                               uint32_t *number, const xmlNode **source);
+/// Whether all primitives of a geometry that are baked, and no others, have coordinates of an
+/// earlier bake as their last sets, which nothing else reads: the new ones take their place.
+bool alpi_collada_takes_anew(alpi_collada_patcher *patcher, const alpi_collada_class *class_of);
+/// What held them, where no other element needs it; NULL for the others.
+void alpi_collada_own_sources(const alpi_collada_patcher *patcher, const xmlNode *mesh,
+                              const xmlNode *sources[ALPI_COLLADA_SETS]);
+/// One past the highest set among an element's inputs that are not `own`.
+uint32_t alpi_collada_sets_end(const alpi_collada_patcher *patcher, const xmlNode *element,
+                               const alpi_collada_own *own);
 /// Whether the document says that we wrote it.
 bool alpi_collada_was_baked(const alpi_collada_document *document);
 /// The first of `count` sets in a row, from `number` on, that nothing else than our maps reads
 /// anywhere: a texture bound to a set that is not there must not come to read ours.
 uint32_t alpi_collada_free_set(alpi_collada_patcher *patcher, uint32_t number, uint32_t count);
-/// The <input> of a primitive's highest TEXCOORD where an earlier bake wrote it and its indices are
-/// read by no other; NULL else.
-const xmlNode *alpi_collada_own_input(const alpi_collada_patcher *patcher, const xmlNode *primitive,
-                                      uint32_t *number, uint32_t *offset);
+/// The <input>s of a primitive's highest TEXCOORDs where an earlier bake wrote them and their
+/// indices are read by no other; none else.
+void alpi_collada_own_inputs(const alpi_collada_patcher *patcher, const xmlNode *primitive,
+                             alpi_collada_own *own);
 
-/// The <input> that the new one stands before; NULL: it comes last, or where `own` (or NULL) is.
+/// The <input> that the new one stands before; NULL: it comes last, or where `own` are.
 /// Blender shows every texture by the first coordinates of an element, whatever its material binds,
 /// and of a material that shows light only that texture counts.
 const xmlNode *alpi_collada_next_input(const alpi_collada_patcher *patcher,
-                                       const xmlNode *primitive, const xmlNode *own);
-/// Puts the text of the new one in its place.
+                                       const xmlNode *primitive, const alpi_collada_own *own);
+/// Puts the text of the new one in its place, and takes `own` out.
 void alpi_collada_place_input(const alpi_collada_patcher *patcher, alpi_edits *edits,
-                              const xmlNode *primitive, const xmlNode *own, const char *text);
+                              const xmlNode *primitive, const alpi_collada_own *own,
+                              const char *text);
 
 // --- collada_patch_tidy.c ------------------------------------------------------------------------
 
 /// Takes parameters of our earlier maps out of an effect whose maps are about to be replaced, and
 /// what their numbers stood for.
-void alpi_collada_tidy_effect(alpi_collada_patcher *patcher, const xmlNode *effect);
+/// @param removed [elements] what is taken out: the patcher's, or for a copy one of its own
+void alpi_collada_tidy_effect(alpi_collada_patcher *patcher, const xmlNode *effect,
+                              alpi_edits *edits, bool *removed);
+/// Takes our earlier copies of materials and effects out that nothing names; after instances.
+void alpi_collada_tidy_copies(alpi_collada_patcher *patcher);
 /// Takes our earlier images out that nothing names; last of all.
 void alpi_collada_tidy_images(alpi_collada_patcher *patcher);
+/// Notes that an element and all in it is not in the written file.
+void alpi_collada_note_removed(const alpi_collada_patcher *patcher, const xmlNode *element,
+                               bool *removed);
+
+// --- collada_patch_names.c -----------------------------------------------------------------------
+
+/// New ids begin with a word that stands nowhere in the document.
+void alpi_collada_choose_prefix(alpi_collada_patcher *patcher);
+/// In the text of the written file: the first such word that what stays of the document leaves
+/// free takes its place, so that a file that is baked again and again stays the same.
+void alpi_collada_settle_prefix(const alpi_collada_patcher *patcher, alpi_bytes *text);
 
 // --- collada_patch_material.c --------------------------------------------------------------------
 
@@ -147,6 +178,8 @@ void alpi_collada_add_images(alpi_collada_patcher *patcher);
 
 // --- collada_patch_instance.c --------------------------------------------------------------------
 
+/// Whether a semantic is one that our maps are bound to.
+bool alpi_collada_is_our_semantic(const char *semantic);
 /// The whole text of a placement's instance as it is to be.
 alp_result alpi_collada_print_instance(alpi_collada_patcher *patcher, uint32_t placement,
                                        alpi_bytes *text);

@@ -26,7 +26,7 @@ static void print_set(const alpi_collada_patcher *p, const alpi_collada_symbol *
     }
 }
 
-static bool is_ours(const char *semantic)
+bool alpi_collada_is_our_semantic(const char *semantic)
 {
     bool ours = false;
     for (int k = 0; k < ALPI_COLLADA_SETS; k++) {
@@ -40,7 +40,7 @@ static void print_bindings(const alpi_collada_patcher *p, const xmlNode *binding
 {
     for (const xmlNode *e = alpi_xml_child(binding, NULL); e != NULL; e = alpi_xml_next(e, NULL)) {
         const char *semantic = alpi_xml_attribute(e, "semantic");
-        if (!is_ours(semantic)) {
+        if (!alpi_collada_is_our_semantic(semantic)) {
             const alpi_xml_span *span = alpi_xml_span_of(p->document, e);
             alpi_bytes_add(text, p->document->text + span->begin, span->end - span->begin);
         }
@@ -286,6 +286,20 @@ static alp_result expand(alpi_collada_patcher *p, const xmlNode *outer, uint32_t
 
 // --- all instances -------------------------------------------------------------------------------
 
+/// The <instance_material>s of an instance that was edited name their old materials no more.
+static void note_rebound(alpi_collada_patcher *p, uint32_t placement)
+{
+    const xmlNode *instance = p->origin->placements[placement].instance;
+    const alpi_collada_class *c = &p->classes[p->placement_class[placement]];
+    for (uint32_t i = 0; i < c->symbol_count; i++) {
+        const alpi_collada_symbol *symbol = &c->symbols[i];
+        const xmlNode *old = alpi_collada_bound_to(p->document, instance, symbol->old);
+        if (old != NULL && symbol->page != ALPI_NONE && strcmp(symbol->old, symbol->name) == 0) {
+            p->rebound[alpi_xml_index(old)] = true;
+        }
+    }
+}
+
 /// Shown by the document's own nodes with one map only: edited where it stands.
 static alp_result replace_instance(alpi_collada_patcher *p, uint32_t placement)
 {
@@ -297,6 +311,7 @@ static alp_result replace_instance(alpi_collada_patcher *p, uint32_t placement)
     }
     if (result == ALP_OK) {
         alpi_xml_replace(p->document, &p->edits, instance, (const char *)text.bytes);
+        note_rebound(p, placement);
     }
     alpi_bytes_destroy(&text);
     return result;

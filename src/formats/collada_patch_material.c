@@ -188,7 +188,10 @@ static alp_result copy_effect(alpi_collada_patcher *p, const xmlNode *effect, ui
     if (alpi_xml_find_value(p->document, effect, "id", &value)) {
         alpi_edits_replace(&edits, value, "%s", id);
     }
+    alpi_collada_tidy_effect(p, effect, &edits, p->left_out);
     edit_effect(p, effect, material, page, &edits);
+    const uint32_t begin = alpi_xml_index(effect), end = alpi_xml_end_index(p->document, effect);
+    memset(p->left_out + begin, 0, (end - begin) * sizeof *p->left_out); // for the next copy
     alp_result result =
         alpi_edits_apply(&edits, (alpi_json_span){span->begin, span->end}, &p->effects);
     alpi_edits_destroy(&edits);
@@ -263,11 +266,12 @@ alp_result alpi_collada_get_material(alpi_collada_patcher *p, uint32_t surface, 
         (p->patch->light == NULL || p->effect_users[alpi_xml_index(effect)] == index + 1)) {
         bool *done = &p->effect_done[alpi_xml_index(effect)];
         if (!*done) {
-            alpi_collada_tidy_effect(p, effect);
+            alpi_collada_tidy_effect(p, effect, &p->edits, p->removed);
             edit_effect(p, effect, index, page, &p->edits);
             *done = true;
         }
         *id = own;
+        p->named[alpi_xml_index(material)] = true;
         return ALP_OK;
     }
     for (uint32_t i = 0; i < p->made_count; i++) {

@@ -19,9 +19,8 @@ typedef struct work {
     alpi_bytes source_id; // as it stands in an attribute
     char ending[64];      // of the ids inside a copy
     bool *rewritten;      // [elements of the geometry] whose text is gone; only of a copy
-    uint32_t again_number;
-    bool again;                // the set of an earlier bake is taken anew
-    const xmlNode *old_source; // of it, which goes; or NULL
+    bool again;           // sets of an earlier bake are taken anew
+    const xmlNode *old_sources[ALPI_COLLADA_SETS]; // of them, which go; or NULL
 } work;
 
 /// One primitive while it is written.
@@ -33,7 +32,7 @@ typedef struct part {
     alpi_collada_corners uvs;
     uint32_t page_count; // of different pages
     uint32_t new_offset;
-    const xmlNode *own_input; // of an earlier bake, whose place the new one takes; or NULL
+    alpi_collada_own own; // of an earlier bake, whose place the new one takes
 } part;
 
 void alpi_collada_print_geometry_id(const alpi_collada_patcher *p, uint32_t class_index,
@@ -96,9 +95,9 @@ static void print_corner(const work *w, const part *a, uint32_t corner, uint32_t
 {
     const uint32_t *indices = a->faces.indices + (size_t)corner * a->inputs.stride;
     for (uint32_t k = 0; k < a->inputs.stride; k++) {
-        alpi_xml_print_index(text, a->own_input != NULL && k == a->new_offset ? uv : indices[k]);
+        alpi_xml_print_index(text, a->own.count > 0 && k == a->new_offset ? uv : indices[k]);
     }
-    if (w->patcher->patch->corner_uvs != NULL && a->own_input == NULL) {
+    if (w->patcher->patch->corner_uvs != NULL && a->own.count == 0) {
         alpi_xml_print_index(text, uv);
     }
 }
@@ -161,6 +160,9 @@ static void mark_rewritten(work *w, const xmlNode *element)
     for (uint32_t i = alpi_xml_index(element); w->rewritten != NULL && i < end; i++) {
         w->rewritten[i - base] = true;
     }
+    if (!w->class_of->copied) {
+        alpi_collada_note_removed(w->patcher, element, w->patcher->removed);
+    }
 }
 
 /// The element stays what it is.
@@ -183,11 +185,11 @@ static void extend_part(work *w, const part *a)
     print_input(w, a, &text);
     w->edits->inserted.failed |= text.failed;
     if (!text.failed) {
-        alpi_collada_place_input(w->patcher, w->edits, a->element, a->own_input,
+        alpi_collada_place_input(w->patcher, w->edits, a->element, &a->own,
                                  (const char *)text.bytes);
     }
-    if (a->own_input != NULL) {
-        mark_rewritten(w, a->own_input);
+    for (uint32_t k = 0; k < a->own.count; k++) {
+        mark_rewritten(w, a->own.inputs[k]);
     }
     alpi_bytes_destroy(&text);
 }
@@ -270,6 +272,36 @@ static void print_faces(const work *w, const part *a, uint32_t page, piece_text 
     }
 }
 
+/// Those of the element with the new one in its place.
+static void print_inputs(const work *w, const part *a, alpi_bytes *text)
+{
+    const xmlNode *next = alpi_collada_next_input(w->patcher, a->element, &a->own);
+    next = next == NULL && a->own.count > 0 ? a->own.inputs[0] : next;
+    const xmlNode *input = alpi_xml_child(a->element, "input");
+    for (; input != NULL; input = alpi_xml_next(input, "input")) {
+        bool goes = false;
+        for (uint32_t k = 0; k < a->own.count; k++) {
+            goes |= a->own.inputs[k] == input;
+        }
+        if (input == next) {
+            print_input(w, a, text);
+        }
+        if (!goes) {
+            print_old_input(w, input, text);
+        }
+    }
+    if (next == NULL) {
+        print_input(w, a, text);
+    }
+}
+
+/// Numbers without the space before the first.
+static void add_numbers(alpi_bytes *text, const alpi_bytes *numbers)
+{
+    const size_t space = numbers->size > 0;
+    alpi_bytes_add(text, space > 0 ? numbers->bytes + space : NULL, numbers->size - space);
+}
+
 /// What lies on one page, as <polylist> or <triangles>.
 static void print_piece(const work *w, const part *a, uint32_t page, const char *symbol,
                         alpi_bytes *text)
@@ -281,26 +313,14 @@ static void print_piece(const work *w, const part *a, uint32_t page, const char 
     alpi_bytes_print(text, "<%s count=\"%u\" material=\"", name, piece.count);
     alpi_xml_print_text(text, symbol);
     alpi_bytes_print(text, "\">");
-    const xmlNode *input = alpi_xml_child(a->element, "input"),
-                  *next = alpi_collada_next_input(w->patcher, a->element, a->own_input);
-    for (; input != NULL; input = alpi_xml_next(input, "input")) {
-        if (input == next) {
-            print_input(w, a, text);
-        }
-        if (input != a->own_input) {
-            print_old_input(w, input, text);
-        }
-    }
-    if (next == NULL) {
-        print_input(w, a, text);
-    }
+    print_inputs(w, a, text);
     if (a->faces.polygon_count > 0) {
         alpi_bytes_print(text, "<vcount>");
-        alpi_bytes_add(text, piece.counts.bytes, piece.counts.size);
+        add_numbers(text, &piece.counts);
         alpi_bytes_print(text, "</vcount>");
     }
     alpi_bytes_print(text, "<p>");
-    alpi_bytes_add(text, piece.corners.bytes, piece.corners.size);
+    add_numbers(text, &piece.corners);
     alpi_bytes_print(text, "</p></%s>", name);
     text->failed |= piece.counts.failed || piece.corners.failed;
     alpi_bytes_destroy(&piece.counts);
@@ -357,10 +377,10 @@ static alp_result patch_part(work *w, part *a)
     const char *old = alpi_xml_attribute(a->element, "material");
     const bool one_page = !p->baked[a->surface] || lies_on_one_page(p, a->surface);
     if (p->baked[a->surface] && p->patch->corner_uvs != NULL) {
-        uint32_t number = 0;
-        a->new_offset = a->inputs.stride;
-        a->own_input =
-            w->again ? alpi_collada_own_input(p, a->element, &number, &a->new_offset) : NULL;
+        if (w->again) {
+            alpi_collada_own_inputs(p, a->element, &a->own);
+        }
+        a->new_offset = a->own.count > 0 ? a->own.offset : a->inputs.stride;
         ALP_TRY(alpi_collada_read_faces(&p->reader, a->element, &a->inputs, &a->faces));
         ALP_TRY(alpi_collada_corners_create(p, &w->pool, a->surface, &a->faces, &a->uvs));
     } else if (!one_page) {
@@ -432,24 +452,28 @@ static void part_destroy(alp_context *context, part *a)
 static alp_result find_number(work *w)
 {
     alpi_collada_patcher *p = w->patcher;
+    const xmlNode *mesh = alpi_xml_child(w->class_of->geometry, "mesh");
     uint64_t corners = 0;
-    const xmlNode *e = alpi_xml_child(alpi_xml_child(w->class_of->geometry, "mesh"), NULL);
-    for (; e != NULL; e = alpi_xml_next(e, NULL)) {
-        if (alpi_collada_is_primitive(e)) {
-            alpi_collada_inputs inputs;
-            ALP_TRY(alpi_collada_read_inputs(&p->reader, p->document->elements[alpi_xml_index(e)],
-                                             &inputs));
-            if (inputs.most_uv_number != ALPI_NONE && inputs.most_uv_number >= w->uv_number) {
-                w->uv_number = inputs.most_uv_number + 1;
-            }
+    w->again = alpi_collada_takes_anew(p, w->class_of);
+    w->uv_number = alpi_collada_sets_end(p, alpi_xml_child(mesh, "vertices"), NULL);
+    for (const xmlNode *e = alpi_xml_child(mesh, NULL); e != NULL; e = alpi_xml_next(e, NULL)) {
+        alpi_collada_own own = {.count = 0};
+        if (!alpi_collada_is_primitive(e)) {
+            continue;
         }
+        if (w->again) {
+            alpi_collada_own_inputs(p, e, &own);
+        }
+        const uint32_t end = alpi_collada_sets_end(p, e, &own);
+        w->uv_number = end > w->uv_number ? end : w->uv_number;
     }
     for (uint32_t s = w->class_of->first_surface; s < w->class_of->surface_end; s++) {
         corners += 3 * (uint64_t)p->scene->surfaces[s].triangle_count;
     }
-    w->again = alpi_collada_find_own_set(p, w->class_of, &w->again_number, &w->old_source);
-    w->uv_number = w->again ? w->again_number
-                            : alpi_collada_free_set(p, w->uv_number, alpi_collada_count_sets(p));
+    if (w->again) {
+        alpi_collada_own_sources(p, mesh, w->old_sources);
+    }
+    w->uv_number = alpi_collada_free_set(p, w->uv_number, alpi_collada_count_sets(p));
     return p->patch->corner_uvs != NULL ? alpi_collada_uvs_create(p->context, corners, &w->pool)
                                         : ALP_OK;
 }
@@ -475,9 +499,11 @@ static alp_result patch_geometry(work *w)
     alpi_collada_patcher *p = w->patcher;
     alpi_bytes_print(&w->source_id, "%s-uv-%u", p->prefix, w->class_index);
     ALP_TRY(patch_parts(w));
-    if (w->old_source != NULL) {
-        alpi_xml_replace(p->document, w->edits, w->old_source, "");
-        mark_rewritten(w, w->old_source);
+    for (uint32_t k = 0; k < ALPI_COLLADA_SETS; k++) {
+        if (w->old_sources[k] != NULL) {
+            alpi_xml_replace(p->document, w->edits, w->old_sources[k], "");
+            mark_rewritten(w, w->old_sources[k]);
+        }
     }
     const xmlNode *vertices =
         alpi_xml_child(alpi_xml_child(w->class_of->geometry, "mesh"), "vertices");
@@ -523,6 +549,7 @@ alp_result alpi_collada_patch_geometry(alpi_collada_patcher *p, uint32_t class_i
     alp_result result = ALP_OK;
     if (w.class_of->copied) {
         const uint32_t first = alpi_xml_index(w.class_of->geometry);
+        p->endings = true;
         w.rewritten = ALPI_NEW(p->context, bool,
                                alpi_xml_end_index(p->document, w.class_of->geometry) - first);
         result = w.rewritten == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;

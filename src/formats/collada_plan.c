@@ -189,6 +189,7 @@ alpi_collada_symbol *alpi_collada_get_symbol(alpi_collada_patcher *p, alpi_colla
     if (name == NULL) {
         return NULL;
     }
+    p->endings |= old == NULL || taken;
     c->symbols[c->symbol_count] =
         (alpi_collada_symbol){.old = old, .name = name, .page = page, .surface = surface};
     return &c->symbols[c->symbol_count++];

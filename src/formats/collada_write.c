@@ -73,28 +73,6 @@ static void image_files_destroy(alp_context *context, image_files *files)
 
 // --- the patcher ---------------------------------------------------------------------------------
 
-/// New ids begin with a word that no id of the document holds.
-static void choose_prefix(alpi_collada_patcher *p)
-{
-    for (uint32_t attempt = 1;; attempt++) { // ends: there are finitely many ids
-        snprintf(p->prefix, sizeof p->prefix, attempt == 1 ? "alpenglow" : "alpenglow%u", attempt);
-        bool clash = false;
-        for (uint32_t i = 0; i < p->document->element_count && !clash; i++) {
-            const char *id = alpi_xml_attribute(p->document->elements[i], "id");
-            const char *sid = alpi_xml_attribute(p->document->elements[i], "sid");
-            const char *symbol = alpi_xml_attribute(p->document->elements[i], "symbol");
-            const char *const names[] = {id, sid, symbol};
-            for (int k = 0; k < 3; k++) {
-                const char *found = names[k] != NULL ? strstr(names[k], p->prefix) : NULL;
-                clash |= found != NULL && found[strlen(p->prefix)] == '-';
-            }
-        }
-        if (!clash) {
-            return;
-        }
-    }
-}
-
 static void patcher_destroy(alpi_collada_patcher *p)
 {
     for (uint32_t c = 0; c < p->class_count; c++) {
@@ -108,7 +86,8 @@ static void patcher_destroy(alpi_collada_patcher *p)
     }
     void *const owned[] = {p->pages,     p->baked,        p->first_surfaces, p->placement_class,
                            p->classes,   p->effect_pages, p->effect_done,    p->made,
-                           p->page_used, p->effect_users, p->removed,        p->image_read};
+                           p->page_used, p->effect_users, p->removed,        p->left_out,
+                           p->rebound,   p->named};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) {
         alpi_release(p->context, owned[i]);
     }
@@ -152,7 +131,10 @@ static void state_origin(alpi_collada_patcher *p)
     for (; extra != NULL; extra = alpi_xml_next(extra, "extra")) {
         const char *type = alpi_xml_attribute(extra, "type");
         if (type != NULL && strcmp(type, "alpenglow") == 0) {
-            alpi_xml_replace(p->document, &p->edits, extra, "");
+            const alpi_xml_span *span = alpi_xml_span_of(p->document, extra);
+            const bool ends_line = p->document->text[span->end] == '\n'; // we wrote it, see below
+            alpi_edits_replace(&p->edits, (alpi_json_span){span->begin, span->end + ends_line},
+                               "%s", "");
         }
     }
     if (json == NULL) {
@@ -173,13 +155,16 @@ static alp_result run_patcher(alpi_collada_patcher *p)
 {
     ALPI_TRY_NEW(p->context, p->page_used, p->patch->page_count);
     ALPI_TRY_NEW(p->context, p->removed, p->document->element_count);
-    ALPI_TRY_NEW(p->context, p->image_read, p->document->element_count);
+    ALPI_TRY_NEW(p->context, p->left_out, p->document->element_count);
+    ALPI_TRY_NEW(p->context, p->rebound, p->document->element_count);
+    ALPI_TRY_NEW(p->context, p->named, p->document->element_count);
     ALP_TRY(alpi_collada_plan(p));
     ALP_TRY(alpi_collada_plan_effects(p));
     for (uint32_t c = 0; c < p->class_count; c++) {
         ALP_TRY(alpi_collada_patch_geometry(p, c));
     }
     ALP_TRY(alpi_collada_patch_instances(p));
+    alpi_collada_tidy_copies(p);
     alpi_collada_tidy_images(p);
     alpi_collada_add_images(p);
     add_to_library(p, "library_images", &p->images);
@@ -193,16 +178,20 @@ static alp_result run_patcher(alpi_collada_patcher *p)
 static alp_result print_document(alpi_collada_patcher *p, alpi_bytes *out)
 {
     const alpi_collada_document *d = p->document;
-    if (d->encoding == ALPI_XML_BYTES) {
-        if (d->has_mark) {
-            alpi_bytes_add(out, "\xEF\xBB\xBF", 3);
-        }
-        return alpi_edits_apply(&p->edits, (alpi_json_span){0, d->text_size}, out);
-    }
     alpi_bytes text = alpi_bytes_create(p->context);
     uint8_t *wide = NULL;
     size_t size = 0;
+    if (d->encoding == ALPI_XML_BYTES && d->has_mark) {
+        alpi_bytes_add(&text, "\xEF\xBB\xBF", 3);
+    }
     alp_result result = alpi_edits_apply(&p->edits, (alpi_json_span){0, d->text_size}, &text);
+    if (result == ALP_OK) {
+        alpi_collada_settle_prefix(p, &text);
+    }
+    if (result == ALP_OK && d->encoding == ALPI_XML_BYTES) {
+        *out = text;
+        return ALP_OK;
+    }
     if (result == ALP_OK) {
         result = alpi_utf16_encode(p->context, (const char *)text.bytes, text.size,
                                    d->encoding == ALPI_XML_UTF16_BE, &wide, &size);
@@ -331,7 +320,7 @@ static alp_result patch_and_write(writing *w, const alp_scene *scene)
                               .effects = alpi_bytes_create(w->context),
                               .materials = alpi_bytes_create(w->context)};
     alpi_bytes text = alpi_bytes_create(w->context);
-    choose_prefix(&p);
+    alpi_collada_choose_prefix(&p);
     alp_result result = alpi_collada_reader_create(origin->document, &p.reader);
     if (result == ALP_OK) {
         result = run_patcher(&p);
