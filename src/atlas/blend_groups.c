@@ -71,12 +71,7 @@ static uint32_t add_up(link *links, uint32_t count)
 
 static double room_of(const alpi_pack_item *item, uint32_t padding)
 {
-    const size_t words = (size_t)((item->width + 63) / 64) * item->height;
-    double texels = item->mask == NULL ? (double)item->width * item->height : 0.0;
-    for (size_t i = 0; item->mask != NULL && i < words; i++) {
-        texels += __builtin_popcountll(item->mask[i]);
-    }
-    return texels + padding * ((double)item->width + item->height);
+    return (double)alpi_pack_texels(item) + padding * ((double)item->width + item->height);
 }
 
 static uint32_t root_of(uint32_t *groups, uint32_t chart)

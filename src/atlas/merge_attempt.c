@@ -71,13 +71,21 @@ static bool is_good(const alpi_stretch *stretch)
     return !stretch->flipped && stretch->worst <= WORST_STRETCH && stretch->mean <= MEAN_STRETCH;
 }
 
+/// A number as a float has it. The compiler must go by memory: gcc 12 is known to leave out such
+/// ways there and back (regions.c), and what it lays out must not hang on that.
+static double round_to_float(double number)
+{
+    volatile const float stored = (float)number;
+    return (double)stored;
+}
+
 /// Whether no triangle is flipped once coordinates are floats.
 static bool stays_upright(const alpi_patch *patch)
 {
     for (uint32_t i = 0; i < patch->count; i++) {
         double p[3][2];
         for (int k = 0; k < 6; k++) {
-            p[k / 2][k % 2] = (double)(float)patch->at[patch->vertices[i][k / 2]][k % 2];
+            p[k / 2][k % 2] = round_to_float(patch->at[patch->vertices[i][k / 2]][k % 2]);
         }
         const double ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1];
         const double bx = p[2][0] - p[0][0], by = p[2][1] - p[0][1];

@@ -50,6 +50,16 @@ typedef struct order_entry {
     uint32_t longer, item;
 } order_entry;
 
+uint64_t alpi_pack_texels(const alpi_pack_item *item)
+{
+    const size_t words = (size_t)((item->width + 63) / 64) * item->height;
+    uint64_t texels = item->mask == NULL ? (uint64_t)item->width * item->height : 0;
+    for (size_t i = 0; item->mask != NULL && i < words; i++) {
+        texels += (uint64_t)__builtin_popcountll(item->mask[i]);
+    }
+    return texels;
+}
+
 static int compare_entries(const void *a, const void *b)
 {
     const order_entry *p = a, *q = b;
@@ -252,17 +262,6 @@ alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pa
     return result;
 }
 
-/// That an item covers.
-static uint64_t texels_of(const alpi_pack_item *item)
-{
-    const size_t words = (size_t)((item->width + 63) / 64) * item->height;
-    uint64_t texels = item->mask == NULL ? (uint64_t)item->width * item->height : 0;
-    for (size_t i = 0; item->mask != NULL && i < words; i++) {
-        texels += (uint64_t)__builtin_popcountll(item->mask[i]);
-    }
-    return texels;
-}
-
 alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules,
                               alpi_pack_item *items, uint32_t count, bool *fits)
 {
@@ -270,7 +269,7 @@ alp_result alpi_pack_one_page(alp_context *context, const alpi_pack_rules *rules
     uint64_t room = (uint64_t)rules->size * rules->size;
     *fits = false;
     for (uint32_t i = 0; i < count; i++) {
-        const uint64_t texels = texels_of(&items[i]);
+        const uint64_t texels = alpi_pack_texels(&items[i]);
         if (items[i].width > rules->size || items[i].height > rules->size || texels > room) {
             return ALP_OK;
         }
@@ -324,7 +323,7 @@ static alp_result order_groups(group_packer *g, const uint32_t *groups, uint32_t
     for (uint32_t i = 0; result == ALP_OK && i < count; i++) {
         pack_group *group = &g->groups[groups[i]];
         group->least = group->count++ == 0 ? i : group->least;
-        group->texels += texels_of(&g->items[i]);
+        group->texels += alpi_pack_texels(&g->items[i]);
     }
     for (uint32_t i = 0, first = 0; result == ALP_OK && i < count; i++) {
         g->groups[i].first = filled[i] = first;

@@ -72,6 +72,9 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 /// triangle_pages and info.pages.
 alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
 
+/// Texels that an item covers.
+uint64_t alpi_pack_texels(const alpi_pack_item *item);
+
 /// Packs like alpi_pack, but items of one group go to one page where one has room for all of them:
 /// the largest groups first. A group that no page holds is packed item by item.
 /// @param groups [count] of each item, less than count
