@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: MIT
 // The doctor's look for faces that lie in one plane, look the same way and share a part of their
 // place: which of them is seen is rounding. Those that share all corners are duplicates
-// (doctor_mesh.c).
+// (doctor_mesh.c). Where there are very many, some are asked whether they are seen, the larger ones
+// more likely.
+// Based on: N. Duffield, C. Lund, M. Thorup. Priority Sampling for Estimation of Arbitrary Subset
+// Sums. Journal of the ACM 54(6), 2007.
 #include "bake/doctor_pairs.h"
 #include "bake/doctor_rays.h"
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/tasks.h"
 #include "scene/double3.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /// What is shared is narrower than this: of the shorter triangle's longest edge, and of the
 /// rounding of coordinates. Edges that were meant to meet reach over each other by that much.
 static const double NARROW_OF_EDGE = 1e-3, NARROW_OF_ROUNDING = 16.0;
 /// Of a surface's area: less is what a square of a hundredth of its length has.
 static const double WORTH_A_WORD = 1e-4;
-/// Overlaps whose sight is asked; those that are found after them are not told, for most of so many
-/// lie where solids are joined, and nobody sees them.
-enum { SIGHT_LIMIT = 1 << 12, STREAM_OVERLAPS = 203, CORNERS = 6 };
+/// Overlaps whose sight is asked; the others are not told, for most of so many lie where solids are
+/// joined, and nobody sees them.
+enum { SIGHT_LIMIT = 1 << 14, STREAM_OVERLAPS = 203, CORNERS = 6, SIGHTS_PER_TICK = 1 << 10 };
 
 /// Of the rays of an overlap that nobody sees. Half, as of what is buried (doctor_sides.c), is more
 /// than where solids are joined closely: on the columns of builtin:atrium most rays meet fronts of
@@ -42,17 +47,28 @@ typedef struct overlap {
     double3 at;  // middle
 } overlap;
 
+/// An overlap whose sight may be asked.
+typedef struct candidate {
+    overlap shared;
+    uint32_t first, second; // triangles
+    uint64_t order;         // of its finding
+    double priority;        // those of the highest are asked
+} candidate;
+
 typedef struct search {
     const alp_scene *scene;
     const alpi_tracer *tracer;
+    candidate *kept; // [kept_count] a heap, the lowest priority first; in the end by order
+    size_t kept_count, kept_capacity;
+    uint64_t found;
+    double *sizes;   // [surface_count] m², 0: not known yet
     uint8_t *flags;  // [triangle_count] 1: lies in another one
     double *areas;   // [surface_count] m² that lie in others
     double *largest; // [surface_count] of one pair
     uint32_t *worst; // [surface_count] the later triangle of that pair
     uint32_t *with;  // [surface_count] surface of the other one
     float (*at)[3];  // [surface_count]
-    uint32_t sights;
-    bool all; // pairs were visited, and sights asked
+    bool all;        // pairs were visited, and sights asked
 } search;
 
 // --- two triangles -------------------------------------------------------------------------------
@@ -195,17 +211,16 @@ static bool find_overlap(const facet *a, const facet *b, double rounding, overla
 
 /// Whether an overlap is seen, as far as is asked: not inside of something, as surfaces are that
 /// are buried.
-static bool is_seen(search *s, uint32_t triangle, const facet *f, const overlap *o, double rounding)
+static bool is_seen(const search *s, const candidate *o)
 {
     uint32_t open = 0, backs = 0;
-    if (s->sights >= SIGHT_LIMIT) {
-        s->all = false;
-        return false;
-    }
-    s->sights++;
-    const double3 start = double3_add(o->at, double3_scale(f->normal, 4.0 * rounding));
-    const alpi_doctor_eye eye = {double3_to_vec3(start), double3_to_vec3(f->normal),
-                                 alpi_random_key(0, triangle, STREAM_OVERLAPS)};
+    vec3 c[3];
+    alpi_triangle_corners(s->scene, o->second, c);
+    const facet f = load_facet(s->scene, o->second);
+    const double3 start =
+        double3_add(o->shared.at, double3_scale(f.normal, 4.0 * alpi_doctor_rounding(c)));
+    const alpi_doctor_eye eye = {double3_to_vec3(start), double3_to_vec3(f.normal),
+                                 alpi_random_key(0, o->second, STREAM_OVERLAPS)};
     for (uint32_t first = 0; first < ALPI_DOCTOR_RAYS && open == 0; first += ALPI_PACKET) {
         alpi_doctor_hit hits[ALPI_PACKET];
         alpi_doctor_look(s->scene, s->tracer, &eye, first, hits);
@@ -215,6 +230,73 @@ static bool is_seen(search *s, uint32_t triangle, const facet *f, const overlap 
         }
     }
     return open > 0 || backs < BACKS_INSIDE;
+}
+
+// --- which are asked -----------------------------------------------------------------------------
+
+static double surface_area(search *s, uint32_t index)
+{
+    const alpi_surface *surface = &s->scene->surfaces[index];
+    if (s->sizes[index] > 0.0) {
+        return s->sizes[index];
+    }
+    for (uint32_t t = surface->first_triangle;
+         t < surface->first_triangle + surface->triangle_count; t++) {
+        vec3 c[3];
+        alpi_triangle_corners(s->scene, t, c);
+        s->sizes[index] +=
+            s->scene->triangle_usable[t] ? vec3_triangle_area(c[0], c[1], c[2]) : 0.0;
+    }
+    return s->sizes[index];
+}
+
+static bool is_lower(const candidate *a, const candidate *b)
+{
+    return a->priority != b->priority ? a->priority < b->priority : a->order > b->order;
+}
+
+static void swap(candidate *a, candidate *b)
+{
+    const candidate kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/// Keeps one of those of the highest priority that were found so far.
+static alp_result keep(search *s, const candidate *found)
+{
+    size_t at = 0;
+    if (s->kept_count < SIGHT_LIMIT) {
+        void *kept = s->kept;
+        ALP_TRY(alpi_grow(s->scene->context, &kept, &s->kept_capacity, s->kept_count + 1,
+                          sizeof *found));
+        s->kept = kept;
+        at = s->kept_count++;
+        s->kept[at] = *found;
+        for (; at > 0 && is_lower(&s->kept[at], &s->kept[(at - 1) / 2]); at = (at - 1) / 2) {
+            swap(&s->kept[at], &s->kept[(at - 1) / 2]);
+        }
+        return ALP_OK;
+    }
+    if (is_lower(found, &s->kept[0])) {
+        return ALP_OK;
+    }
+    s->kept[0] = *found;
+    for (size_t low = 1; low < s->kept_count; low = 2 * at + 1) {
+        low += low + 1 < s->kept_count && is_lower(&s->kept[low + 1], &s->kept[low]);
+        if (!is_lower(&s->kept[low], &s->kept[at])) {
+            break;
+        }
+        swap(&s->kept[low], &s->kept[at]);
+        at = low;
+    }
+    return ALP_OK;
+}
+
+static int compare_orders(const void *a, const void *b)
+{
+    const candidate *p = a, *q = b;
+    return (p->order > q->order) - (p->order < q->order);
 }
 
 // --- all of them ---------------------------------------------------------------------------------
@@ -254,19 +336,41 @@ static alp_result look_at_pair(void *user, uint32_t a, uint32_t b)
     overlap o;
     alpi_triangle_corners(s->scene, b, c);
     const double rounding = alpi_doctor_rounding(c);
-    if (is_twin(&first, &second) || !find_overlap(&first, &second, rounding, &o) ||
-        !is_seen(s, b, &second, &o, rounding)) {
+    if (is_twin(&first, &second) || !find_overlap(&first, &second, rounding, &o)) {
         return ALP_OK;
     }
-    const uint32_t surface = s->scene->triangle_surface[b];
-    s->flags[b] = 1;
-    s->areas[surface] += o.area;
-    if (o.area > s->largest[surface]) {
-        s->largest[surface] = o.area;
-        s->worst[surface] = b;
-        s->with[surface] = s->scene->triangle_surface[a];
-        vec3_store(s->at[surface], double3_to_vec3(o.at));
+    const uint64_t pair = alpi_hash64(alpi_hash64(STREAM_OVERLAPS) ^ ((uint64_t)a << 32 | b));
+    const double random = (double)((pair >> 11) + 1) * 0x1p-53; // (0, 1]
+    const double share = o.area / surface_area(s, s->scene->triangle_surface[b]);
+    const candidate found = {o, a, b, s->found++, share / random};
+    return keep(s, &found);
+}
+
+/// Notes the overlaps that are seen, of those that were kept.
+static alp_result look_at_kept(search *s)
+{
+    if (s->kept_count > 0) {
+        qsort(s->kept, s->kept_count, sizeof *s->kept, compare_orders);
     }
+    for (size_t i = 0; i < s->kept_count; i++) {
+        const candidate *o = &s->kept[i];
+        const uint32_t surface = s->scene->triangle_surface[o->second];
+        if (i % SIGHTS_PER_TICK == SIGHTS_PER_TICK - 1) {
+            ALP_TRY(alpi_tick(s->scene->context, "diagnose", i, s->kept_count));
+        }
+        if (!is_seen(s, o)) {
+            continue;
+        }
+        s->flags[o->second] = 1;
+        s->areas[surface] += o->shared.area;
+        if (o->shared.area > s->largest[surface]) {
+            s->largest[surface] = o->shared.area;
+            s->worst[surface] = o->second;
+            s->with[surface] = s->scene->triangle_surface[o->first];
+            vec3_store(s->at[surface], double3_to_vec3(o->shared.at));
+        }
+    }
+    s->all = s->all && s->found == s->kept_count;
     return ALP_OK;
 }
 
@@ -275,16 +379,11 @@ static void find_shares(const search *s, uint32_t *counts)
 {
     for (uint32_t i = 0; i < s->scene->surface_count; i++) {
         const alpi_surface *surface = &s->scene->surfaces[i];
-        double area = 0.0;
         for (uint32_t k = 0; k < surface->triangle_count && s->areas[i] > 0.0; k++) {
-            const uint32_t t = surface->first_triangle + k;
-            vec3 c[3];
-            alpi_triangle_corners(s->scene, t, c);
-            counts[i] += s->flags[t];
-            area += s->scene->triangle_usable[t] ? vec3_triangle_area(c[0], c[1], c[2]) : 0.0;
+            counts[i] += s->flags[surface->first_triangle + k];
         }
         // Where three lie in one place the later ones are counted twice.
-        const double share = area > 0.0 ? fmin(s->areas[i] / area, 1.0) : 0.0;
+        const double share = s->sizes[i] > 0.0 ? fmin(s->areas[i] / s->sizes[i], 1.0) : 0.0;
         s->areas[i] = share >= WORTH_A_WORD ? share : 0.0;
     }
 }
@@ -318,6 +417,7 @@ static alp_result look(alp_diagnosis *d, search *s)
     s->tracer = tracer;
     ALPI_TRY_NEW(d->context, s->flags, d->scene->triangle_count);
     ALPI_TRY_NEW(d->context, s->areas, count);
+    ALPI_TRY_NEW(d->context, s->sizes, count);
     ALPI_TRY_NEW(d->context, s->largest, count);
     ALPI_TRY_NEW(d->context, s->worst, count);
     ALPI_TRY_NEW(d->context, s->with, count);
@@ -325,6 +425,7 @@ static alp_result look(alp_diagnosis *d, search *s)
     bool visited = true;
     ALP_TRY(alpi_doctor_visit_pairs(d->scene, look_at_pair, s, &visited));
     s->all = s->all && visited;
+    ALP_TRY(look_at_kept(s));
     uint32_t *counts = ALPI_NEW(d->context, uint32_t, count);
     const alp_result result = counts != NULL ? tell(d, s, counts) : ALP_ERROR_OUT_OF_MEMORY;
     alpi_release(d->context, counts);
@@ -338,7 +439,7 @@ alp_result alpi_doctor_look_at_overlaps(alp_diagnosis *diagnosis)
     }
     search s = {.scene = diagnosis->scene, .all = true};
     const alp_result result = look(diagnosis, &s);
-    void *const own[] = {s.flags, s.areas, s.largest, s.worst, s.with, s.at};
+    void *const own[] = {s.kept, s.sizes, s.flags, s.areas, s.largest, s.worst, s.with, s.at};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         alpi_release(diagnosis->context, own[i]);
     }

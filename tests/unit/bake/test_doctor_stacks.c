@@ -9,9 +9,8 @@
 
 /// Sheets of 1 m upon each other, each a little larger than the one before: all of them overlap all
 /// others. With a box round them nobody sees them.
-static alp_scene *make_stack(alp_context *context, uint32_t sheets, bool boxed)
+static void add_stack(test_mesh *mesh, uint32_t sheets, bool boxed)
 {
-    test_mesh *mesh = test_mesh_start();
     for (uint32_t i = 0; i < sheets; i++) {
         const double side = 1.0 + 1e-5 * i;
         const uint32_t a = test_mesh_vertex(mesh, 0.0, 0.0, 0.0);
@@ -27,6 +26,12 @@ static alp_scene *make_stack(alp_context *context, uint32_t sheets, bool boxed)
         test_mesh_quad(mesh, (double[]){2, -1, -2}, y, z);
         test_mesh_quad(mesh, (double[]){-1, -1, 1}, x, y);
     }
+}
+
+static alp_scene *make_stack(alp_context *context, uint32_t sheets, bool boxed)
+{
+    test_mesh *mesh = test_mesh_start();
+    add_stack(mesh, sheets, boxed);
     return test_mesh_scene(context, mesh, 0);
 }
 
@@ -68,7 +73,7 @@ static void stacks_take_no_square_of_time(void **state)
     }
 }
 
-/// Overlaps beyond those whose sight is asked are not told: 91 sheets have 4095, 92 have 4186.
+/// Overlaps beyond those whose sight is asked are not told: 181 sheets have 16290, 182 have 16471.
 /// Where something is told, it says that it is not all.
 static void many_overlaps_are_told_in_part(void **state)
 {
@@ -77,10 +82,10 @@ static void many_overlaps_are_told_in_part(void **state)
         uint32_t sheets;
         bool boxed;
         const char *begins;
-    } cases[] = {{91, false, "90 of 91 tri"},
-                 {92, false, "at least "},
-                 {91, true, ""},
-                 {200, true, ""},
+    } cases[] = {{181, false, "180 of 181 tri"},
+                 {182, false, "at least "},
+                 {181, true, ""},
+                 {400, true, ""},
                  {50000, false, "at least "}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_context *context = test_context(1);
@@ -98,11 +103,57 @@ static void many_overlaps_are_told_in_part(void **state)
     }
 }
 
+/// Pairs of sheets that lie upon each other in the open, at x and beyond.
+static void add_pairs(test_mesh *mesh, uint32_t pairs, double x)
+{
+    for (uint32_t i = 0; i < pairs; i++) {
+        for (int k = 0; k < 2; k++) {
+            const double side = 1.0 + 0.125 * k, left = x + 2.0 * i;
+            const uint32_t a = test_mesh_vertex(mesh, left, 0.0, 0.0);
+            const uint32_t b = test_mesh_vertex(mesh, left + side, 0.0, 0.0);
+            test_mesh_triangle(mesh, a, b, test_mesh_vertex(mesh, left, 0.0, -side));
+        }
+    }
+}
+
+/// What is seen is told, however many overlaps nobody sees, wherever it is found among them. A pair
+/// that is half of its surface has more weight than any of 79,800 in a box; of 64 like those in
+/// theirs, each is asked with a chance of .2, and none once in 10⁶.
+static void the_hidden_do_not_use_up_the_looks(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        test_mesh *mesh = test_mesh_start();
+        add_stack(mesh, 400, true);
+        const uint32_t hidden = mesh->triangle_count;
+        add_pairs(mesh, i < 2 ? 1 : 64, i % 2 == 0 ? -200.0 : 10.0);
+        const uint32_t first = i < 2 ? hidden : mesh->triangle_count; // or all in one surface
+        alp_mesh meshes[2] = {{.name = "box",
+                               .positions = mesh->positions[0],
+                               .indices = mesh->triangles[0],
+                               .vertex_count = mesh->vertex_count,
+                               .triangle_count = first}};
+        meshes[1] = meshes[0];
+        meshes[1].indices = mesh->triangles[hidden];
+        meshes[1].triangle_count = mesh->triangle_count - first;
+        alp_context *context = test_context(1);
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, i < 2 ? 2 : 1, &scene));
+        alp_diagnosis *d = NULL;
+        ASSERT_OK(context, alp_scene_diagnose(scene, NULL, &d));
+        assert_true(strncmp(coplanar_in(d), "at least ", 9) == 0);
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stacks_take_no_square_of_time),
         cmocka_unit_test(many_overlaps_are_told_in_part),
+        cmocka_unit_test(the_hidden_do_not_use_up_the_looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
