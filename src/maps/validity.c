@@ -76,13 +76,13 @@ static alp_result list_scouts(const validity_job *job, int octave, uint32_t *lis
     return ALP_OK;
 }
 
-/// Occlusion over a short distance, in mean sides of the listed texels. Its random numbers are
-/// always the same: which texels are looked at, and so what a map converges to, must not hang on
-/// the seed of the bake.
+/// Occlusion over a short distance, in mean sides of the listed texels. Nothing of it is the
+/// bake's: which texels are looked at, and so what a map converges to, must not hang on the seed,
+/// nor on what is asked of another map (its cone, how many rays, whether these are quick).
 static alp_result make_short_setup(const validity_job *job, const uint32_t *list, uint32_t count,
                                    alpi_occlusion_setup *setup)
 {
-    alpi_occlusion_setup near = *job->setup;
+    alp_occlusion_options near = alp_occlusion_options_default();
     double area = 0.0, coverage = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         area += (double)job->texels->areas[list[i]];
@@ -90,10 +90,9 @@ static alp_result make_short_setup(const validity_job *job, const uint32_t *list
     }
     near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
     near.falloff = ALP_FALLOFF_NONE;
-    near.bent = false;
-    near.filter = (alpi_trace_filter){.quick = job->setup->filter.quick};
     near.samples = NEAR_SAMPLES;
-    return alpi_occlusion_prepare_again(&near, NEAR_SEED, setup);
+    near.seed = NEAR_SEED;
+    return alpi_occlusion_prepare(job->setup->scene, job->setup->tracer, &near, setup);
 }
 
 /// A texel is near something when one of the scouts around it in its chart is, or there is none.
