@@ -244,6 +244,7 @@ static void collada_has_three_sets(void **state)
         assert_int_equal(alpi_scene_set_is_blended(written, set), set >= first);
     }
     assert_true(file_has(output, "ALPENGLOW_2"));
+    check_blend(written, lightmap);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(written);
     alp_scene_destroy(scene);
