@@ -115,13 +115,13 @@ static uint8_t find_turn(const alp_scene *a, uint32_t triangle, const alp_scene 
     float p[3][3], q[3][3];
     read_corners(a, triangle, p);
     read_corners(b, other, q);
-    for (uint8_t turn = 0; turn < OTHERS; turn++) {
+    for (uint32_t turn = 0; turn < OTHERS; turn++) {
         bool same = true;
         for (int i = 0; i < 9; i++) {
-            same = same && p[i / 3][i % 3] == q[(i / 3 + turn) % 3][i % 3];
+            same = same && p[i / 3][i % 3] == q[((uint32_t)i / 3 + turn) % 3][i % 3];
         }
         if (same) {
-            return turn;
+            return (uint8_t)turn;
         }
     }
     return OTHERS;

@@ -66,7 +66,7 @@ static alp_result add_image(reading *r, const origin *from, const char *owner)
 /// The place of an image in the list, which has as many as there are pages.
 static alp_result find_image(reading *r, const origin *from, const char *owner, uint32_t *place)
 {
-    for (*place = 0; *place < r->maps->image_count; ++*place) {
+    for (*place = 0; r->origins != NULL && *place < r->maps->image_count; ++*place) {
         const origin *known = &r->origins[*place];
         const bool same = from->uri == NULL
                               ? known->uri == NULL && known->image == from->image

@@ -471,6 +471,37 @@ static void faults_are_named(void **state)
     alp_context_destroy(context);
 }
 
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    int left = 1 << 20, failures = 0;
+    alp_context *context = test_context_failing(&left);
+    baked b = bake(context, ALP_ATLAS_BLEND, EXTRAS, "failing");
+    alp_scene *first = NULL, *second = NULL;
+    ASSERT_OK(context, alp_scene_load(context, b.path, &first));
+    ASSERT_OK(context, alp_scene_load(context, b.path, &second));
+    for (uint32_t t = 0; t < second->triangle_count; t++) { // so that they are sorted too
+        const uint32_t *c = second->triangles[t], turned[3] = {c[1], c[2], c[0]};
+        memcpy(second->triangles[t], turned, sizeof turned);
+    }
+    const alp_map_compare_options options = few_points();
+    for (int room = 0; room < 1000; room++, failures++) {
+        alp_map_difference d;
+        left = room;
+        const alp_result result = alp_scene_compare_maps(first, second, &options, &d);
+        left = 1 << 20;
+        if (result == ALP_OK) {
+            break;
+        }
+        assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+    }
+    assert_in_range(failures, 10, 999);
+    alp_scene_destroy(first);
+    alp_scene_destroy(second);
+    release(&b);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -483,6 +514,7 @@ int main(void)
         cmocka_unit_test(the_largest_is_found),
         cmocka_unit_test(pages_do_not_matter),
         cmocka_unit_test(faults_are_named),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
