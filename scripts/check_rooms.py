@@ -35,7 +35,8 @@ PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
     "occlusion": "transport",
-    "bake": "maps", "render": "render", "report": "bake", "doctor": "bake", "alpenglow": "bake",
+    "bake": "maps", "render": "render", "report": "bake", "doctor": "bake", "compare": "bake",
+    "alpenglow": "bake",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)

@@ -142,7 +142,9 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
 }
 
 /// How far the sides of seams are apart, of one map.
-static void print_seam_error(const alp_seam_report *s, const char *map, const alp_seam_error *e)
+/// @param noise the map's stated error, over its mean, for comparison; not finite: unknown
+static void print_seam_error(const alp_seam_report *s, const char *map, const alp_seam_error *e,
+                             double noise)
 {
     if (isfinite(e->mean)) {
         printf("; %s %.2g %% of the mean, 99 %% within %.2g %%", map, 100.0 * e->mean,
@@ -151,6 +153,9 @@ static void print_seam_error(const alp_seam_report *s, const char *map, const al
     if (isfinite(e->mean) && s->stitched) {
         printf(", stitched %.2g %%, within %.2g %%", 100.0 * e->stitched_mean,
                100.0 * e->stitched_p99);
+    }
+    if (isfinite(e->mean) && isfinite(noise)) {
+        printf(", noise %.2g %%", 100.0 * noise);
     }
 }
 
@@ -163,13 +168,13 @@ static void print_seams(const alp_bake_report *r)
     }
     printf("seams      %.4g m along %u edges", s->length, s->count);
     if ((r->maps & ALP_MAP_AO) != 0) {
-        print_seam_error(s, "occlusion", &s->ao);
+        print_seam_error(s, "occlusion", &s->ao, r->ao_relative_error);
     }
     if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        print_seam_error(s, "obscurance", &s->obscurance);
+        print_seam_error(s, "obscurance", &s->obscurance, (double)NAN);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        print_seam_error(s, "light", &s->light);
+        print_seam_error(s, "light", &s->light, r->light_relative_error);
     }
     printf("\n");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// alpenglow compare: how two images differ.
+// alpenglow compare: how two images differ, or the maps of two baked assets.
+#include "compare_assets.h"
 #include "messages.h"
 #include "options.h"
 #include "output.h"
@@ -110,9 +111,42 @@ static int check_outputs(const command_line *arguments)
     return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
 }
 
+/// Options of the one that are given to the other are refused and never ignored.
+static int check_kinds(const command_line *a)
+{
+    const bool scenes = compare_is_scene(a->operands[0]);
+    static const struct {
+        const char *name;
+        option_id id;
+        bool of_scenes;
+    } options[] = {{"--map", OPTION_MAP, true},
+                   {"--points", OPTION_POINTS, true},
+                   {"--heatmap", OPTION_HEATMAP, false}};
+    if (scenes != compare_is_scene(a->operands[1])) {
+        return usage_error(COMMAND_COMPARE, "%s is a scene and %s is none; give two of a kind",
+                           a->operands[scenes ? 0 : 1], a->operands[scenes ? 1 : 0]);
+    }
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        if (a->values[options[i].id].given && options[i].of_scenes != scenes) {
+            return usage_error(COMMAND_COMPARE, "%s: has no meaning with two %s", options[i].name,
+                               scenes ? "scenes" : "images");
+        }
+    }
+    return EXIT_DONE;
+}
+
+static int run(comparison *c, const command_line *arguments)
+{
+    return compare_is_scene(arguments->operands[0]) ? compare_assets(c->context, arguments)
+                                                    : compare(c, arguments);
+}
+
 int command_compare(const command_line *arguments)
 {
-    int code = check_outputs(arguments);
+    int code = check_kinds(arguments);
+    if (code == EXIT_DONE) {
+        code = check_outputs(arguments);
+    }
     if (code != EXIT_DONE) {
         return code;
     }
@@ -121,7 +155,7 @@ int command_compare(const command_line *arguments)
     alp_context_options options = alp_context_options_default();
     options.log = messages_log;
     options.log_user = &messages;
-    code = alp_context_create(&options, &c.context) == ALP_OK ? compare(&c, arguments)
+    code = alp_context_create(&options, &c.context) == ALP_OK ? run(&c, arguments)
                                                               : failure("out of memory");
     alp_image_destroy(c.a);
     alp_image_destroy(c.b);

@@ -24,12 +24,14 @@ static const command_entry commands[COMMAND_COUNT] = {
                       "do not change the exit status."},
     [COMMAND_COMPARE] =
         {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
-         "say how two images differ", 2, command_compare,
+         "say how two images or two bakes differ", 2, command_compare,
          "Compares the images A and B (.exr, .hdr, .png, .jpg) of equal size, over the pixels that "
          "are "
          "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
          "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
-         "largest of |A - B| and where it is."},
+         "largest of |A - B| and where it is. Or compares a map of two scenes of the same "
+         "triangles (.glb, .gltf, .dae, .obj) over their surface, each read by its own "
+         "coordinates as a viewer reads it, those of --atlas blend blended."},
     [COMMAND_BENCH] =
         {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", -1,
          command_bench,

@@ -69,7 +69,8 @@ completion completion_of_operand(command_id command)
         }
         append(c.endings, "glb gltf obj dae zae", strlen("glb gltf obj dae zae"));
     } else if (command == COMMAND_COMPARE) {
-        append(c.endings, "exr hdr png jpg jpeg", strlen("exr hdr png jpg jpeg"));
+        static const char endings[] = "exr hdr png jpg jpeg glb gltf obj dae zae";
+        append(c.endings, endings, strlen(endings));
     }
     return c;
 }

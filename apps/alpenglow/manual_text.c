@@ -37,14 +37,19 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                                    {"For a program to read:",
                                     "alpenglow info builtin:cornell --json"}}},
     [COMMAND_COMPARE] =
-        {.failed = "A file could not be read or written, the images differ in size, or they differ "
-                   "by more than --max-rmse allows.",
-         .files = {{"A, B", "Images to read: .exr, .hdr, .png or .jpg."},
+        {.failed =
+             "A file could not be read or written, the images differ in size or the scenes in "
+             "their triangles, a scene has no map, or they differ by more than --max-rmse "
+             "allows.",
+         .files = {{"A, B", "Images to read: .exr, .hdr, .png or .jpg; or scenes: .glb, .gltf, "
+                            ".dae, .zae or .obj."},
                    {"PNG", "The picture of the difference."}},
          .examples = {{"Hold two bakes against each other, as a test does:",
                        "alpenglow compare maps/ao.exr maps/ao.exr --max-rmse 0.01"},
                       {"See where they differ:",
-                       "alpenglow compare maps/ao.exr maps/ao.exr --heatmap difference.png"}}},
+                       "alpenglow compare maps/ao.exr maps/ao.exr --heatmap difference.png"},
+                      {"Hold the maps of two assets against each other:",
+                       "alpenglow compare baked.glb baked.glb --map ao"}}},
     [COMMAND_BENCH] =
         {.failed = "The program that measures, alpenglow-bench, is not installed, or a scene could "
                    "not be read.",

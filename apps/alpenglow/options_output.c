@@ -116,7 +116,8 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--heatmap",
      .value = "PNG",
-     .help = "Write a picture of |A - B|: black 0, white the 99th percentile and above, magenta "
+     .help = "Write a picture of |A - B| of two images: black 0, white the 99th percentile and "
+             "above, magenta "
              "covered in one only."},
     {.id = OPTION_FORCE,
      .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE,

@@ -186,7 +186,31 @@ static const option rows[] = {
      .value = "X",
      .minimum = 0,
      .maximum = 1e9,
-     .help = "Exit with 1 when rmse is above X, or when no pixel is covered in both."},
+     .help = "Exit with 1 when rmse is above X, or when no pixel (of scenes: point) is covered in "
+             "both."},
+    {.id = OPTION_MAP,
+     .commands = IN_COMPARE,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--map",
+     .value = "ao|light",
+     .choices = "ao|light",
+     .help =
+         "Of two scenes: which map. ao: what occlusion textures say. light: MOZ_lightmap or the "
+         "file of extras.lightmap (.exr, .hdr), times its intensity, else what materials with "
+         "an emission texture emit; each as the file has it (--units). Without it ao where "
+         "both have it, else light."},
+    {.id = OPTION_POINTS,
+     .commands = IN_COMPARE,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--points",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 16777216,
+     .initial = "262144",
+     .help = "Of two scenes: at how many places of the surface they are read, each of the same "
+             "area."},
 };
 
 const option_part option_part_what = {rows, sizeof rows / sizeof *rows};

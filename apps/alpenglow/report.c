@@ -186,7 +186,9 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
-static void add_seam_error(json_t *maps, const char *map, bool stitched, const alp_seam_error *e)
+/// @param noise the map's stated error, over its mean, which seams stand beside; not finite: null
+static void add_seam_error(json_t *maps, const char *map, bool stitched, const alp_seam_error *e,
+                           double noise)
 {
     json_t *object =
         json_pack("{s:o, s:o}", "mean", json_number(e->mean), "p99", json_number(e->p99));
@@ -196,6 +198,7 @@ static void add_seam_error(json_t *maps, const char *map, bool stitched, const a
         json_object_set_new(object, "change_rms", json_number(e->change_rms));
         json_object_set_new(object, "change_max", json_number(e->change_max));
     }
+    json_object_set_new(object, "noise", json_number(noise));
     json_object_set_new(maps, map, object);
 }
 
@@ -204,13 +207,14 @@ static json_t *make_seams(const alp_bake_report *r)
 {
     json_t *maps = json_object();
     if ((r->maps & ALP_MAP_AO) != 0) {
-        add_seam_error(maps, "ao", r->seams.stitched, &r->seams.ao);
+        add_seam_error(maps, "ao", r->seams.stitched, &r->seams.ao, r->ao_relative_error);
     }
     if ((r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        add_seam_error(maps, "obscurance", r->seams.stitched, &r->seams.obscurance);
+        add_seam_error(maps, "obscurance", r->seams.stitched, &r->seams.obscurance, (double)NAN);
     }
     if ((r->maps & ALP_MAP_LIGHT) != 0) {
-        add_seam_error(maps, "irradiance", r->seams.stitched, &r->seams.light);
+        add_seam_error(maps, "irradiance", r->seams.stitched, &r->seams.light,
+                       r->light_relative_error);
     }
     return json_pack("{s:I, s:o, s:o}", "edges", (json_int_t)r->seams.count, "length",
                      json_number(r->seams.length), "maps", maps);

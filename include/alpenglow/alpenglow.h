@@ -5,6 +5,7 @@
 
 #include <alpenglow/atlas.h>
 #include <alpenglow/bake.h>
+#include <alpenglow/compare.h>
 #include <alpenglow/context.h>
 #include <alpenglow/display.h>
 #include <alpenglow/doctor.h>

@@ -112,8 +112,9 @@ static void put_energy(alpi_page *page, const alp_light_energy *e)
                      alpi_significant(e->unshot, 2).text);
 }
 
+/// @param noise the map's stated error, over its mean, for comparison; not finite: unknown
 static void put_seam_error(alpi_page *page, const char *name, bool stitched,
-                           const alp_seam_error *e)
+                           const alp_seam_error *e, double noise)
 {
     if (!isfinite(e->mean)) {
         return;
@@ -123,6 +124,9 @@ static void put_seam_error(alpi_page *page, const char *name, bool stitched,
     if (stitched) {
         alpi_page_format(page, "; stitched %s and %s", alpi_percent(e->stitched_mean).text,
                          alpi_percent(e->stitched_p99).text);
+    }
+    if (isfinite(noise)) {
+        alpi_page_format(page, "; the map's noise is %s", alpi_percent(noise).text);
     }
     alpi_page_put(page, "</dd>\n");
 }
@@ -137,13 +141,16 @@ static void put_seams(alpi_page *page, const alp_bake_report *r)
     alpi_page_format(page, "<dt>Seams</dt><dd>%s m, along %s edges</dd>\n",
                      alpi_significant(s->length, 4).text, alpi_grouped(s->count).text);
     if (s->count > 0 && (r->maps & ALP_MAP_AO) != 0) {
-        put_seam_error(page, "Steps of occlusion at seams", s->stitched, &s->ao);
+        put_seam_error(page, "Steps of occlusion at seams", s->stitched, &s->ao,
+                       r->ao_relative_error);
     }
     if (s->count > 0 && (r->maps & ALP_MAP_OBSCURANCE) != 0) {
-        put_seam_error(page, "Steps of obscurance at seams", s->stitched, &s->obscurance);
+        put_seam_error(page, "Steps of obscurance at seams", s->stitched, &s->obscurance,
+                       (double)NAN);
     }
     if (s->count > 0 && (r->maps & ALP_MAP_LIGHT) != 0) {
-        put_seam_error(page, "Steps of irradiance at seams", s->stitched, &s->light);
+        put_seam_error(page, "Steps of irradiance at seams", s->stitched, &s->light,
+                       r->light_relative_error);
     }
 }
 

@@ -387,24 +387,48 @@ static uint32_t find_set(alpi_collada_reader *reader, const xmlNode *binding,
     return only;
 }
 
-/// Our sets that an earlier bake bound as three that a shader blends, a bit each.
-static uint8_t find_blend_sets(const alpi_collada_reader *reader, const xmlNode *binding,
-                               const alpi_collada_part *part)
+/// Our set of a number of the file's; ALPI_NONE: it is not kept.
+static uint32_t kept_set(const alpi_collada_part *part, double number)
+{
+    for (uint32_t k = 0; k < part->inputs.uv_count && k < ALPI_UV_SET_LIMIT; k++) {
+        if ((double)part->inputs.uv_numbers[k] == number) {
+            return k;
+        }
+    }
+    return ALPI_NONE;
+}
+
+static void blend_texture(const uint8_t slots[3], alpi_texture *texture)
+{
+    texture->blended = texture->image != ALPI_NONE && texture->uv_set == slots[0];
+    memcpy(texture->slots, slots, sizeof texture->slots);
+}
+
+/// Sets that an earlier bake bound as three that a shader blends: maps that are read with the first
+/// are read with all of them, as far as all are kept.
+static void read_blend(const alpi_collada_reader *reader, const xmlNode *binding,
+                       const alpi_collada_part *part, alpi_material *material)
 {
     static const char *const names[] = {ALPI_COLLADA_BAKED_UV, ALPI_COLLADA_BAKED_UV "_1",
                                         ALPI_COLLADA_BAKED_UV "_2"};
-    uint8_t found = 0;
+    uint8_t slots[3], bits = 0;
+    bool all = true;
     for (int i = 0; i < 3; i++) {
         const xmlNode *bind = alpi_collada_bound_to(reader->document, binding, names[i]);
         double number = 0.0;
         if (bind == NULL || !bound_number(bind, &number)) {
-            return 0;
+            return;
         }
-        for (uint32_t k = 0; k < part->inputs.uv_count && k < ALPI_UV_SET_LIMIT; k++) {
-            found |= (uint8_t)((double)part->inputs.uv_numbers[k] == number ? 1u << k : 0u);
-        }
+        const uint32_t set = kept_set(part, number);
+        all = all && set != ALPI_NONE;
+        slots[i] = (uint8_t)(set != ALPI_NONE ? set : 0);
+        bits |= (uint8_t)(set != ALPI_NONE ? 1u << set : 0u);
     }
-    return found;
+    material->blend_sets |= bits;
+    if (all) {
+        blend_texture(slots, &material->occlusion_texture);
+        blend_texture(slots, &material->emission_texture);
+    }
 }
 
 /// A scene material of that element and those sets: found again, or made.
@@ -470,7 +494,7 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                               find_set(reader, binding, part, &effect->transparent),
                               find_set(reader, binding, part, &effect->ambient)};
     ALP_TRY(get_material(reader, element, effect, sets, material));
-    reader->scene->materials[*material].blend_sets |= find_blend_sets(reader, binding, part);
+    read_blend(reader, binding, part, &reader->scene->materials[*material]);
     return ALP_OK;
 }
 

@@ -275,6 +275,7 @@ static alp_result fill_surface(filling *f, alpi_collada_surface *origin)
                         .first_triangle = scene->triangle_count,
                         .triangle_count = f->part->triangle_count,
                         .uv_sets = f->part->inputs.uv_count,
+                        .uv_slots = (uint8_t)((1u << f->part->inputs.uv_count) - 1u),
                         .mirrored = mat4_determinant3(&f->placement->world) < 0.0,
                         .normals_generated =
                             f->part->inputs.source[ALPI_COLLADA_NORMAL] == ALPI_NONE};

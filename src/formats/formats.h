@@ -36,6 +36,24 @@ typedef struct alpi_image_source {
 alp_result alpi_gltf_image_source(const alp_scene *scene, uint32_t image,
                                   alpi_image_source *source);
 
+/// A map of light that a material shows.
+typedef struct alpi_light_map {
+    alpi_texture texture; // image: index into the list of images, ALPI_NONE = no map
+    float scale;          // what texels are multiplied by
+} alpi_light_map;
+typedef struct alpi_light_maps {
+    alpi_light_map *maps; // [materials of the scene]
+    uint32_t image_count;
+    alp_image **images; // [image_count], linear
+} alpi_light_maps;
+/// Reads the maps of light that the materials of a scene's document name for viewers: MOZ_lightmap,
+/// else extras.lightmap. A scene without a document has none. Such images are not kept with the
+/// scene, which has no use for them.
+/// @param maps out; released by alpi_light_maps_release, also on failure
+/// @return ALP_OK; what reading an image gives; UNSUPPORTED (a KTX2)
+alp_result alpi_gltf_read_light_maps(const alp_scene *scene, alpi_light_maps *maps);
+void alpi_light_maps_release(alp_context *context, alpi_light_maps *maps);
+
 /// Writes the scene's document with the patch to `path` (.glb or .gltf by its ending). A scene that
 /// came from no file is first exported to glTF. Its files are added to a set, the asset last.
 alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,

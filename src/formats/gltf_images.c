@@ -51,24 +51,33 @@ static alp_result find_bytes(const alpi_gltf_document *document, size_t index, c
     return ALP_OK;
 }
 
-static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_image **image)
+alp_result alpi_gltf_decode_image(const alpi_gltf_document *document, size_t index,
+                                  alp_image **image)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
     snprintf(owner, sizeof owner, "image %zu", index);
     alpi_gltf_view view = {0};
     uint8_t *owned = NULL;
-    alp_result result = find_bytes(reader->document, index, owner, &view, &owned);
+    alp_result result = find_bytes(document, index, owner, &view, &owned);
     if (result == ALP_OK) {
-        char *name = alpi_format(reader->context, "%s: %s", reader->document->path, owner);
+        char *name = alpi_format(document->context, "%s: %s", document->path, owner);
         result = name == NULL
                      ? ALP_ERROR_OUT_OF_MEMORY
-                     : alpi_image_decode(reader->context, name, view.bytes, view.size, image);
-        alpi_release(reader->context, name);
+                     : alpi_image_decode(document->context, name, view.bytes, view.size, image);
+        alpi_release(document->context, name);
     }
-    alpi_release(reader->context, owned);
+    alpi_release(document->context, owned);
+    return result;
+}
+
+static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_image **image)
+{
+    const alp_result result = alpi_gltf_decode_image(reader->document, index, image);
     if (result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY) {
         return result;
     }
+    char owner[ALPI_GLTF_OWNER_SIZE];
+    snprintf(owner, sizeof owner, "image %zu", index);
     char reason[512];
     snprintf(reason, sizeof reason, "%s", alp_context_message(reader->context));
     alpi_gltf_clean(reason);

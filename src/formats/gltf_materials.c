@@ -102,6 +102,13 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
     return ALP_OK;
 }
 
+alp_result alpi_gltf_read_texture(const alpi_gltf_reader *reader, json_t *object,
+                                  const char *member, const char *owner, alpi_texture *texture)
+{
+    const source from = {reader, object, owner};
+    return read_texture(&from, object, member, texture);
+}
+
 static alp_result read_color(const source *from, json_t *object, const char *member, float rgba[4])
 {
     double values[4] = {1.0, 1.0, 1.0, 1.0};
@@ -194,59 +201,78 @@ static bool stands_for_none(const source *from)
     return json_is_string(mark) && strcmp(json_string_value(mark), ALPI_GLTF_NO_MATERIAL) == 0;
 }
 
-/// Which of our sets an attribute is; ALPI_NONE: none of them.
-static uint32_t set_of(const char *name)
+/// The slot that an attribute is kept in; ALPI_NONE: in none.
+static uint32_t slot_of(const char *name)
 {
-    static const char word[] = "TEXCOORD_";
-    const bool known = name != NULL && strncmp(name, word, sizeof word - 1) == 0 &&
-                       name[sizeof word - 1] >= '0' && name[sizeof word - 1] <= '3' &&
-                       name[sizeof word] == '\0';
-    return known ? (uint32_t)(name[sizeof word - 1] - '0') : ALPI_NONE;
+    for (uint32_t slot = 0; slot < ALPI_UV_SLOT_COUNT && name != NULL; slot++) {
+        char known[ALPI_GLTF_OWNER_SIZE];
+        alpi_gltf_slot_name(slot, known, sizeof known);
+        if (strcmp(name, known) == 0) {
+            return slot;
+        }
+    }
+    return ALPI_NONE;
 }
 
-static bool names_occlusion(json_t *blend)
+static bool names_map(json_t *blend, const char *map)
 {
     json_t *maps = json_object_get(blend, "maps");
     for (size_t i = 0; i < json_array_size(maps); i++) {
         const char *name = json_string_value(json_array_get(maps, i));
-        if (name != NULL && strcmp(name, "occlusionTexture") == 0) {
+        if (name != NULL && strcmp(name, map) == 0) {
             return true;
         }
     }
     return false;
 }
 
-/// Three sets of one bake, and whether occlusion is read with them.
-static void read_sets(json_t *blend, alpi_material *material)
+/// Three slots of one bake, a bit each. @return whether all of them are kept
+static bool read_slots(json_t *blend, uint8_t slots[3], uint8_t *bits)
 {
     json_t *sets = json_object_get(blend, "sets");
-    const bool occlusion = names_occlusion(blend);
     bool known = true;
     for (size_t k = 0; k < 3; k++) {
-        const uint32_t set = set_of(json_string_value(json_array_get(sets, k)));
-        known = known && set != ALPI_NONE;
-        if (occlusion) {
-            material->occlusion_sets[k] = set != ALPI_NONE ? set : 0;
-        }
-        material->blend_sets |= (uint8_t)(set != ALPI_NONE ? 1u << set : 0u);
+        const uint32_t slot = slot_of(json_string_value(json_array_get(sets, k)));
+        known = known && slot != ALPI_NONE;
+        slots[k] = (uint8_t)(slot != ALPI_NONE ? slot : 0);
+        *bits |= (uint8_t)(slot != ALPI_NONE ? 1u << slot : 0u);
     }
-    if (occlusion) {
-        material->occlusion_blended =
-            known && material->occlusion_sets[0] == material->occlusion_texture.uv_set;
-    }
+    return known;
 }
 
-/// Maps of charts that overlap, after the texture is read. Where not all of its sets were kept,
-/// the first alone is read, which is a map too; and where the texture is read with another set,
-/// somebody has put a map of his own there.
+/// What the extras of a material say of a bake with overlapping charts: the newest (number 0), or
+/// one before it; NULL past the last.
+static json_t *blend_of(json_t *material, size_t number)
+{
+    json_t *blend = json_object_get(json_object_get(material, "extras"), ALPI_GLTF_BLEND);
+    return number == 0 ? blend
+                       : json_array_get(json_object_get(blend, ALPI_GLTF_EARLIER), number - 1);
+}
+
+/// Where not all sets of a map are kept, the first alone is read, which is a map too; and where the
+/// texture is read with another set, somebody has put a map of his own there.
+void alpi_gltf_blend_texture(json_t *material, const char *map, alpi_texture *texture)
+{
+    json_t *blend = blend_of(material, 0);
+    for (size_t i = 0; blend != NULL && !names_map(blend, map);) {
+        blend = blend_of(material, ++i);
+    }
+    uint8_t bits = 0;
+    texture->blended = blend != NULL && read_slots(blend, texture->slots, &bits) &&
+                       texture->slots[0] == texture->uv_set;
+}
+
+/// After the textures are read.
 static void read_blend(const source *from, alpi_material *material)
 {
-    json_t *blend = json_object_get(json_object_get(from->object, "extras"), ALPI_GLTF_BLEND);
-    json_t *earlier = json_object_get(blend, ALPI_GLTF_EARLIER);
-    for (size_t i = json_array_size(earlier); i-- > 0;) { // the newest stands first: it counts
-        read_sets(json_array_get(earlier, i), material);
+    uint8_t slots[3];
+    json_t *blend = blend_of(from->object, 0);
+    for (size_t i = 0; blend != NULL;) {
+        read_slots(blend, slots, &material->blend_sets);
+        blend = blend_of(from->object, ++i);
     }
-    read_sets(blend, material);
+    alpi_gltf_blend_texture(from->object, "occlusionTexture", &material->occlusion_texture);
+    alpi_gltf_blend_texture(from->object, "emissiveTexture", &material->emission_texture);
 }
 
 static alp_result read_material(const source *from, alpi_material *material)

@@ -19,7 +19,7 @@ typedef struct part {
     json_t *primitive;
     uint32_t node, source_count; // vertices of the primitive
     size_t placement;            // of an instance, ALPI_GLTF_NONE = the node's
-    size_t position, normal, uvs[ALPI_UV_SET_LIMIT], color;
+    size_t position, normal, uvs[ALPI_UV_SLOT_COUNT], color;
 } part;
 
 typedef struct plan {
@@ -29,7 +29,7 @@ typedef struct plan {
     mat4 *placements; // of instances, in the world
     size_t placement_count, placement_capacity;
     uint64_t vertices, triangles, sources, visits;
-    bool has_uvs[ALPI_UV_SET_LIMIT], has_colors;
+    bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
     // for one note a file each
     uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced;
 } plan;
@@ -59,23 +59,45 @@ static alp_result find_attribute(const plan *p, const part *from, const char *na
     return ALP_OK;
 }
 
+void alpi_gltf_slot_name(uint32_t slot, char *name, size_t size)
+{
+    const bool own = slot >= ALPI_UV_SET_LIMIT;
+    snprintf(name, size, own ? "_ALPENGLOW_UV_%u" : "TEXCOORD_%u",
+             own ? slot - ALPI_UV_SET_LIMIT + 1 : slot);
+}
+
+/// Coordinates: the sets, and what the material says of the slots behind them.
+static alp_result find_slots(plan *p, part *from, const char *owner, alpi_surface *surface)
+{
+    static const uint32_t two[2] = {2, 2};
+    const unsigned named = surface->material == ALPI_NONE
+                               ? 0
+                               : p->reader->scene->materials[surface->material].blend_sets;
+    surface->uv_sets = 0;
+    surface->uv_slots = 0;
+    for (uint32_t k = 0; k < ALPI_UV_SLOT_COUNT; k++) {
+        char name[ALPI_GLTF_OWNER_SIZE];
+        alpi_gltf_slot_name(k, name, sizeof name);
+        from->uvs[k] = ALPI_GLTF_NONE;
+        if (k < ALPI_UV_SET_LIMIT || (named >> k & 1u) != 0) {
+            ALP_TRY(find_attribute(p, from, name, owner, two, &from->uvs[k]));
+        }
+        const bool present = from->uvs[k] != ALPI_GLTF_NONE;
+        p->has_uvs[k] |= present;
+        surface->uv_slots |= (uint8_t)((present ? 1u : 0u) << k);
+        surface->uv_sets += present && surface->uv_sets == k && k < ALPI_UV_SET_LIMIT;
+    }
+    return ALP_OK;
+}
+
 static alp_result find_attributes(plan *p, part *from, const char *owner, alpi_surface *surface)
 {
-    static const uint32_t two[2] = {2, 2}, three[2] = {3, 3}, three_or_four[2] = {3, 4};
+    static const uint32_t three[2] = {3, 3}, three_or_four[2] = {3, 4};
     ALP_TRY(find_attribute(p, from, "POSITION", owner, three, &from->position));
     ALP_TRY(find_attribute(p, from, "NORMAL", owner, three, &from->normal));
     ALP_TRY(find_attribute(p, from, "COLOR_0", owner, three_or_four, &from->color));
     p->has_colors |= from->color != ALPI_GLTF_NONE;
-    surface->uv_sets = 0;
-    for (uint32_t k = 0; k < ALPI_UV_SET_LIMIT; k++) {
-        char name[32];
-        snprintf(name, sizeof name, "TEXCOORD_%u", k);
-        ALP_TRY(find_attribute(p, from, name, owner, two, &from->uvs[k]));
-        bool present = from->uvs[k] != ALPI_GLTF_NONE;
-        p->has_uvs[k] |= present;
-        surface->uv_sets += present && surface->uv_sets == k;
-    }
-    return ALP_OK;
+    return find_slots(p, from, owner, surface);
 }
 
 /// The number of vertices, 0 without POSITION.
@@ -285,7 +307,7 @@ static alp_result allocate_arrays(const plan *p)
     ALPI_TRY_NEW(context, scene->vertex_source, scene->vertex_count);
     ALPI_TRY_NEW(context, scene->triangles, scene->triangle_count);
     ALPI_TRY_NEW(context, scene->triangle_surface, scene->triangle_count);
-    for (int k = 0; k < ALPI_UV_SET_LIMIT; k++) {
+    for (int k = 0; k < ALPI_UV_SLOT_COUNT; k++) {
         if (p->has_uvs[k]) {
             ALPI_TRY_NEW(context, scene->uvs[k], scene->vertex_count);
         }
@@ -450,8 +472,10 @@ static alp_result fill_uvs(const plan *p, const part *from, const alpi_surface *
     }
     alpi_release(p->reader->context, values.bytes);
     if (bad > 0) {
+        char name[ALPI_GLTF_OWNER_SIZE];
+        alpi_gltf_slot_name(set, name, sizeof name);
         alpi_warn(p->reader->context, "bad-uvs", surface->name,
-                  "%u values of TEXCOORD_%u are not finite: 0 is used", bad, set);
+                  "%u values of %s are not finite: 0 is used", bad, name);
     }
     return ALP_OK;
 }
@@ -481,7 +505,7 @@ static alp_result fill_surface(const plan *p, const part *from, const alpi_surfa
     ALP_TRY(fill_triangles(p, from, surface));
     ALP_TRY(fill_positions(p, from, surface));
     ALP_TRY(fill_normals(p, from, surface));
-    for (uint32_t set = 0; set < ALPI_UV_SET_LIMIT; set++) {
+    for (uint32_t set = 0; set < ALPI_UV_SLOT_COUNT; set++) {
         ALP_TRY(fill_uvs(p, from, surface, set));
     }
     return p->has_colors ? fill_colors(p, from, surface) : ALP_OK;

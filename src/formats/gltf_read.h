@@ -25,10 +25,22 @@ typedef struct alpi_gltf_reader {
 alp_result alpi_gltf_read_nodes(alpi_gltf_reader *reader);
 /// gltf_materials.c: scene.materials, one for each of the file, at the same index.
 alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader);
+/// gltf_materials.c: the texture that an object names as `member`; none where there is none or it
+/// cannot be read (with a warning).
+alp_result alpi_gltf_read_texture(const alpi_gltf_reader *reader, json_t *object,
+                                  const char *member, const char *owner, alpi_texture *texture);
+/// Makes the texture of a map ("occlusionTexture") blended where the extras of its material name
+/// three slots for it.
+void alpi_gltf_blend_texture(json_t *material, const char *map, alpi_texture *texture);
 /// gltf_mesh.c: surfaces, vertices and triangles; marks the materials that they use.
 alp_result alpi_gltf_read_meshes(alpi_gltf_reader *reader);
+/// The attribute whose coordinates are kept in a slot.
+void alpi_gltf_slot_name(uint32_t slot, char *name, size_t size);
 /// gltf_images.c: scene.images, one for each of the file; decodes those that used materials need.
 alp_result alpi_gltf_read_images(alpi_gltf_reader *reader);
+/// One image of the document, or why it cannot be read.
+alp_result alpi_gltf_decode_image(const alpi_gltf_document *document, size_t index,
+                                  alp_image **image);
 /// gltf_cameras.c
 alp_result alpi_gltf_read_cameras(alpi_gltf_reader *reader);
 /// gltf_lights.c

@@ -5,10 +5,7 @@
 
 #include "scene/scene.h"
 
-typedef struct alpi_area_point {
-    uint32_t triangle;
-    float b1, b2; // barycentric weights of corners 1 and 2
-} alpi_area_point;
+typedef alpi_surface_place alpi_area_point;
 
 /// `count` points on usable triangles, of which each stands for the same area: the area is cut into
 /// as many parts in the order of the triangles, with a point in the middle of each; where it lies

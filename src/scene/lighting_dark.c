@@ -82,14 +82,14 @@ static bool has_bright(const bright_map *map, const texel_runs *x, const texel_r
     return bright;
 }
 
-static bool is_dark(const alp_scene *scene, const alpi_texture *texture, const bright_map *map,
-                    uint32_t triangle)
+static bool is_dark_in(const alp_scene *scene, const alpi_texture *texture, uint32_t set,
+                       const bright_map *map, uint32_t triangle)
 {
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
-        vec2 uv = alpi_texture_transform(texture, alpi_triangle_uv(scene, triangle, texture->uv_set,
-                                                                   k == 1 ? 1.0f : 0.0f,
-                                                                   k == 2 ? 1.0f : 0.0f));
+        vec2 uv = alpi_texture_transform(
+            texture,
+            alpi_triangle_uv(scene, triangle, set, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f));
         if (!isfinite(uv.x) || !isfinite(uv.y)) {
             return false;
         }
@@ -101,6 +101,17 @@ static bool is_dark(const alp_scene *scene, const alpi_texture *texture, const b
     texel_runs x = runs_of(low[0], high[0], map->width, texture->wrap_u);
     texel_runs y = runs_of(low[1], high[1], map->height, texture->wrap_v);
     return !has_bright(map, &x, &y);
+}
+
+/// Of a blended texture in all of its slots, whether or not the surface has them.
+static bool is_dark(const alp_scene *scene, const alpi_texture *texture, const bright_map *map,
+                    uint32_t triangle)
+{
+    bool dark = is_dark_in(scene, texture, texture->uv_set, map, triangle);
+    for (int k = 1; k < 3 && texture->blended; k++) {
+        dark = dark && is_dark_in(scene, texture, texture->slots[k], map, triangle);
+    }
+    return dark;
 }
 
 /// The emission texture of a surface if it reads this image.

@@ -51,7 +51,7 @@ void alp_scene_destroy(alp_scene *scene)
     for (uint32_t i = 0; scene->lights != NULL && i < scene->light_count; i++) {
         alpi_release(context, scene->lights[i].name);
     }
-    for (int i = 0; i < ALPI_UV_SET_LIMIT; i++) {
+    for (int i = 0; i < ALPI_UV_SLOT_COUNT; i++) {
         alpi_release(context, scene->uvs[i]);
     }
     void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,

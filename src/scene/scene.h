@@ -12,6 +12,9 @@
 
 #define ALPI_NONE UINT32_MAX
 enum { ALPI_UV_SET_LIMIT = 4 }; // sets 0…3 of a vertex are kept; textures that use more are ignored
+/// Where coordinates are kept: the sets, and behind them those that overlapping charts have where
+/// no set was free (_ALPENGLOW_UV_1 and _2 of a glTF).
+enum { ALPI_UV_SLOT_COUNT = ALPI_UV_SET_LIMIT + 2 };
 
 /// A texture as a material uses it: image, wrapping, coordinate set and KHR_texture_transform.
 typedef struct alpi_texture {
@@ -19,7 +22,9 @@ typedef struct alpi_texture {
     uint32_t uv_set;
     alpi_wrap wrap_u, wrap_v;
     float offset[2], scale[2], rotation; // radians, counter-clockwise as KHR_texture_transform
-    bool lost; // without an image because that could not be used: the factor stands for it
+    bool lost;    // without an image because that could not be used: the factor stands for it
+    bool blended; // read in the three slots below, one for each axis of the object, by the normal
+    uint8_t slots[3]; // the first is uv_set
 } alpi_texture;
 
 typedef enum alpi_alpha_mode {
@@ -41,9 +46,7 @@ typedef struct alpi_material {
     bool double_sided;
     alpi_texture occlusion_texture; // channel R, linear: accessibility
     float occlusion_strength;       // [0, 1]: 1 + strength (R − 1)
-    bool occlusion_blended;         // it is read in the three sets below, blended by the normal
-    uint32_t occlusion_sets[3];     // of the object's axes
-    uint8_t blend_sets;             // bit n: set n is one of three that are blended
+    uint8_t blend_sets;             // bit n: slot n is one of three that are blended
     float transmission; // [0, 1]: share of light that passes through, KHR_materials_transmission
     alpi_texture transmission_texture; // channel R, linear
 } alpi_material;
@@ -58,6 +61,7 @@ typedef struct alpi_surface {
     uint32_t first_triangle,
         triangle_count;     // triangles of the primitive in file order, none dropped
     uint32_t uv_sets;       // sets 0 … uv_sets−1 are present in the file
+    uint8_t uv_slots;       // bit n: slot n is, as far as blended textures may be read
     bool mirrored;          // negative determinant: the winding was reversed on reading
     bool normals_generated; // flat normals, because the file has none
     float axes[3][3];       // x, y and z axis of its object in the world, of any length: a normal n
@@ -104,9 +108,9 @@ struct alp_scene {
     float (*positions)[3]; // metres
     float (*normals)[3];   // unit, finite
     float (
-        *uvs[ALPI_UV_SET_LIMIT])[2]; // NULL where no surface has the set; zeros where one lacks it
-    float (*colors)[4];              // COLOR_0, linear RGBA in [0, 1]; NULL where no surface has it
-    uint32_t *vertex_source;         // index of the vertex in its source primitive
+        *uvs[ALPI_UV_SLOT_COUNT])[2]; // NULL where no surface has the set; zeros where one lacks it
+    float (*colors)[4];      // COLOR_0, linear RGBA in [0, 1]; NULL where no surface has it
+    uint32_t *vertex_source; // index of the vertex in its source primitive
 
     // Triangles, counter-clockwise outside, in the order of the source primitives.
     uint32_t triangle_count;
@@ -166,7 +170,8 @@ static inline void alpi_triangle_corners(const alp_scene *scene, uint32_t triang
 /// The coordinates a texture is read at, for uv of its set: KHR_texture_transform applied.
 vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv);
 
-/// uv of set `set` at barycentrics (b1, b2) of a triangle (weight of corners 1 and 2); 0 if absent.
+/// uv of slot `set` at barycentrics (b1, b2) of a triangle (weight of corners 1 and 2); 0 if
+/// absent.
 vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, float b1, float b2);
 
 /// Coverage (alpha) of the material at a point of a triangle: base colour alpha × texture alpha ×
@@ -200,6 +205,19 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 /// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+
+/// A place on a triangle: barycentric weights of corners 1 and 2.
+typedef struct alpi_surface_place {
+    uint32_t triangle;
+    float b1, b2;
+} alpi_surface_place;
+/// Whether a texture is read in three slots on a surface, which must have all of them: tools that
+/// drop what they do not know leave the first alone, which is a map too.
+bool alpi_surface_is_blended(const alp_scene *scene, const alpi_texture *texture, uint32_t surface);
+/// Bilinear look-up of an image as a texture of the triangle's material has it, blended by the
+/// normal where its charts overlap.
+void alpi_surface_look_up(const alp_scene *scene, const alpi_texture *texture,
+                          const alp_image *image, alpi_surface_place at, bool srgb, float rgba[4]);
 
 /// Accessibility from the material's own occlusion map at a point; false where it has none.
 bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1, float b2,

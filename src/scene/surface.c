@@ -38,7 +38,7 @@ vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)
 
 vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, float b1, float b2)
 {
-    if (set >= ALPI_UV_SET_LIMIT || scene->uvs[set] == NULL) {
+    if (set >= ALPI_UV_SLOT_COUNT || scene->uvs[set] == NULL) {
         return (vec2){0.0f, 0.0f};
     }
     const uint32_t *v = scene->triangles[triangle];
@@ -47,22 +47,45 @@ vec2 alpi_triangle_uv(const alp_scene *scene, uint32_t triangle, uint32_t set, f
                   a[1] + b1 * (b[1] - a[1]) + b2 * (c[1] - a[1])};
 }
 
-/// A point of a surface: barycentric weights of corners 1 and 2.
-typedef struct surface_point {
-    uint32_t triangle;
-    float b1, b2;
-} surface_point;
+bool alpi_surface_is_blended(const alp_scene *scene, const alpi_texture *texture, uint32_t surface)
+{
+    const unsigned there = scene->surfaces[surface].uv_slots;
+    bool all = texture->blended;
+    for (int k = 0; k < 3 && all; k++) {
+        all = (there >> texture->slots[k] & 1u) != 0;
+    }
+    return all;
+}
 
-static bool read_texture(const alp_scene *scene, const alpi_texture *texture, surface_point at,
+void alpi_surface_look_up(const alp_scene *scene, const alpi_texture *texture,
+                          const alp_image *image, alpi_surface_place at, bool srgb, float rgba[4])
+{
+    const alpi_sampler sampler = {texture->wrap_u, texture->wrap_v, srgb};
+    float weights[3], values[3][4];
+    if (!alpi_surface_is_blended(scene, texture, scene->triangle_surface[at.triangle])) {
+        const vec2 uv = alpi_triangle_uv(scene, at.triangle, texture->uv_set, at.b1, at.b2);
+        const vec2 turned = alpi_texture_transform(texture, uv);
+        alpi_image_sample(image, turned.x, turned.y, sampler, rgba);
+        return;
+    }
+    alpi_surface_weights(scene, false, at.triangle, at.b1, at.b2, weights);
+    for (int k = 0; k < 3; k++) {
+        const vec2 uv = alpi_triangle_uv(scene, at.triangle, texture->slots[k], at.b1, at.b2);
+        const vec2 turned = alpi_texture_transform(texture, uv);
+        alpi_image_sample(image, turned.x, turned.y, sampler, values[k]);
+    }
+    for (int i = 0; i < 4; i++) {
+        rgba[i] = weights[0] * values[0][i] + weights[1] * values[1][i] + weights[2] * values[2][i];
+    }
+}
+
+static bool read_texture(const alp_scene *scene, const alpi_texture *texture, alpi_surface_place at,
                          bool srgb, float rgba[4])
 {
     if (texture->image == ALPI_NONE || scene->images[texture->image] == NULL) {
         return false;
     }
-    vec2 uv = alpi_texture_transform(
-        texture, alpi_triangle_uv(scene, at.triangle, texture->uv_set, at.b1, at.b2));
-    alpi_sampler sampler = {texture->wrap_u, texture->wrap_v, srgb};
-    alpi_image_sample(scene->images[texture->image], uv.x, uv.y, sampler, rgba);
+    alpi_surface_look_up(scene, texture, scene->images[texture->image], at, srgb, rgba);
     return true;
 }
 
@@ -90,7 +113,7 @@ float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, fl
     if (material == NULL || material->alpha_mode == ALPI_ALPHA_OPAQUE) {
         return 1.0f;
     }
-    const surface_point at = {triangle, b1, b2};
+    const alpi_surface_place at = {triangle, b1, b2};
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, vertex[4];
     read_texture(scene, &material->base_color_texture, at, false, texel); // alpha is linear
     read_vertex_color(scene, triangle, b1, b2, vertex);
@@ -99,7 +122,7 @@ float alpi_surface_alpha(const alp_scene *scene, uint32_t triangle, float b1, fl
 
 /// Channel `channel` of a texture that multiplies a factor.
 static float scale_by_texture(const alp_scene *scene, float factor, const alpi_texture *texture,
-                              int channel, surface_point at)
+                              int channel, alpi_surface_place at)
 {
     float texel[4];
     return factor > 0.0f && read_texture(scene, texture, at, false, texel) ? factor * texel[channel]
@@ -112,7 +135,7 @@ float alpi_surface_transmission(const alp_scene *scene, uint32_t triangle, float
     return material == NULL
                ? 0.0f
                : scale_by_texture(scene, material->transmission, &material->transmission_texture, 0,
-                                  (surface_point){triangle, b1, b2});
+                                  (alpi_surface_place){triangle, b1, b2});
 }
 
 float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2)
@@ -121,7 +144,7 @@ float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1,
     return material == NULL
                ? 0.0f
                : scale_by_texture(scene, material->metallic, &material->metallic_texture, 2,
-                                  (surface_point){triangle, b1, b2});
+                                  (alpi_surface_place){triangle, b1, b2});
 }
 
 bool alpi_surface_is_cut(const alp_scene *scene, uint32_t triangle, float b1, float b2)
@@ -140,7 +163,8 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface)
     return material != ALPI_NONE && scene->materials[material].alpha_mode != ALPI_ALPHA_OPAQUE;
 }
 
-static vec3 base_color_at(const alp_scene *scene, const alpi_material *material, surface_point at)
+static vec3 base_color_at(const alp_scene *scene, const alpi_material *material,
+                          alpi_surface_place at)
 {
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, vertex[4], color[3];
     read_texture(scene, &material->base_color_texture, at, true, texel);
@@ -162,7 +186,7 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
     if (material == NULL) {
         return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
     }
-    const vec3 color = base_color_at(scene, material, (surface_point){triangle, b1, b2});
+    const vec3 color = base_color_at(scene, material, (alpi_surface_place){triangle, b1, b2});
     const float dielectric = 1.0f - alpi_surface_metallic(scene, triangle, b1, b2);
     return (vec3){clamp_between(color.x * dielectric, 0.0f, ALBEDO_LIMIT),
                   clamp_between(color.y * dielectric, 0.0f, ALBEDO_LIMIT),
@@ -192,7 +216,7 @@ alpi_pane alpi_surface_pane(const alp_scene *scene, uint32_t triangle, float b1,
     const float t =
         clamp_between(alpi_surface_transmission(scene, triangle, b1, b2), 0.0f, 1.0f) *
         (1.0f - clamp_between(alpi_surface_metallic(scene, triangle, b1, b2), 0.0f, 1.0f));
-    const vec3 color = base_color_at(scene, m, (surface_point){triangle, b1, b2});
+    const vec3 color = base_color_at(scene, m, (alpi_surface_place){triangle, b1, b2});
     const float c[3] = {clamp_between(color.x, 0.0f, 1.0f), clamp_between(color.y, 0.0f, 1.0f),
                         clamp_between(color.z, 0.0f, 1.0f)};
     float through[3];
@@ -208,24 +232,10 @@ bool alpi_surface_occlusion(const alp_scene *scene, uint32_t triangle, float b1,
                             float *accessibility)
 {
     const alpi_material *material = material_of(scene, triangle);
-    const surface_point point = {triangle, b1, b2};
-    float texel[4], value = 0.0f;
-    if (material == NULL ||
-        !read_texture(scene, &material->occlusion_texture, point, false, texel)) {
+    float texel[4];
+    if (material == NULL || !read_texture(scene, &material->occlusion_texture,
+                                          (alpi_surface_place){triangle, b1, b2}, false, texel)) {
         return false;
-    }
-    if (material->occlusion_blended) {
-        float weights[3];
-        alpi_surface_weights(scene, false, triangle, b1, b2, weights);
-        for (int k = 0; k < 3; k++) {
-            alpi_texture texture = material->occlusion_texture;
-            texture.uv_set = material->occlusion_sets[k];
-            if (!read_texture(scene, &texture, point, false, texel)) {
-                return false;
-            }
-            value += weights[k] * texel[0];
-        }
-        texel[0] = value;
     }
     *accessibility = 1.0f + material->occlusion_strength * (texel[0] - 1.0f);
     return true;
@@ -275,7 +285,7 @@ vec3 alpi_surface_emission(const alp_scene *scene, uint32_t triangle, float b1, 
                               ? clamp_between(alpi_surface_alpha(scene, triangle, b1, b2), 0, 1)
                               : 1.0f;
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    read_texture(scene, &m->emission_texture, (surface_point){triangle, b1, b2}, true, texel);
+    read_texture(scene, &m->emission_texture, (alpi_surface_place){triangle, b1, b2}, true, texel);
     return (vec3){bounded_radiance(m->emission[0] * texel[0] * covered),
                   bounded_radiance(m->emission[1] * texel[1] * covered),
                   bounded_radiance(m->emission[2] * texel[2] * covered)};

@@ -30,3 +30,4 @@ right render --tone film reinhard filmic none
 right render --white-balance 1000 25000 6504.5 auto off
 right compare --scale -1e9 1e9 -1
 right compare --max-rmse 0 1e9
+right compare --points 1 16777216

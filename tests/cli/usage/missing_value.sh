@@ -15,6 +15,6 @@ try bake scene.glb --one-sided=yes
 for option in -o --with --camera --resolution --samples; do
     try render scene.glb $option
 done
-for option in --scale --max-rmse --heatmap --json; do
+for option in --scale --max-rmse --map --points --heatmap --json; do
     try compare a b $option
 done

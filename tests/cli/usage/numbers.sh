@@ -32,6 +32,7 @@ wrong render --exposure -64.1 64.1 nan inf 1e999 bright 1EV
 wrong render --white-balance 999.9 25000.1 -6500 6500K nan on
 wrong compare --scale -1000000001 1000000001 nan x
 wrong compare --max-rmse -0.001 1000000001 nan x
+wrong compare --points 0 16777217 1.5 x
 for value in 0 0.009 101 1e400 nan pct; do
     try bake scene.glb -o out.glb --error $value
 done

@@ -93,6 +93,9 @@ static void page_is_whole_and_has_its_figures(void **state)
     ASSERT_HAS(text, "Load</th><td>12.50\u00A0s</td>");
     ASSERT_HAS(text, "<span>alpenglow</span> <span>bake</span> <span>builtin:cornell</span>");
     ASSERT_HAS(text, "exposure: L = 2<sup>");
+    // Beside the steps at seams, of occlusion and of light; of obscurance none is stated.
+    assert_true(b.report.seams.count > 0);
+    assert_int_equal(page_count_of(text, "; the map's noise is "), 2);
     snprintf(wanted, sizeof wanted, "%016llx", (unsigned long long)b.report.input_hash);
     ASSERT_HAS(text, wanted);
     ASSERT_HAS(text, "<dt>Findings</dt><dd>0</dd>");
