@@ -46,7 +46,8 @@ static alp_result add_new(alpi_gltf_patcher *p, const alpi_gltf_vertex_input *in
                              .components = components,
                              .component_type = COMPONENT_U16,
                              .element_size = components * sizeof *stored,
-                             .normalized = true};
+                             .normalized = true,
+                             .mark = ALPI_GLTF_VALUES};
     alp_result result = alpi_patcher_add_accessor(p, &array, accessor);
     alpi_release(p->context, stored);
     return result;
@@ -85,7 +86,8 @@ static alp_result add_product(alpi_gltf_patcher *p, const alpi_gltf_vertex_input
                              .components = old->components,
                              .component_type = is_float ? COMPONENT_FLOAT : COMPONENT_U16,
                              .element_size = old->components * size,
-                             .normalized = !is_float};
+                             .normalized = !is_float,
+                             .mark = ALPI_GLTF_VALUES};
     alp_result result = alpi_patcher_add_accessor(p, &array, accessor);
     alpi_release(p->context, stored);
     return result;
