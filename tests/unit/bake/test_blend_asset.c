@@ -92,8 +92,9 @@ static void three_sets_come_back(void **state)
     check_blend(written, lightmap);
     alp_lightmap_destroy(lightmap);
     // Once more: they take the place of those before.
-    lightmap = bake(written, test_path(test_folder(), "again.glb"));
-    alp_scene *last = load(context, test_path(test_folder(), "again.glb"));
+    const char *again = test_path(test_folder(), "again.glb");
+    lightmap = bake(written, again);
+    alp_scene *last = load(context, again);
     assert_int_equal(alp_scene_get_surface(last, 0).uv_sets, 3);
     check_sets(last, lightmap, 0, 3, 0.0);
     alp_lightmap_destroy(lightmap);
