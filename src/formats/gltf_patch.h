@@ -367,10 +367,12 @@ void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names);
 
 /// Where what an earlier bake left is looked for, besides the written text.
 typedef struct alpi_gltf_leftovers {
-    bool first_stays;   // the first buffer, whatever reads it
-    alpi_bytes *bin;    // its bytes, which are cut too; NULL: they stay
-    bool *images_gone;  // [image_count] of the document: those that go are noted
-    bool *buffers_gone; // [buffer_count]
+    bool first_stays; // the first buffer, whatever reads it
+    alpi_bytes *bin;  // its bytes, which are cut too; NULL: they stay
+    alpi_bytes *data; // new data, if it is a file that the last buffer names; or NULL
+    const alpi_gltf_document *document; // as it was read
+    bool *images_gone;                  // [image_count] of the document: those that go are noted
+    bool *buffers_gone;                 // [buffer_count]
     size_t image_count, buffer_count;
 } alpi_gltf_leftovers;
 /// Whether a document bears marks of a bake.

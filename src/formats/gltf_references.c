@@ -195,6 +195,9 @@ static alp_result note_open(walk *w, const alpi_json_cursor *at)
         found->has_pointers |= at->value.end - at->value.begin > 2 && value[1] == '/';
         return ALP_OK;
     }
+    if (at->is_object && alpi_json_key_is(w->text, at->key, "texCoord")) {
+        return ALP_OK; // a set, whoever reads it
+    }
     if (strchr("0123456789", value[0]) == NULL || !read_number(w->text, at->value, &index)) {
         return ALP_OK;
     }

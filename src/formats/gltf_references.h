@@ -12,6 +12,7 @@ typedef struct alpi_gltf_reference {
     alpi_json_span span;       // the number
     alpi_gltf_kind owner_kind; // of the root array that it stands in, KIND_COUNT: none of these
     size_t owner;              // element there
+    bool changed;              // the text names another one still
 } alpi_gltf_reference;
 
 /// All of a document, and what may be one: extensions and extras that we do not know may mean

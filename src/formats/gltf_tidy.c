@@ -237,7 +237,7 @@ static void edit_text(alpi_gltf_tidying *t)
     for (size_t i = 0; i < t->references.count; i++) {
         const alpi_gltf_reference *r = &t->references.items[i];
         if (t->moved[r->kind] != NULL && r->index < t->counts[r->kind] &&
-            t->moved[r->kind][r->index] != r->index && !owner_has(t, t->gone, r)) {
+            (r->changed || t->moved[r->kind][r->index] != r->index) && !owner_has(t, t->gone, r)) {
             alpi_edits_replace(&t->edits, r->span, "%zu", t->moved[r->kind][r->index]);
         }
     }
@@ -265,6 +265,9 @@ static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
         const bool stays = kind == ALPI_GLTF_BUFFERS && from->first_stays && t->counts[kind] > 0;
         if (stays) {
             t->ours[kind][0] = false;
+        }
+        if (kind == ALPI_GLTF_BUFFERS) {
+            ALP_TRY(alpi_gltf_tidy_gather(t, from));
         }
         decide(t, kind, find_tail(t, kind));
     }

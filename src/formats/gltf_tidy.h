@@ -19,6 +19,9 @@ typedef struct alpi_gltf_tidying {
     alpi_edits edits;
 } alpi_gltf_tidying;
 
+/// Moves what stays of buffers that were made by bakes alone to the new data, so that those go.
+/// Before it is decided which buffers go.
+alp_result alpi_gltf_tidy_gather(alpi_gltf_tidying *tidying, const alpi_gltf_leftovers *from);
 /// Cuts the bytes of views that go out of buffer 0, which `bin` holds.
 alp_result alpi_gltf_tidy_bytes(alpi_gltf_tidying *tidying, alpi_bytes *bin);
 

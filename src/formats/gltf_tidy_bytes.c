@@ -160,3 +160,47 @@ alp_result alpi_gltf_tidy_bytes(alpi_gltf_tidying *t, alpi_bytes *bin)
     alpi_release(t->context, cuts.items);
     return result;
 }
+
+// --- files beside a .gltf ------------------------------------------------------------------------
+
+/// Appends the bytes of a view to the new data; false where they do not lie in its buffer.
+static bool move_view(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from,
+                      const alpi_gltf_reference *buffer)
+{
+    json_t *view = json_array_get(json_object_get(t->tree, "bufferViews"), buffer->owner);
+    const alpi_gltf_buffer *old = &from->document->buffers[buffer->index];
+    const size_t begin = read_size(view, "byteOffset"), size = read_size(view, "byteLength");
+    if (old->bytes == NULL || begin > old->size || size > old->size - begin) {
+        return false;
+    }
+    alpi_bytes_align(from->data, '\0');
+    alpi_edits_set_index(&t->edits, t->spans[ALPI_GLTF_BUFFER_VIEWS][buffer->owner], "byteOffset",
+                         from->data->size);
+    alpi_bytes_add(from->data, old->bytes + begin, size);
+    return true;
+}
+
+alp_result alpi_gltf_tidy_gather(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
+{
+    const size_t count = t->counts[ALPI_GLTF_BUFFERS];
+    if (from->data == NULL || count == 0 || t->references.buffers_are_named) {
+        return ALP_OK;
+    }
+    const size_t last = count - 1, size = from->data->size;
+    for (size_t i = 0; i < t->references.count; i++) {
+        alpi_gltf_reference *r = &t->references.items[i];
+        const bool is_view = r->kind == ALPI_GLTF_BUFFERS && r->index < last &&
+                             r->index < from->document->buffer_count &&
+                             r->owner_kind == ALPI_GLTF_BUFFER_VIEWS;
+        if (is_view && t->ours[ALPI_GLTF_BUFFERS][r->index] &&
+            !t->gone[ALPI_GLTF_BUFFER_VIEWS][r->owner] && move_view(t, from, r)) {
+            r->index = last;
+            r->changed = true;
+        }
+    }
+    if (from->data->size > size) {
+        alpi_edits_set_index(&t->edits, t->spans[ALPI_GLTF_BUFFERS][last], "byteLength",
+                             from->data->size);
+    }
+    return from->data->failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}

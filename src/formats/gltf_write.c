@@ -301,9 +301,12 @@ static alp_result tidy(writing *w, alpi_gltf_home home)
     ALPI_TRY_NEW(document->context, w->buffers_gone, document->buffer_count);
     const bool is_bin = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED ||
                         (home == ALPI_HOME_FILE && first_is_bin(document));
+    const bool has_file = home == ALPI_HOME_FILE && w->patcher.data.size > 0;
     const bool keeps_buffers = home != ALPI_HOME_MERGED; // else they are others now
     const alpi_gltf_leftovers from = {.first_stays = is_bin || w->to_glb,
                                       .bin = is_bin ? &w->bin : NULL,
+                                      .data = has_file ? &w->patcher.data : NULL,
+                                      .document = document,
                                       .images_gone = w->patcher.image_embedded,
                                       .buffers_gone = w->buffers_gone,
                                       .image_count = alpi_gltf_count(document, "images"),
