@@ -48,6 +48,16 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document); // NULL does noth
 
 /// extras.alpenglow of a material that a bake gave to a primitive without one.
 #define ALPI_GLTF_NO_MATERIAL "no material"
+/// The same of what else a bake adds, by which a later one knows what it may take away: elements
+/// of maps, coordinates, values at vertices, vertices that were split, materials of further pages
+/// ("copy of 3"). Without a mark nothing ever goes.
+#define ALPI_GLTF_MAP "map"
+#define ALPI_GLTF_SET "set"
+#define ALPI_GLTF_VALUES "values"
+#define ALPI_GLTF_COPY "copy"
+#define ALPI_GLTF_MAP_EXTRAS "\"extras\":{\"alpenglow\":\"" ALPI_GLTF_MAP "\"}"
+/// extras.alpenglow of an element, NULL where it is no word.
+const char *alpi_gltf_mark(const alpi_gltf_document *document, const char *kind, size_t index);
 /// In the extras of a material: the three sets that its maps are read with.
 #define ALPI_GLTF_BLEND "alpenglow_blend"
 #define ALPI_GLTF_EARLIER "earlier" // in it: sets and maps of bakes before

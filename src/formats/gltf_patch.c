@@ -211,7 +211,7 @@ static bool same_array(const alpi_gltf_patcher *p, const struct alpi_gltf_known 
     if (old->count != array->count || old->component_type != array->component_type ||
         old->element_size != array->element_size || old->normalized != array->normalized ||
         old->has_bounds != array->has_bounds || old->is_indices != array->is_indices ||
-        strcmp(old->type, array->type) != 0) {
+        strcmp(old->type, array->type) != 0 || strcmp(old->mark, array->mark) != 0) {
         return false;
     }
     const uint8_t *stored = p->data.bytes + known->data_begin, *bytes = array->bytes;
@@ -276,7 +276,7 @@ static size_t append_accessor(alpi_gltf_patcher *p, const alpi_gltf_array *array
     if (array->has_bounds && array->components > 0) {
         print_bounds(array, &text);
     }
-    alpi_bytes_print(&text, "}");
+    alpi_bytes_print(&text, ",\"extras\":{\"alpenglow\":\"%s\"}}", array->mark);
     p->data.failed |= text.failed;
     size_t accessor = alpi_patcher_append(p, ALPI_GLTF_ACCESSORS, text.bytes, text.size);
     alpi_bytes_destroy(&text);
@@ -289,6 +289,7 @@ alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *p, const alpi_gltf_array
     static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     alpi_gltf_array own = *array;
     own.type = own.type != NULL ? own.type : types[own.components];
+    own.mark = own.mark != NULL ? own.mark : ALPI_GLTF_COPY;
     ALP_TRY(grow_known_table(p));
     uint64_t hash = hash_array(&own);
     size_t slot = (size_t)hash & (p->known_table_size - 1);

@@ -3,15 +3,19 @@
 //
 //   gltf_patch.c           the patcher: root arrays that grow, new binary data, the whole sequence
 //   gltf_patch_plan.c      which primitives get what: coordinate set, pages, in place or in a copy
+//   gltf_patch_sets.c      sets of coordinates: those of earlier bakes, free ones, their names
 //   gltf_patch_material.c  one material per (old material, page, coordinate set)
+//   gltf_patch_copies.c    copies of materials, which later bakes know as that
 //   gltf_patch_light.c     materials that show baked light
 //   gltf_patch_blend.c     what materials say of sets that are blended
 //   gltf_patch_packed.c    materials whose occlusion goes into an image that they have already
 //   gltf_split.c           vertices that chart borders part
 //   gltf_patch_mesh.c      the edits of meshes, primitives and nodes
+//   gltf_patch_attributes.c attributes of vertices that are split
 //   gltf_patch_vertex.c    values at vertices as an attribute
 //   gltf_patch_instances.c nodes that show their mesh in instances
 //   gltf_patch_extensions.c what is used and required
+//   gltf_tidy.c            what an earlier bake left and nothing reads any more
 //   gltf_container.c       where binary data lives: BIN chunk, files, data URIs
 //   gltf_write.c           file names, files
 #ifndef ALPI_FORMATS_GLTF_PATCH_H
@@ -45,6 +49,8 @@ typedef struct alpi_gltf_list {
 
 // --- the plan ------------------------------------------------------------------------------------
 
+enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
+
 /// A part of a primitive whose triangles lie on one page; it becomes a primitive of its own.
 typedef struct alpi_gltf_piece {
     uint32_t page;   // ALPI_NONE: its material's occlusion is packed into an image
@@ -58,11 +64,14 @@ typedef struct alpi_gltf_plan {
     size_t user; // node, or mesh with kept coordinates
     size_t mesh, primitive;
     size_t material; // in the document, ALPI_GLTF_NONE = none
-    uint32_t uv_set; // n of the TEXCOORD_n that the map is read with
-    bool packed;     // only its material changes
-    bool occluded;   // gets the occlusion map
-    bool lit;        // gets the light
-    bool in_a_copy;  // the mesh is copied for its nodes, because others use it too
+    // What its map is read with, as alpi_patcher_set_name names it: one, or three where a shader
+    // blends. The first is n of a TEXCOORD_n.
+    uint32_t sets[ALPI_GLTF_BLEND_SETS];
+    uint64_t dropped; // bits of sets of an earlier bake that go
+    bool packed;      // only its material changes
+    bool occluded;    // gets the occlusion map
+    bool lit;         // gets the light
+    bool in_a_copy;   // the mesh is copied for its nodes, because others use it too
     size_t piece_first, piece_count;
     size_t showing_first, showing_end; // of the first plan of a user: its nodes
 } alpi_gltf_plan;
@@ -150,6 +159,7 @@ typedef struct alpi_gltf_array {
     size_t element_size;
     bool normalized, has_bounds, is_indices;
     const char *type; // NULL: SCALAR … VEC4 by components
+    const char *mark; // NULL: ALPI_GLTF_COPY
 } alpi_gltf_array;
 /// A new accessor, or an equal one made before.
 alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *patcher, const alpi_gltf_array *array,
@@ -159,6 +169,12 @@ alp_result alpi_patcher_add_accessor(alpi_gltf_patcher *patcher, const alpi_gltf
 alp_result alpi_patcher_plan(alpi_gltf_patcher *patcher);
 /// Decides the material of every piece and adds those that are needed.
 alp_result alpi_patcher_materials(alpi_gltf_patcher *patcher);
+/// The material that a plan's is a copy of, made by an earlier bake for another page, where the two
+/// differ in nothing but maps that are replaced; else its own.
+alp_result alpi_patcher_original(const alpi_gltf_patcher *patcher, const alpi_gltf_plan *plan,
+                                 size_t *material);
+/// Writes into a new copy what it is a copy of, where nothing is said there already.
+alp_result alpi_patcher_mark_copy(alpi_gltf_patcher *patcher, size_t material, alpi_bytes *text);
 /// The image of a PNG that the bake made, at its place `uri` of page_uris; its index.
 size_t alpi_patcher_add_image(alpi_gltf_patcher *patcher, const char *name, uint32_t uri,
                               const uint8_t *png, size_t size);
@@ -206,11 +222,22 @@ alp_result alpi_patcher_expand_instances(alpi_gltf_patcher *patcher);
 
 // --- sets that are blended -----------------------------------------------------------------------
 
-enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
-/// The attribute of set k where the first is TEXCOORD_first: TEXCOORD_n as long as n ≤ 3, which
-/// viewers know, else _ALPENGLOW_UV_n, where the sets of no
-/// two bakes of a mesh have the same n.
-void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRIBUTE_SIZE]);
+/// The attribute of a set: TEXCOORD_n of n < 32, _ALPENGLOW_UV_n of 32 + n.
+void alpi_patcher_set_name(uint32_t set, char name[ALPI_GLTF_ATTRIBUTE_SIZE]);
+/// A bit for each set that there is an attribute of, or that a description of a blend names.
+uint64_t alpi_gltf_sets_of(json_t *attributes);
+uint64_t alpi_gltf_sets_named(json_t *blend);
+/// The sets that textures and maps of a material read, whatever it says of blends.
+alp_result alpi_gltf_sets_read(alp_context *context, json_t *material, uint64_t *sets);
+/// Chooses the sets of a plan, of which all else must be known: those of an earlier bake that only
+/// maps read which are replaced are free, and go where they do not become new ones.
+alp_result alpi_patcher_choose_sets(alpi_gltf_patcher *patcher, json_t *primitive,
+                                    const char *owner, alpi_gltf_plan *plan);
+/// A warning where maps are read with sets that viewers do not know.
+void alpi_patcher_warn_of_sets(const alpi_gltf_patcher *patcher);
+/// Whether an attribute is among the dropped sets; their removal.
+bool alpi_patcher_is_dropped(const char *text, alpi_json_span key, uint64_t dropped);
+void alpi_patcher_drop_sets(alpi_edits *edits, alpi_json_span attributes, uint64_t dropped);
 /// Members of an object inside a material, which may not be there yet.
 typedef struct alpi_gltf_inside {
     const char *outer;
@@ -228,8 +255,11 @@ typedef struct alpi_gltf_maps {
 /// of the mesh, and which of its maps are read with them; and the same of bakes before, whose maps
 /// the material keeps.
 /// @param material of the document, or ALPI_GLTF_NONE
-void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, size_t material, uint32_t first,
-                              alpi_gltf_maps maps, alpi_bytes *text);
+void alpi_patcher_print_blend(const alpi_gltf_patcher *patcher, size_t material,
+                              const uint32_t sets[ALPI_GLTF_BLEND_SETS], alpi_gltf_maps maps,
+                              alpi_bytes *text);
+/// What the maps of light are called in it, in the form of the patch's.
+const char *alpi_patcher_light_name(const alpi_gltf_patcher *patcher);
 /// Adds it to a material of the document.
 void alpi_patcher_blend_material(alpi_gltf_patcher *patcher, size_t material, const char *blend,
                                  alpi_edits *edits);
@@ -334,6 +364,21 @@ alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document
 /// The images that a patch brings to a file of this kind.
 alpi_gltf_images alpi_gltf_patch_images(const alpi_mesh_patch *patch, bool to_glb);
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names);
+
+/// Where what an earlier bake left is looked for, besides the written text.
+typedef struct alpi_gltf_leftovers {
+    bool first_stays; // the first buffer, whatever reads it
+    alpi_bytes *bin;  // its bytes, which are cut too; NULL: they stay
+    alpi_bytes *data; // new data, if it is a file that the last buffer names; or NULL
+    const alpi_gltf_document *document; // as it was read
+    bool *images_gone;                  // [image_count] of the document: those that go are noted
+    bool *buffers_gone;                 // [buffer_count]
+    size_t image_count, buffer_count;
+} alpi_gltf_leftovers;
+/// Whether a document bears marks of a bake.
+bool alpi_gltf_was_baked(const alpi_gltf_document *document);
+/// Takes what bakes left and nothing reads any more out of a written text.
+alp_result alpi_gltf_tidy(alp_context *context, const alpi_gltf_leftovers *from, alpi_bytes *text);
 
 /// Where the data of the written file lives.
 typedef enum alpi_gltf_home {

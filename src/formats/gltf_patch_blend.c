@@ -2,25 +2,17 @@
 // Three coordinate sets that a shader blends: their attributes, and what materials say of them.
 #include "formats/gltf_patch.h"
 
-#include <stdio.h>
 #include <string.h>
-
-enum { LAST_TEXCOORD = 3 }; // that viewers know; glTF 2.0 asks for two
-
-void alpi_patcher_set_name(uint32_t first, uint32_t k, char name[ALPI_GLTF_ATTRIBUTE_SIZE])
-{
-    if (k == 0 || first + k <= LAST_TEXCOORD) {
-        snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "TEXCOORD_%u", first + k);
-    } else { // others for each first one: those of an earlier bake stay
-        const uint32_t before = first > LAST_TEXCOORD ? 2 * (first - LAST_TEXCOORD) : 0;
-        snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "_ALPENGLOW_UV_%u", before + k);
-    }
-}
 
 static const char OCCLUSION[] = "occlusionTexture";
 static const char *const LIGHTS[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
                                      [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
                                      [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
+
+const char *alpi_patcher_light_name(const alpi_gltf_patcher *p)
+{
+    return LIGHTS[p->patch->light->form];
+}
 
 /// The names in a list of "maps", less those of the maps that are replaced.
 static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gltf_maps replaced,
@@ -94,13 +86,14 @@ static void print_earlier(const alpi_gltf_patcher *p, size_t material, alpi_gltf
     alpi_bytes_destroy(&kept);
 }
 
-void alpi_patcher_print_blend(const alpi_gltf_patcher *p, size_t material, uint32_t first,
-                              alpi_gltf_maps maps, alpi_bytes *text)
+void alpi_patcher_print_blend(const alpi_gltf_patcher *p, size_t material,
+                              const uint32_t sets[ALPI_GLTF_BLEND_SETS], alpi_gltf_maps maps,
+                              alpi_bytes *text)
 {
     alpi_bytes_print(text, "{\"sets\":[");
     for (uint32_t k = 0; k < ALPI_GLTF_BLEND_SETS; k++) {
         char name[ALPI_GLTF_ATTRIBUTE_SIZE];
-        alpi_patcher_set_name(first, k, name);
+        alpi_patcher_set_name(sets[k], name);
         alpi_bytes_print(text, "%s\"%s\"", k > 0 ? "," : "", name);
     }
     alpi_bytes_print(text, "],\"weights\":\"n*n\",\"frame\":\"object\",\"maps\":[");

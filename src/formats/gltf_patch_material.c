@@ -7,11 +7,13 @@
 #include "formats/gltf_tree.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /// A material that the written file needs.
 typedef struct need {
-    size_t old;            // ALPI_GLTF_NONE = the primitive had none
-    uint32_t page, uv_set; // page ALPI_NONE: packed into an image
+    size_t old;    // ALPI_GLTF_NONE = the primitive had none
+    uint32_t page; // ALPI_NONE: packed into an image
+    uint32_t sets[ALPI_GLTF_BLEND_SETS];
     bool occluded, lit;
     float light_scale; // what 1 in the light's image stands for
     size_t written;
@@ -101,10 +103,12 @@ size_t alpi_patcher_add_image(alpi_gltf_patcher *p, const char *name, uint32_t u
     if (p->page_uris != NULL) {
         alpi_bytes_print(&image, "\"uri\":");
         alpi_bytes_quote(&image, p->page_uris[uri]);
-        alpi_bytes_print(&image, "}");
+        alpi_bytes_print(&image, "," ALPI_GLTF_MAP_EXTRAS "}");
     } else {
         size_t view = alpi_patcher_add_view(p, png, size, 0, 0);
-        alpi_bytes_print(&image, "\"bufferView\":%zu,\"mimeType\":\"image/png\"}", view);
+        alpi_bytes_print(&image,
+                         "\"bufferView\":%zu,\"mimeType\":\"image/png\"," ALPI_GLTF_MAP_EXTRAS "}",
+                         view);
     }
     p->data.failed |= image.failed;
     size_t index = alpi_patcher_append(p, ALPI_GLTF_IMAGES, image.bytes, image.size);
@@ -124,13 +128,15 @@ static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
 size_t alpi_patcher_add_texture(alpi_gltf_patcher *p, size_t image)
 {
     alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
-    static const char sampler[] = "{\"magFilter\":9729,\"minFilter\":9729," // linear
-                                  "\"wrapS\":33071,\"wrapT\":33071}";       // clamp to edge
+    static const char sampler[] =
+        "{\"magFilter\":9729,\"minFilter\":9729,"                    // linear
+        "\"wrapS\":33071,\"wrapT\":33071," ALPI_GLTF_MAP_EXTRAS "}"; // clamp to edge
     if (samplers->added == 0) {
         alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
     }
-    char texture[96];
-    int length = snprintf(texture, sizeof texture, "{\"sampler\":%zu,\"source\":%zu}",
+    char texture[128];
+    int length = snprintf(texture, sizeof texture,
+                          "{\"sampler\":%zu,\"source\":%zu," ALPI_GLTF_MAP_EXTRAS "}",
                           samplers->count, image);
     return alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
 }
@@ -149,8 +155,8 @@ static size_t page_texture(alpi_gltf_patcher *p, uint32_t page)
 static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value)
 {
     alpi_bytes_print(value, "{\"index\":%zu", page_texture(p, n->page));
-    if (n->uv_set != 0) {
-        alpi_bytes_print(value, ",\"texCoord\":%u", n->uv_set);
+    if (n->sets[0] != 0) {
+        alpi_bytes_print(value, ",\"texCoord\":%u", n->sets[0]);
     }
     if (p->patch->occlusion_strength != 1.0f) {
         alpi_bytes_print(value, ",\"strength\":");
@@ -161,7 +167,7 @@ static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value
 
 static alpi_gltf_light_use light_use(const need *n, const char *blend)
 {
-    return (alpi_gltf_light_use){n->old, n->page, n->uv_set, n->light_scale, blend};
+    return (alpi_gltf_light_use){n->old, n->page, n->sets[0], n->light_scale, blend};
 }
 
 /// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
@@ -230,7 +236,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
     alpi_bytes sets = alpi_bytes_create(p->context);
     if (p->patch->set_uvs != NULL) {
         const alpi_gltf_maps maps = {n->occluded, n->lit};
-        alpi_patcher_print_blend(p, n->old, n->uv_set, maps, &sets);
+        alpi_patcher_print_blend(p, n->old, n->sets, maps, &sets);
     }
     const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
     alpi_bytes text = alpi_bytes_create(p->context);
@@ -247,6 +253,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
             alpi_edits copy = alpi_edits_create(p->context, p->document->text);
             result = edit_material(p, n, blend, &copy);
             result = result == ALP_OK ? alpi_edits_apply(&copy, span, &text) : result;
+            result = result == ALP_OK ? alpi_patcher_mark_copy(p, n->old, &text) : result;
             n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
             alpi_edits_destroy(&copy);
         }
@@ -258,12 +265,19 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
     return result;
 }
 
+static bool same_need(const need *a, const need *b)
+{
+    return a->old == b->old && a->page == b->page &&
+           memcmp(a->sets, b->sets, sizeof a->sets) == 0 &&
+           memcmp(&a->light_scale, &b->light_scale, sizeof a->light_scale) == 0;
+}
+
 static alp_result find_material(alpi_gltf_patcher *p, needs *all, const need *wanted,
                                 size_t *written)
 {
     for (size_t i = 0; i < all->count; i++) {
         const need *n = &all->items[i];
-        if (n->old == wanted->old && n->page == wanted->page && n->uv_set == wanted->uv_set) {
+        if (same_need(n, wanted)) {
             *written = n->written;
             return ALP_OK;
         }
@@ -294,14 +308,16 @@ static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
     ALP_TRY(find_other_users(p, all->has_other_users));
     for (size_t i = 0; i < p->plan_count; i++) {
         const alpi_gltf_plan *plan = &p->plans[i];
+        size_t original;
+        ALP_TRY(alpi_patcher_original(p, plan, &original));
         for (size_t k = 0; k < plan->piece_count; k++) {
             alpi_gltf_piece *piece = &p->pieces[plan->piece_first + k];
-            need wanted = {.old = plan->material,
+            need wanted = {.old = original,
                            .page = piece->page,
-                           .uv_set = plan->uv_set,
                            .occluded = plan->occluded,
                            .lit = plan->lit,
                            .light_scale = light_scale(p, plan)};
+            memcpy(wanted.sets, plan->sets, sizeof wanted.sets);
             ALP_TRY(find_material(p, all, &wanted, &piece->material));
         }
     }

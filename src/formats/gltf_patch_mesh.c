@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Edits of meshes: a coordinate set or values for each primitive, vertices split where charts meet
 // or values differ, one primitive a page, and copies of meshes that several nodes use.
-#include "formats/gltf_patch.h"
+#include "formats/gltf_rewrite.h"
 
 #include "base/memory.h"
 #include "formats/gltf_accessor.h"
@@ -15,37 +15,7 @@
 
 enum { MODE_TRIANGLES = 4 };
 
-/// An attribute whose accessor changes.
-typedef struct attribute_edit {
-    alpi_json_span span; // of the index
-    size_t accessor;
-} attribute_edit;
-
-/// One primitive of the document and what becomes of it.
-typedef struct rewrite {
-    const alpi_gltf_plan *plan;
-    const alpi_surface *surface;
-    json_t *primitive;
-    alpi_json_span span, attributes;
-    char owner[ALPI_GLTF_OWNER_SIZE];
-    uint32_t vertex_count;
-    uint32_t (*indices)[3]; // of the file
-    uint32_t triangle_count;
-    uint32_t width;
-    float *corner_values; // [triangle_count][3][width] in the file's order
-    alpi_gltf_split split;
-    bool parted;     // vertices were split
-    bool compressed; // some of its accessors are, and none of them may stay so
-    bool has_draco;  // its extension, that is
-    // Attributes that are added; none: kept coordinates.
-    uint32_t added_count;
-    char added_names[ALPI_GLTF_BLEND_SETS][ALPI_GLTF_ATTRIBUTE_SIZE];
-    size_t added_accessors[ALPI_GLTF_BLEND_SETS];
-    attribute_edit *attribute_edits;
-    size_t attribute_count, attribute_capacity;
-} rewrite;
-
-static void destroy_rewrite(alpi_gltf_patcher *p, rewrite *r)
+static void destroy_rewrite(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     alpi_gltf_split_destroy(p->context, &r->split);
     alpi_release(p->context, r->indices);
@@ -55,14 +25,16 @@ static void destroy_rewrite(alpi_gltf_patcher *p, rewrite *r)
 
 // --- corners -------------------------------------------------------------------------------------
 
-static uint32_t source_vertex(const alpi_gltf_patcher *p, const rewrite *r, uint32_t vertex)
+static uint32_t source_vertex(const alpi_gltf_patcher *p, const alpi_gltf_rewrite *r,
+                              uint32_t vertex)
 {
     return p->exported ? vertex - r->surface->first_vertex : p->scene->vertex_source[vertex];
 }
 
 /// Which corner of the scene's triangle each corner of the file's is: a mirrored surface was turned
 /// when it was read.
-static bool match_corners(const alpi_gltf_patcher *p, const rewrite *r, uint32_t i, int order[3])
+static bool match_corners(const alpi_gltf_patcher *p, const alpi_gltf_rewrite *r, uint32_t i,
+                          int order[3])
 {
     static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {2, 1, 0},
                                      {1, 0, 2}, {1, 2, 0}, {2, 0, 1}};
@@ -96,7 +68,7 @@ static void read_corner(const alpi_gltf_patcher *p, uint32_t triangle, int corne
     }
 }
 
-static alp_result turn_corners(alpi_gltf_patcher *p, rewrite *r)
+static alp_result turn_corners(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     r->width = 2 * r->added_count;
     ALPI_TRY_NEW(p->context, r->corner_values, 3 * (size_t)r->width * r->triangle_count);
@@ -114,163 +86,9 @@ static alp_result turn_corners(alpi_gltf_patcher *p, rewrite *r)
     return ALP_OK;
 }
 
-// --- attributes ----------------------------------------------------------------------------------
-
-/// An index in the text, read as the parser reads numbers.
-static size_t read_index(const alpi_gltf_patcher *p, alpi_json_span span)
-{
-    json_t *number =
-        json_loadb(p->document->text + span.begin, span.end - span.begin, JSON_DECODE_ANY, NULL);
-    double value = json_number_value(number);
-    bool fits = json_is_number(number) && value >= 0.0 &&
-                value < (double)p->lists[ALPI_GLTF_ACCESSORS].count;
-    json_decref(number);
-    return fits ? (size_t)value : ALPI_GLTF_NONE;
-}
-
-/// Bytes of a matrix element: columns begin at multiples of 4 (glTF 2.0, section 3.6.2.4).
-static size_t matrix_size(const char *type, uint32_t component_type)
-{
-    size_t side = type[3] >= '2' && type[3] <= '4' ? (size_t)(type[3] - '0') : 0;
-    size_t component = component_type <= 5121 ? 1 : component_type <= 5123 ? 2 : 4;
-    return side * ((side * component + 3) / 4 * 4);
-}
-
-/// A matrix for each vertex: only attributes of somebody's own ("_NAME") can be that. `packed` is
-/// released by the caller.
-static alp_result read_matrices(alpi_gltf_patcher *p, size_t accessor, alpi_gltf_array *array,
-                                uint8_t **packed)
-{
-    char owner[ALPI_GLTF_OWNER_SIZE];
-    snprintf(owner, sizeof owner, "accessor %zu", accessor);
-    json_t *object = alpi_gltf_item(p->document, "accessors", accessor);
-    size_t index, offset, count, component;
-    ALP_TRY(
-        alpi_gltf_needed_index(p->document, object, "bufferView", "bufferViews", owner, &index));
-    ALP_TRY(alpi_gltf_size_or(p->document, object, "byteOffset", owner, 0, &offset));
-    ALP_TRY(alpi_gltf_size(p->document, object, "count", owner, &count));
-    ALP_TRY(alpi_gltf_size(p->document, object, "componentType", owner, &component));
-    alpi_gltf_view view;
-    ALP_TRY(alpi_gltf_view_read(p->document, index, &view));
-    array->type = alpi_gltf_text(object, "type");
-    array->component_type = (uint32_t)component;
-    size_t size = matrix_size(array->type, array->component_type);
-    size_t stride = view.stride != 0 ? view.stride : size;
-    if (size == 0 || stride < size || count == 0 || count > UINT32_MAX || offset > view.size ||
-        view.size - offset < size || (view.size - offset - size) / stride < count - 1 ||
-        json_object_get(object, "sparse") != NULL) {
-        return alpi_gltf_fail(p->document, owner, "its matrices do not fit into bufferView %zu",
-                              index);
-    }
-    ALPI_TRY_NEW(p->context, *packed, count * size);
-    for (size_t i = 0; i < count; i++) {
-        memcpy(*packed + i * size, view.bytes + offset + i * stride, size);
-    }
-    array->count = (uint32_t)count;
-    array->element_size = size;
-    array->normalized = json_is_true(json_object_get(object, "normalized"));
-    return ALP_OK;
-}
-
-static alp_result read_attribute(alpi_gltf_patcher *p, size_t accessor, alpi_gltf_array *array,
-                                 uint8_t **packed)
-{
-    const char *type = alpi_gltf_text(alpi_gltf_item(p->document, "accessors", accessor), "type");
-    if (type != NULL && strncmp(type, "MAT", 3) == 0) {
-        return read_matrices(p, accessor, array, packed);
-    }
-    alpi_gltf_values values;
-    ALP_TRY(alpi_gltf_accessor_read(p->document, accessor, &values));
-    *packed = values.bytes;
-    array->count = values.count;
-    array->components = values.components;
-    array->component_type = values.component_type;
-    array->element_size = (size_t)values.components * values.component_size;
-    array->normalized = values.normalized;
-    return ALP_OK;
-}
-
-/// The attribute's values at the split vertices, raw.
-static alp_result gather(alpi_gltf_patcher *p, const rewrite *r, size_t accessor,
-                         alpi_gltf_array *array, const uint8_t *packed, size_t *written)
-{
-    if (array->count != r->vertex_count) {
-        return alpi_gltf_fail(p->document, r->owner, "accessor %zu has %u elements for %u vertices",
-                              accessor, array->count, r->vertex_count);
-    }
-    size_t size = array->element_size;
-    uint8_t *gathered = alpi_allocate(p->context, r->split.vertex_count, size);
-    if (gathered == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    for (uint32_t v = 0; v < r->split.vertex_count; v++) {
-        memcpy(gathered + v * size, packed + r->split.sources[v] * size, size);
-    }
-    array->count = r->split.vertex_count;
-    array->bytes = gathered;
-    alp_result result = alpi_patcher_add_accessor(p, array, written);
-    alpi_release(p->context, gathered);
-    return result;
-}
-
-static alp_result split_attribute(alpi_gltf_patcher *p, rewrite *r, alpi_json_span span,
-                                  bool is_position)
-{
-    size_t accessor = read_index(p, span);
-    if (accessor == ALPI_GLTF_NONE) {
-        return alpi_gltf_fail(p->document, r->owner, "an attribute names no accessor");
-    }
-    json_t *object = alpi_gltf_item(p->document, "accessors", accessor);
-    alpi_gltf_array array = {.has_bounds = is_position || json_object_get(object, "min") != NULL};
-    uint8_t *packed = NULL;
-    ALP_TRY(read_attribute(p, accessor, &array, &packed));
-    attribute_edit edit = {.span = span};
-    alp_result result = gather(p, r, accessor, &array, packed, &edit.accessor);
-    alpi_release(p->context, packed);
-    ALP_TRY(result);
-    void *items = r->attribute_edits;
-    ALP_TRY(
-        alpi_grow(p->context, &items, &r->attribute_capacity, r->attribute_count + 1, sizeof edit));
-    r->attribute_edits = items;
-    r->attribute_edits[r->attribute_count++] = edit;
-    return ALP_OK;
-}
-
-static alp_result split_attributes(alpi_gltf_patcher *p, rewrite *r, alpi_json_span object)
-{
-    const char *text = p->document->text;
-    alpi_json_cursor cursor = alpi_json_open(text, object);
-    while (alpi_json_next(&cursor)) {
-        bool replaced = false;
-        for (uint32_t k = 0; k < r->added_count && object.begin == r->attributes.begin; k++) {
-            replaced |= alpi_json_key_is(text, cursor.key, r->added_names[k]);
-        }
-        bool stays = !r->parted &&
-                     !alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
-        if (!replaced && !stays) {
-            ALP_TRY(split_attribute(p, r, cursor.value,
-                                    alpi_json_key_is(text, cursor.key, "POSITION")));
-        }
-    }
-    return ALP_OK;
-}
-
-static alp_result split_targets(alpi_gltf_patcher *p, rewrite *r)
-{
-    alpi_json_span targets;
-    if (!alpi_json_find(p->document->text, r->span, "targets", &targets)) {
-        return ALP_OK;
-    }
-    alpi_json_cursor cursor = alpi_json_open(p->document->text, targets);
-    while (alpi_json_next(&cursor)) {
-        ALP_TRY(split_attributes(p, r, cursor.value));
-    }
-    return ALP_OK;
-}
-
 // --- vertices and indices ------------------------------------------------------------------------
 
-static alp_result add_coordinates(alpi_gltf_patcher *p, rewrite *r)
+static alp_result add_coordinates(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     const uint32_t count = r->split.vertex_count;
     float(*uvs)[2] = (float(*)[2])alpi_allocate(p->context, count, sizeof *uvs);
@@ -283,7 +101,8 @@ static alp_result add_coordinates(alpi_gltf_patcher *p, rewrite *r)
                                  .count = count,
                                  .components = 2,
                                  .component_type = 5126,
-                                 .element_size = sizeof *uvs};
+                                 .element_size = sizeof *uvs,
+                                 .mark = ALPI_GLTF_SET};
         result = alpi_patcher_add_accessor(p, &array, &r->added_accessors[k]);
     }
     alpi_release(p->context, uvs);
@@ -291,7 +110,7 @@ static alp_result add_coordinates(alpi_gltf_patcher *p, rewrite *r)
 }
 
 /// The values of the corners as an attribute; vertices of no triangle are open.
-static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
+static alp_result add_values(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     uint32_t count = r->split.vertex_count;
     uint16_t *values = ALPI_NEW(p->context, uint16_t, count);
@@ -316,12 +135,12 @@ static alp_result add_values(alpi_gltf_patcher *p, rewrite *r)
     return result;
 }
 
-static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
+static alp_result split_vertices(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     bool at_vertices = p->patch->vertex_values != NULL;
     r->added_count = p->patch->set_uvs != NULL ? ALPI_GLTF_BLEND_SETS : 1;
     for (uint32_t k = 0; k < r->added_count; k++) {
-        alpi_patcher_set_name(r->plan->uv_set, k, r->added_names[k]);
+        alpi_patcher_set_name(r->plan->sets[k], r->added_names[k]);
     }
     if (at_vertices) {
         snprintf(r->added_names[0], sizeof r->added_names[0], "%s", alpi_patcher_vertex_name(p));
@@ -338,14 +157,14 @@ static alp_result split_vertices(alpi_gltf_patcher *p, rewrite *r)
     r->parted = r->split.changed;
     r->split.changed |= r->compressed;
     if (r->split.changed) {
-        ALP_TRY(split_attributes(p, r, r->attributes));
-        ALP_TRY(split_targets(p, r));
+        ALP_TRY(alpi_patcher_split_attributes(p, r, r->attributes));
+        ALP_TRY(alpi_patcher_split_targets(p, r));
     }
     return at_vertices ? add_values(p, r) : add_coordinates(p, r);
 }
 
 /// Kept coordinates: the vertices stay what they are, and are written uncompressed.
-static alp_result write_plain(alpi_gltf_patcher *p, rewrite *r)
+static alp_result write_plain(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     ALPI_TRY_NEW(p->context, r->split.sources, r->vertex_count);
     for (uint32_t v = 0; v < r->vertex_count; v++) {
@@ -353,13 +172,13 @@ static alp_result write_plain(alpi_gltf_patcher *p, rewrite *r)
     }
     r->split.vertex_count = r->vertex_count;
     r->split.changed = true;
-    ALP_TRY(split_attributes(p, r, r->attributes));
-    return split_targets(p, r);
+    ALP_TRY(alpi_patcher_split_attributes(p, r, r->attributes));
+    return alpi_patcher_split_targets(p, r);
 }
 
 /// The triangles of one page, as a new index accessor. The largest index of a type is no vertex:
 /// it restarts primitives.
-static alp_result write_indices(alpi_gltf_patcher *p, const rewrite *r, uint32_t page,
+static alp_result write_indices(alpi_gltf_patcher *p, const alpi_gltf_rewrite *r, uint32_t page,
                                 size_t *accessor)
 {
     uint32_t(*indices)[3] = r->split.indices != NULL ? r->split.indices : r->indices;
@@ -390,7 +209,7 @@ static alp_result write_indices(alpi_gltf_patcher *p, const rewrite *r, uint32_t
 // --- the text of a primitive ---------------------------------------------------------------------
 
 /// Draco's version of a primitive that changes is taken out: its order of vertices is another.
-static void drop_draco(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r)
+static void drop_draco(alpi_gltf_patcher *p, alpi_edits *edits, const alpi_gltf_rewrite *r)
 {
     alpi_json_span span;
     if (!r->has_draco || !alpi_json_find(p->document->text, r->span, "extensions", &span)) {
@@ -405,42 +224,45 @@ static void drop_draco(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r
 
 /// Whether a primitive is written without compression: it gains an attribute, or is split into
 /// pieces that Draco's one stream cannot stand for.
-static bool becomes_plain(const alpi_gltf_patcher *p, const rewrite *r)
+static bool becomes_plain(const alpi_gltf_patcher *p, const alpi_gltf_rewrite *r)
 {
     return p->patch->corner_uvs != NULL || p->patch->vertex_values != NULL ||
            (r->has_draco && r->plan->piece_count > 1);
 }
 
 /// Whether any accessor of a primitive is compressed.
-static bool any_compressed(const alpi_gltf_patcher *p, const rewrite *r)
+static bool any_compressed(const alpi_gltf_patcher *p, const alpi_gltf_rewrite *r)
 {
     const char *text = p->document->text;
     alpi_json_span span;
     bool any = alpi_json_find(text, r->span, "indices", &span) &&
-               alpi_gltf_accessor_is_compressed(p->document, read_index(p, span));
+               alpi_gltf_accessor_is_compressed(p->document, alpi_patcher_read_index(p, span));
     alpi_json_cursor cursor = alpi_json_open(text, r->attributes);
     while (alpi_json_next(&cursor)) {
-        any |= alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
+        any |=
+            alpi_gltf_accessor_is_compressed(p->document, alpi_patcher_read_index(p, cursor.value));
     }
     if (alpi_json_find(text, r->span, "targets", &span)) {
         alpi_json_cursor targets = alpi_json_open(text, span);
         while (alpi_json_next(&targets)) {
             cursor = alpi_json_open(text, targets.value);
             while (alpi_json_next(&cursor)) {
-                any |= alpi_gltf_accessor_is_compressed(p->document, read_index(p, cursor.value));
+                any |= alpi_gltf_accessor_is_compressed(p->document,
+                                                        alpi_patcher_read_index(p, cursor.value));
             }
         }
     }
     return any;
 }
 
-static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
-                                 const alpi_gltf_piece *piece)
+static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
+                                 const alpi_gltf_rewrite *r, const alpi_gltf_piece *piece)
 {
     for (size_t i = 0; i < r->attribute_count; i++) {
         alpi_edits_replace(edits, r->attribute_edits[i].span, "%zu",
                            r->attribute_edits[i].accessor);
     }
+    alpi_patcher_drop_sets(edits, r->attributes, r->plan->dropped);
     for (uint32_t k = 0; k < r->added_count; k++) {
         alpi_edits_set_index(edits, r->attributes, r->added_names[k], r->added_accessors[k]);
     }
@@ -464,7 +286,7 @@ static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits, const 
 }
 
 /// The first piece is the primitive itself; the others are copies behind the last primitive.
-static alp_result write_pieces(alpi_gltf_patcher *p, alpi_edits *edits, const rewrite *r,
+static alp_result write_pieces(alpi_gltf_patcher *p, alpi_edits *edits, const alpi_gltf_rewrite *r,
                                alpi_json_span primitives)
 {
     const alpi_gltf_piece *pieces = &p->pieces[r->plan->piece_first];
@@ -484,17 +306,16 @@ static alp_result write_pieces(alpi_gltf_patcher *p, alpi_edits *edits, const re
     return ALP_OK;
 }
 
-static alp_result read_triangles(alpi_gltf_patcher *p, rewrite *r)
+static alp_result read_triangles(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
 {
     const char *text = p->document->text;
     alpi_json_span position;
     alpi_gltf_values values;
-    if (!alpi_json_find(text, r->span, "attributes", &r->attributes) ||
-        !alpi_json_find(text, r->attributes, "POSITION", &position) ||
-        read_index(p, position) == ALPI_GLTF_NONE) {
+    if (!alpi_json_find(text, r->attributes, "POSITION", &position) ||
+        alpi_patcher_read_index(p, position) == ALPI_GLTF_NONE) {
         return alpi_gltf_fail(p->document, r->owner, "has no POSITION");
     }
-    ALP_TRY(alpi_gltf_accessor_check(p->document, read_index(p, position), &values));
+    ALP_TRY(alpi_gltf_accessor_check(p->document, alpi_patcher_read_index(p, position), &values));
     r->vertex_count = values.count;
     uint32_t leftover;
     ALP_TRY(alpi_gltf_primitive_triangles(p->document, r->primitive, r->owner, r->vertex_count,
@@ -507,7 +328,7 @@ static alp_result read_triangles(alpi_gltf_patcher *p, rewrite *r)
 }
 
 /// New coordinates or values, and no compression where it cannot stay.
-static alp_result change_vertices(alpi_gltf_patcher *p, rewrite *r, bool in_place)
+static alp_result change_vertices(alpi_gltf_patcher *p, alpi_gltf_rewrite *r, bool in_place)
 {
     r->has_draco = alpi_gltf_extension(r->primitive, ALPI_GLTF_DRACO) != NULL;
     const bool plain = becomes_plain(p, r);
@@ -524,11 +345,13 @@ static alp_result rewrite_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                                     const alpi_gltf_plan *plan, alpi_json_span span,
                                     alpi_json_span primitives)
 {
-    rewrite r = {.plan = plan,
-                 .surface = &p->scene->surfaces[plan->surface],
-                 .primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive),
-                 .span = span};
+    alpi_gltf_rewrite r = {.plan = plan,
+                           .surface = &p->scene->surfaces[plan->surface],
+                           .primitive =
+                               alpi_gltf_primitive(p->document, plan->mesh, plan->primitive),
+                           .span = span};
     snprintf(r.owner, sizeof r.owner, "mesh %zu primitive %zu", plan->mesh, plan->primitive);
+    alpi_json_find(p->document->text, span, "attributes", &r.attributes);
     alp_result result = plan->packed ? ALP_OK : read_triangles(p, &r);
     if (result == ALP_OK && !plan->packed) {
         result = change_vertices(p, &r, edits == &p->edits);

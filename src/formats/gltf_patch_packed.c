@@ -33,14 +33,16 @@ static alp_result copy_texture(alpi_gltf_patcher *p, size_t texture, uint32_t pa
 {
     if (p->texture_copies[texture] == ALPI_GLTF_NONE) {
         size_t sampler;
-        char text[96];
+        char text[128];
         ALP_TRY(alpi_gltf_index(p->document, alpi_gltf_item(p->document, "textures", texture),
                                 "sampler", "samplers", owner, &sampler));
         size_t image = packed_image(p, packed);
         int length =
             sampler == ALPI_GLTF_NONE
-                ? snprintf(text, sizeof text, "{\"source\":%zu}", image)
-                : snprintf(text, sizeof text, "{\"sampler\":%zu,\"source\":%zu}", sampler, image);
+                ? snprintf(text, sizeof text, "{\"source\":%zu," ALPI_GLTF_MAP_EXTRAS "}", image)
+                : snprintf(text, sizeof text,
+                           "{\"sampler\":%zu,\"source\":%zu," ALPI_GLTF_MAP_EXTRAS "}", sampler,
+                           image);
         p->texture_copies[texture] =
             alpi_patcher_append(p, ALPI_GLTF_TEXTURES, text, (size_t)length);
     }

@@ -71,20 +71,6 @@ static bool has_texcoord(json_t *primitive, uint32_t set)
     return json_object_get(json_object_get(primitive, "attributes"), name) != NULL;
 }
 
-/// The set that the map is read with; false when there is none (kept coordinates that are absent).
-static bool choose_uv_set(const alpi_gltf_patcher *p, json_t *primitive, uint32_t *set)
-{
-    if (keeps_uvs(p)) {
-        *set = p->patch->kept_uv_set;
-        return has_texcoord(primitive, *set);
-    }
-    *set = 0;
-    while (has_texcoord(primitive, *set)) {
-        ++*set;
-    }
-    return true;
-}
-
 /// Whether the occlusion map goes to a material, or values at vertices to its primitives.
 static bool gets_occlusion(const alpi_gltf_patcher *p, size_t material)
 {
@@ -141,16 +127,17 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
     plan->occluded = gets_occlusion(p, plan->material);
     plan->lit = alpi_patcher_is_lit(p, surface);
-    if (plan->packed || !(plan->occluded || plan->lit)) {
-        *wanted = plan->packed;
+    *wanted = plan->packed || plan->occluded || plan->lit;
+    if (!*wanted) {
         return ALP_OK;
     }
-    *wanted = choose_uv_set(p, primitive, &plan->uv_set);
-    if (!*wanted) {
+    if (!plan->packed && keeps_uvs(p) && !has_texcoord(primitive, p->patch->kept_uv_set)) {
+        *wanted = false;
         alpi_warn(p->context, "no-uv-set", surface->name, "%s has no TEXCOORD_%u: it gets no map",
-                  owner, plan->uv_set);
+                  owner, p->patch->kept_uv_set);
+        return ALP_OK;
     }
-    return ALP_OK;
+    return alpi_patcher_choose_sets(p, primitive, owner, plan);
 }
 
 static int compare_plans(const void *left, const void *right)
@@ -340,6 +327,7 @@ alp_result alpi_patcher_plan(alpi_gltf_patcher *p)
     }
     ALP_TRY(list_showings(p));
     drop_repeated(p);
+    alpi_patcher_warn_of_sets(p);
     ALP_TRY(plan_copies(p));
     bool *used = ALPI_NEW(p->context, bool, p->patch->page_count);
     alp_result result = used == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;

@@ -46,7 +46,8 @@ static alp_result add_new(alpi_gltf_patcher *p, const alpi_gltf_vertex_input *in
                              .components = components,
                              .component_type = COMPONENT_U16,
                              .element_size = components * sizeof *stored,
-                             .normalized = true};
+                             .normalized = true,
+                             .mark = ALPI_GLTF_VALUES};
     alp_result result = alpi_patcher_add_accessor(p, &array, accessor);
     alpi_release(p->context, stored);
     return result;
@@ -85,10 +86,23 @@ static alp_result add_product(alpi_gltf_patcher *p, const alpi_gltf_vertex_input
                              .components = old->components,
                              .component_type = is_float ? COMPONENT_FLOAT : COMPONENT_U16,
                              .element_size = old->components * size,
-                             .normalized = !is_float};
+                             .normalized = !is_float,
+                             .mark = ALPI_GLTF_VALUES};
     alp_result result = alpi_patcher_add_accessor(p, &array, accessor);
     alpi_release(p->context, stored);
     return result;
+}
+
+/// Whether the colours of a primitive bear the mark of a bake, however it was baked since.
+static bool holds_values(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
+{
+    json_t *primitive = alpi_gltf_primitive(p->document, plan->mesh, plan->primitive);
+    json_t *color = json_object_get(json_object_get(primitive, "attributes"), "COLOR_0");
+    const double index = json_number_value(color);
+    const bool there = json_is_number(color) && index >= 0.0 &&
+                       index < (double)p->lists[ALPI_GLTF_ACCESSORS].count;
+    const char *mark = there ? alpi_gltf_mark(p->document, "accessors", (size_t)index) : NULL;
+    return mark != NULL && strcmp(mark, ALPI_GLTF_VALUES) == 0;
 }
 
 void alpi_patcher_warn_of_former(const alpi_gltf_patcher *p)
@@ -96,7 +110,11 @@ void alpi_patcher_warn_of_former(const alpi_gltf_patcher *p)
     json_t *extras = json_object_get(json_object_get(p->document->root, "asset"), "extras");
     json_t *former = json_object_get(json_object_get(extras, "alpenglow"), "occlusion");
     const char *name = json_string_value(json_object_get(former, "vertex_attribute"));
-    if (in_color(p) && name != NULL && strcmp(name, "COLOR_0") == 0) {
+    bool is_former = name != NULL && strcmp(name, "COLOR_0") == 0;
+    for (size_t i = 0; i < p->plan_count && !is_former; i++) {
+        is_former = holds_values(p, &p->plans[i]);
+    }
+    if (in_color(p) && is_former) {
         alpi_warn(
             p->context, "baked-twice", p->document->path,
             "its COLOR_0 holds the occlusion of an earlier bake and is multiplied again; bake "

@@ -156,7 +156,8 @@ static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *d
 
 /// Buffers and images that the written asset still refers to go where it looks for them.
 static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_document *document,
-                                 const char *path, bool merged, const bool *image_embedded)
+                                 const char *path, bool merged, const bool *image_embedded,
+                                 const bool *buffers_gone)
 {
     char *folder = alpi_path_folder(files->context, path);
     if (folder == NULL) {
@@ -164,7 +165,7 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
     }
     alp_result result = ALP_OK;
     if (!alpi_gltf_same_folder(folder, document->folder)) {
-        result = add_copies(files, document, "buffers", NULL, merged, folder);
+        result = add_copies(files, document, "buffers", buffers_gone, merged, folder);
         if (result == ALP_OK) {
             result = add_copies(files, document, "images", image_embedded, false, folder);
         }
@@ -235,6 +236,7 @@ typedef struct writing {
     alpi_gltf_patcher patcher;
     alpi_gltf_files files;
     alpi_bytes bin, text, asset;
+    bool *buffers_gone; // [buffers of the document]
 } writing;
 
 static alp_result add_side_file(writing *w, const char *path, const void *bytes, size_t size)
@@ -243,16 +245,18 @@ static alp_result add_side_file(writing *w, const char *path, const void *bytes,
         &w->files, (alpi_gltf_file){alpi_copy_string(w->files.context, path), bytes, size, NULL});
 }
 
+static bool first_is_bin(const alpi_gltf_document *document)
+{
+    return document->bin != NULL && document->buffer_count > 0 &&
+           document->buffers[0].bytes == document->bin;
+}
+
 /// The new files beside a .gltf.
 static alp_result add_side_files(writing *w)
 {
     const alpi_gltf_document *document = w->document;
-    if (document->bin != NULL && document->buffer_count > 0 &&
-        document->buffers[0].bytes == document->bin) {
-        size_t size;
-        ALP_TRY(alpi_gltf_size(document, alpi_gltf_item(document, "buffers", 0), "byteLength",
-                               "buffer 0", &size)); // without the padding of the chunk
-        ALP_TRY(add_side_file(w, w->names.bin, document->bin, size));
+    if (first_is_bin(document)) {
+        ALP_TRY(add_side_file(w, w->names.bin, w->bin.bytes, w->bin.size));
     }
     if (w->patcher.data.size > 0) {
         ALP_TRY(add_side_file(w, w->names.data, w->patcher.data.bytes, w->patcher.data.size));
@@ -286,6 +290,40 @@ static alp_result add_light_files(writing *w)
     return ALP_OK;
 }
 
+/// What an earlier bake left goes. Bytes are cut where they are written anew anyway; a file beside
+/// a .gltf is dropped as a whole or stays.
+static alp_result tidy(writing *w, alpi_gltf_home home)
+{
+    const alpi_gltf_document *document = w->document;
+    if (!alpi_gltf_was_baked(document)) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(document->context, w->buffers_gone, document->buffer_count);
+    const bool is_bin = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED ||
+                        (home == ALPI_HOME_FILE && first_is_bin(document));
+    const bool has_file = home == ALPI_HOME_FILE && w->patcher.data.size > 0;
+    const bool keeps_buffers = home != ALPI_HOME_MERGED; // else they are others now
+    const alpi_gltf_leftovers from = {.first_stays = is_bin || w->to_glb,
+                                      .bin = is_bin ? &w->bin : NULL,
+                                      .data = has_file ? &w->patcher.data : NULL,
+                                      .document = document,
+                                      .images_gone = w->patcher.image_embedded,
+                                      .buffers_gone = w->buffers_gone,
+                                      .image_count = alpi_gltf_count(document, "images"),
+                                      .buffer_count = keeps_buffers ? document->buffer_count : 0};
+    return alpi_gltf_tidy(document->context, &from, &w->text);
+}
+
+/// The BIN chunk of a .glb that becomes a .gltf, without its padding.
+static alp_result take_bin(writing *w)
+{
+    size_t size;
+    ALP_TRY(alpi_gltf_size(w->document, alpi_gltf_item(w->document, "buffers", 0), "byteLength",
+                           "buffer 0", &size));
+    alpi_bytes_add(&w->bin, w->document->bin, size);
+    return w->bin.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
 static alp_result patch_text(writing *w, alpi_gltf_home home)
 {
     const alpi_gltf_images *images = &w->names.images;
@@ -296,7 +334,11 @@ static alp_result patch_text(writing *w, alpi_gltf_home home)
     ALP_TRY(alpi_gltf_prepare_home(&w->patcher, home));
     ALP_TRY(alpi_patcher_run(&w->patcher));
     ALP_TRY(alpi_gltf_settle_home(&w->patcher, home, &w->names, &w->bin));
-    return alpi_patcher_finish(&w->patcher, &w->text);
+    if (home == ALPI_HOME_FILE && first_is_bin(w->document)) {
+        ALP_TRY(take_bin(w));
+    }
+    ALP_TRY(alpi_patcher_finish(&w->patcher, &w->text));
+    return tidy(w, home);
 }
 
 static alp_result collect_files(writing *w, alpi_gltf_home home)
@@ -308,7 +350,7 @@ static alp_result collect_files(writing *w, alpi_gltf_home home)
     }
     ALP_TRY(add_light_files(w));
     ALP_TRY(add_references(&w->files, w->document, w->path, home == ALPI_HOME_MERGED,
-                           w->patcher.image_embedded));
+                           w->patcher.image_embedded, w->buffers_gone));
     return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
 }
 
@@ -376,6 +418,7 @@ static alp_result write_document(const alp_scene *scene, const alpi_gltf_documen
     alpi_bytes_destroy(&w.bin);
     alpi_bytes_destroy(&w.text);
     alpi_bytes_destroy(&w.asset);
+    alpi_release(context, w.buffers_gone);
     return result;
 }
 
@@ -405,7 +448,7 @@ static alp_result check_references(const alpi_gltf_document *document, const cha
     alpi_gltf_files files = {.context = document->context, .silent = true};
     alp_result result = ALP_OK;
     if (!merged) { // merging embeds all
-        result = add_references(&files, document, path, merged, NULL);
+        result = add_references(&files, document, path, merged, NULL, NULL);
     }
     for (size_t i = 0; result == ALP_OK && i < files.count; i++) {
         if (access(files.items[i].path, F_OK) == 0) {

@@ -100,7 +100,8 @@ static void red_is_the_map_and_nothing_else_changes(void **state)
         assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
         assert_string_equal(
             orm_text(&p, "materials/1/pbrMetallicRoughness/metallicRoughnessTexture/index"), "1");
-        assert_string_equal(orm_text(&p, "textures/1"), "{\"sampler\":0,\"source\":1}");
+        assert_string_equal(orm_text(&p, "textures/1"),
+                            "{\"sampler\":0,\"source\":1,\"extras\":{\"alpenglow\":\"map\"}}");
         orm_stop(&p);
     }
 }

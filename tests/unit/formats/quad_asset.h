@@ -45,6 +45,9 @@ void quad_part_triangles(quad_bake *bake);
 void quad_write(quad_bake *bake, const char *ending);
 void quad_close(quad_bake *bake);
 
+/// Makes a written file one of a version without marks: nothing in it is known as ours.
+void quad_unmark(const char *path);
+
 /// Documents before and after.
 const alpi_gltf_document *quad_old(const quad_bake *bake);
 const alpi_gltf_document *quad_new(const quad_bake *bake);

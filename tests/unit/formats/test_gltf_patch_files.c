@@ -45,6 +45,7 @@ static void many_files_become_one_glb(void **state)
     (void)state;
     quad_bake first = quad_open(quad_write_gltf(ASSET, plain), 1);
     quad_write(&first, ".gltf");
+    quad_unmark(first.path); // or the second set would take the place of the first
     quad_bake second = quad_open(first.path, 1);
     quad_write(&second, ".glb");
     assert_string_equal(quad_text(&second, "buffers/0/uri"), "");
@@ -70,7 +71,7 @@ static void a_file_is_baked_over_itself(void **state)
     const char *path = bake.path;
     assert_int_equal(alpi_gltf_check_output(bake.scene, 1, path, false), ALP_ERROR_IO);
     assert_int_equal(alpi_scene_write_patched(bake.scene, &bake.patch, path, false), ALP_ERROR_IO);
-    for (int round = 0; round < 3; round++) { // each adds a set, and none loses its file
+    for (int round = 0; round < 3; round++) { // each takes the place of the one before
         for (int i = 0; i < 6; i++) {
             bake.uvs[i / 3][i % 3][1] = 0.25f * (float)(round + 1);
         }
@@ -78,10 +79,8 @@ static void a_file_is_baked_over_itself(void **state)
         ASSERT_OK(bake.context, alpi_scene_write_patched(bake.scene, &bake.patch, path, true));
         alp_scene_destroy(bake.scene);
         ASSERT_OK(bake.context, alpi_gltf_read_scene(bake.context, path, &bake.scene));
-        assert_int_equal(bake.scene->surfaces[0].uv_sets, round + 1);
-        for (int set = 0; set <= round; set++) {
-            ASSERT_NEAR(bake.scene->uvs[set][0][1], 0.25 * (set + 1), 0.0);
-        }
+        assert_int_equal(bake.scene->surfaces[0].uv_sets, 1);
+        ASSERT_NEAR(bake.scene->uvs[0][0][1], 0.25 * (round + 1), 0.0);
     }
     quad_close(&bake);
 }
