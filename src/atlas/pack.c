@@ -232,7 +232,8 @@ alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules
                 .by_middle = variant->by_middle,
                 .shapes.context = context};
     alp_result result = ALP_OK;
-    for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
+    for (uint32_t i = 0;
+         i < count && result == ALP_OK && variant->left_texels <= variant->most_left; i++) {
         const uint32_t item = variant->order[i];
         result = place_item(&p, &variant->items[item]);
         if (result == ALP_ERROR_LIMIT) {
