@@ -37,6 +37,7 @@ typedef struct cutter {
     alpi_charts *charts;
     alpi_cut_sides sides;
     uint32_t chart;       // that is being cut
+    double slack;         // of it
     span *spans[2];       // [triangles of the largest chart] of all, of a strip
     span *kept;           // [the same] scratch
     uint32_t *order;      // [the same] scratch
@@ -99,10 +100,11 @@ alp_result alpi_charts_check(const alp_atlas *atlas, double density, const alpi_
     for (uint32_t c = 0; c < charts->count; c++) {
         const alpi_chart *chart = &charts->charts[c];
         const bool fits = fmax(chart->width, chart->height) <= limit;
+        const double slack = alpi_cut_slack(chart, 1.0 / density);
         for (uint32_t i = chart->first; i < chart->first + chart->count && !fits; i++) {
             const double side = square_side(atlas, charts->triangles[i]);
-            largest = side > most ? charts->triangles[i] : largest;
-            most = fmax(most, side);
+            largest = side > most + slack ? charts->triangles[i] : largest;
+            most = side > most + slack ? side : most;
         }
     }
     return largest == ALPI_NONE ? ALP_OK : fail_too_large(atlas, largest, most, density);
@@ -130,7 +132,7 @@ static int compare_spans(const void *a, const void *b)
 /// first one's beginning; how many. The others stay in order.
 static uint32_t take_part(const cutter *c, span *spans, uint32_t count)
 {
-    const double end = spans[0].low + c->sides.part;
+    const double end = spans[0].low + c->sides.part + c->slack;
     uint32_t taken = 0, kept = 0, i = 0;
     for (; i < count && spans[i].low <= end; i++) {
         if (spans[i].high <= end) {
@@ -171,7 +173,7 @@ static void label_cells(cutter *c)
     for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
         const uint32_t t = c->charts->triangles[i];
         const span x = span_of(c->atlas, t, 0), y = span_of(c->atlas, t, 1);
-        if (fmax(x.high - x.low, y.high - y.low) <= c->sides.part) {
+        if (fmax(x.high - x.low, y.high - y.low) <= c->sides.part + c->slack) {
             spans[count++] = x;
         } else {
             c->labels[t] = c->label_count++;
@@ -348,7 +350,7 @@ static void join_pieces(const cutter *c)
         for (int axis = 0; axis < 2; axis++) {
             both.low[axis] = fmin(to->low[axis], from->low[axis]);
             both.high[axis] = fmax(to->high[axis], from->high[axis]);
-            fits = fits && both.high[axis] - both.low[axis] <= c->sides.part;
+            fits = fits && both.high[axis] - both.low[axis] <= c->sides.part + c->slack;
         }
         if (fits) {
             both.count += from->count;
@@ -384,7 +386,8 @@ static alpi_box box_of_triangle(const cutter *c, uint32_t triangle)
     alpi_point points[3];
     load_points(c->atlas, triangle, points);
     const alpi_box box = alpi_lowest_box(points);
-    return fmax(box.width, box.height) <= c->sides.page ? box : alpi_smallest_square(points);
+    return fmax(box.width, box.height) <= c->sides.page + c->slack ? box
+                                                                   : alpi_smallest_square(points);
 }
 
 /// Moves a piece's box to the origin; what reaches too far as it lies in its chart is one triangle.
@@ -396,9 +399,13 @@ static void make_chart(const cutter *c, const piece *from, alpi_chart *chart)
                     .low_y = from->low[1],
                     .width = from->high[0] - from->low[0],
                     .height = from->high[1] - from->low[1]};
-    if (fmax(box.width, box.height) > c->sides.part) {
+    double most = c->sides.part;
+    if (fmax(box.width, box.height) > most + c->slack) {
         box = box_of_triangle(c, triangles[0]);
+        most = c->sides.page;
     }
+    box.width = fmin(box.width, most);
+    box.height = fmin(box.height, most);
     for (uint32_t i = 0; i < 3 * chart->count; i++) {
         float *uv = c->atlas->corner_uvs[triangles[i / 3]][i % 3];
         const double u = (double)uv[0], v = (double)uv[1];
@@ -437,6 +444,7 @@ static alp_result cut_chart(cutter *c)
 {
     const alpi_chart *chart = &c->charts->charts[c->chart];
     uint32_t *triangles = c->charts->triangles + chart->first;
+    c->slack = alpi_cut_slack(chart, c->sides.texel);
     label_cells(c);
     connect(c, triangles, chart->count);
     ALP_TRY(list_pieces(c, triangles, chart->count));

@@ -400,7 +400,7 @@ static uint32_t part_texels(const alpi_pack_rules *rules, uint32_t parts)
 /// page, but then so that those that share triangles fit one together.
 static alp_result cut_charts(layout *l, double density, uint32_t parts)
 {
-    alpi_cut_sides sides = {.page = alpi_part_side(l->rules.size, density)};
+    alpi_cut_sides sides = {.page = alpi_part_side(l->rules.size, density), .texel = 1.0 / density};
     sides.part =
         alpi_part_side(part_texels(&l->rules, l->charts->blend != NULL ? 2 : parts), density);
     sides.limit = l->charts->blend != NULL ? sides.page : sides.part;

@@ -5,6 +5,8 @@
 
 #include "atlas/raster.h"
 
+#include <math.h>
+
 enum {
     ALPI_ATLAS_PAGE_LIMIT = 4096,
     ALPI_ATLAS_SIZE_LIMIT = 16384,
@@ -68,7 +70,14 @@ typedef struct alpi_cut_sides {
     double limit; // charts with a longer side are cut
     double part;  // of pieces, the most
     double page;  // of what fits a page
+    double texel;
 } alpi_cut_sides;
+/// How much a chart may be longer than what it must fit, to be clamped to it: the rounding of its
+/// 32-bit coordinates, where that is far below a texel. Sides are often whole texels.
+static inline double alpi_cut_slack(const alpi_chart *chart, double texel)
+{
+    return fmin(0x1p-21 * fmax(chart->width, chart->height), 1e-3 * texel);
+}
 /// The longest side, in metres, of a chart that fits `texels` texels at a density: a box of whole
 /// texels forgives what rounding adds.
 static inline double alpi_part_side(uint32_t texels, double density)
