@@ -183,7 +183,7 @@ static alp_result make_charts(alp_atlas *atlas, const uint32_t (*neighbours)[3],
     alp_result result = chart_all(atlas, neighbours, clock, &charts);
     if (result == ALP_OK) {
         alpi_factors_apply(atlas, &charts);
-        result = alpi_layout(atlas, &charts, clock);
+        result = alpi_layout(atlas, neighbours, &charts, clock);
     }
     if (result == ALP_OK) {
         alpi_widen_slivers(atlas);

@@ -254,6 +254,7 @@ typedef struct alpi_pack_rules {
                     // of two items; 0 and 1: no matter
     uint32_t mips;  // two cells of 2^(mips − 1) texels are free between those with texels of two
                     // items; 0: no matter. See alp_atlas_options.mips
+    bool by_middle; // to where an item's middle comes lowest, not its upper side
     uint64_t *rows_tried; // NULL, or: grows by how often a row was looked at for room
 } alpi_pack_rules;
 /// Packs shapes into pages: the large first, each turned by quarters, to where its upper side ends

@@ -215,13 +215,13 @@ static alp_result lay_out(builder *b, alpi_atlas_clock *clock)
     alpi_clusters clusters;
     ALP_TRY(alpi_blend_clusters(&b->view, &b->faces, atlas->world_axes, clock, &clusters));
     alpi_charts charts;
-    alp_result result =
-        alpi_charts_create(atlas, (const uint32_t(*)[3])b->faces.neighbours, &clusters, &charts);
+    const uint32_t(*neighbours)[3] = (const uint32_t(*)[3])b->faces.neighbours;
+    alp_result result = alpi_charts_create(atlas, neighbours, &clusters, &charts);
     alpi_clusters_destroy(atlas->context, &clusters);
     if (result == ALP_OK) {
         charts.blend = &b->faces;
         alpi_factors_apply(atlas, &charts);
-        result = alpi_layout(atlas, &charts, clock);
+        result = alpi_layout(atlas, neighbours, &charts, clock);
     }
     atlas->info.mode = ALP_ATLAS_BLEND;
     atlas->info.charts = charts.count;

@@ -108,3 +108,54 @@ alpi_box alpi_tightest_box(alpi_point *points, size_t count, alpi_point *hull)
     }
     return best;
 }
+
+// --- triangles -----------------------------------------------------------------------------------
+
+alpi_box alpi_lowest_box(const alpi_point triangle[3])
+{
+    double longest = 0.0;
+    alpi_point axis = {1.0, 0.0};
+    for (int k = 0; k < 3; k++) {
+        const alpi_point p = triangle[k], q = triangle[k == 2 ? 0 : k + 1];
+        const double length = alpi_length2(q.x - p.x, q.y - p.y);
+        if (length > longest) {
+            longest = length;
+            axis = (alpi_point){(q.x - p.x) / length, (q.y - p.y) / length};
+        }
+    }
+    return box_of(axis, triangle, 3);
+}
+
+/// Takes the box along `direction` where its longer side is shorter.
+static void try_square(alpi_point direction, const alpi_point triangle[3], alpi_box *best)
+{
+    const double length = alpi_length2(direction.x, direction.y);
+    if (length > 0.0) {
+        const alpi_point axis = {direction.x / length, direction.y / length};
+        const alpi_box box = box_of(axis, triangle, 3);
+        *best = fmax(box.width, box.height) < fmax(best->width, best->height) ? box : *best;
+    }
+}
+
+/// Over the angle the width of a triangle is that of one edge after the other, each a cosine, and
+/// its height the same a quarter later. The greater of the two is least where one is, along an
+/// edge, or where they are equal: |e·a| = |f·a'|, a' being a turned by a quarter, for two edges or
+/// one. Then a is at right angles to the sum or the difference of e and f', f turned back.
+alpi_box alpi_smallest_square(const alpi_point triangle[3])
+{
+    alpi_point edges[3];
+    for (int k = 0; k < 3; k++) {
+        const alpi_point p = triangle[k], q = triangle[k == 2 ? 0 : k + 1];
+        edges[k] = (alpi_point){q.x - p.x, q.y - p.y};
+    }
+    alpi_box best = box_of((alpi_point){1.0, 0.0}, triangle, 3);
+    for (int i = 0; i < 3; i++) {
+        try_square(edges[i], triangle, &best);
+        for (int j = 0; j < 3; j++) {
+            const alpi_point e = edges[i], turned = {edges[j].y, -edges[j].x};
+            try_square((alpi_point){turned.y - e.y, e.x - turned.x}, triangle, &best);
+            try_square((alpi_point){turned.y + e.y, -e.x - turned.x}, triangle, &best);
+        }
+    }
+    return best;
+}

@@ -26,4 +26,9 @@ typedef struct alpi_box {
 /// @param hull room for 2·count points
 alpi_box alpi_tightest_box(alpi_point *points, size_t count, alpi_point *hull);
 
+/// The lowest box of a triangle: along its longest edge.
+alpi_box alpi_lowest_box(const alpi_point triangle[3]);
+/// The box of a triangle whose longer side is least, so that of the smallest square round it.
+alpi_box alpi_smallest_square(const alpi_point triangle[3]);
+
 #endif

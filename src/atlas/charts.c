@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clusters become charts: projected on their plane and turned to the tightest box; and charts that
-// are larger than a page are cut into pieces that fit.
+// Clusters become charts: projected on their plane and turned to the tightest box.
 #include "atlas/box.h"
-#include "atlas/factors.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -174,90 +172,4 @@ void alpi_charts_destroy(alp_context *context, alpi_charts *charts)
     alpi_release(context, charts->charts);
     alpi_release(context, charts->triangles);
     *charts = (alpi_charts){0};
-}
-
-// --- charts larger than a page -------------------------------------------------------------------
-
-static double centroid(const alp_atlas *atlas, uint32_t triangle, int side)
-{
-    const float(*uv)[2] = (const float(*)[2])atlas->corner_uvs[triangle];
-    return ((double)uv[0][side] + (double)uv[1][side] + (double)uv[2][side]) / 3.0;
-}
-
-/// Reorders the chart's triangles so that those in the lower half of its longer side come first;
-/// how many those are (at least one, at most all but one).
-static uint32_t part_triangles(const alp_atlas *atlas, const alpi_chart *chart, uint32_t *triangles)
-{
-    int side = chart->height > chart->width;
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
-        low = fmin(low, centroid(atlas, triangles[i], side));
-        high = fmax(high, centroid(atlas, triangles[i], side));
-    }
-    if (!(low < high)) {
-        return chart->count / 2;
-    }
-    double middle = 0.5 * (low + high);
-    uint32_t begin = chart->first, end = chart->first + chart->count;
-    while (begin < end) {
-        if (centroid(atlas, triangles[begin], side) < middle) {
-            begin++;
-        } else {
-            uint32_t swapped = triangles[begin];
-            triangles[begin] = triangles[--end];
-            triangles[end] = swapped;
-        }
-    }
-    uint32_t count = begin - chart->first;
-    return count == 0 ? 1 : count == chart->count ? count - 1 : count;
-}
-
-static alp_result fail_too_large(const alp_atlas *atlas, const alpi_chart *chart, uint32_t triangle,
-                                 double density)
-{
-    const alpi_surface *surface = &atlas->scene->surfaces[atlas->scene->triangle_surface[triangle]];
-    const double factor = alpi_factor_of(atlas, triangle);
-    const double longest = fmax(chart->width, chart->height) / factor;
-    return alpi_fail(atlas->context, ALP_ERROR_LIMIT,
-                     "%s: %s: triangle %u is %.4g m long: at %.4g texels per metre it is larger "
-                     "than a page of %u texels; use at most %.4g texels per metre or a larger size",
-                     atlas->scene->name, surface->name, triangle - surface->first_triangle, longest,
-                     density * factor, atlas->options.size,
-                     0.999 * atlas->options.size / (longest * factor));
-}
-
-/// Cuts chart c in two; the second piece goes to the end of the list.
-static alp_result cut_chart(alp_atlas *atlas, alpi_charts *charts, uint32_t c, turner *turn)
-{
-    ALP_TRY(alpi_grow(atlas->context, (void **)&charts->charts, &charts->capacity,
-                      (size_t)charts->count + 1, sizeof *charts->charts));
-    alpi_chart *low = &charts->charts[c], *high = &charts->charts[charts->count];
-    uint32_t count = part_triangles(atlas, low, charts->triangles);
-    *high = (alpi_chart){.first = low->first + count, .count = low->count - count};
-    low->count = count;
-    for (uint32_t i = high->first; i < high->first + high->count; i++) {
-        atlas->triangle_charts[charts->triangles[i]] = charts->count;
-    }
-    charts->count++;
-    ALP_TRY(turn_chart(atlas, NULL, low, charts->triangles, turn));
-    return turn_chart(atlas, NULL, high, charts->triangles, turn);
-}
-
-alp_result alpi_charts_split(alp_atlas *atlas, double density, alpi_charts *charts)
-{
-    turner turn = {.context = atlas->context};
-    alp_result result = ALP_OK;
-    double limit = (double)atlas->options.size * (1.0 + 1e-6);
-    for (uint32_t c = 0; c < charts->count && result == ALP_OK;) {
-        const alpi_chart *chart = &charts->charts[c];
-        if (fmax(chart->width, chart->height) * density <= limit) {
-            c++; // pieces are looked at again when the loop comes to them
-        } else if (chart->count == 1) {
-            result = fail_too_large(atlas, chart, charts->triangles[chart->first], density);
-        } else {
-            result = cut_chart(atlas, charts, c, &turn);
-        }
-    }
-    turner_destroy(&turn);
-    return result;
 }

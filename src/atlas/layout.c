@@ -19,7 +19,9 @@ enum {
     MOST_ROUNDS = 64,      // in all; fewer on large pages and with many charts:
     ROUND_CHARTS = 128,    // this many halve them
     MANY_CHARTS = 10000,   // each packing takes long
-    CHARTS_PER_RANGE = 64
+    CHARTS_PER_RANGE = 64,
+    MOST_PARTS = 4,      // of a page's side, that charts are cut to
+    MOST_WORDS = 1 << 25 // of rows looked at, after which no other cuts are tried
 };
 
 // Of the page, charts and gaps, at the first density that is tried.
@@ -27,9 +29,11 @@ static const double LIKELY_UTILISATION = 0.85;
 static const double ROUND_TEXELS = 64.0 * 1024 * 1024; // of all rounds' pages
 static const double FULL_PAGE = 0.85;     // of its texels in charts: gaps are most of the rest
 static const double DENSITY_STEP = 1.004; // by which other orders must be better
+static const double FULL_PAGES = 0.75;    // of all pages' texels in charts: no more cuts are made
 
 typedef struct layout {
     alp_atlas *atlas;
+    const uint32_t (*neighbours)[3];
     alpi_charts *charts;
     alpi_atlas_clock *clock;
     alpi_pack_rules rules;
@@ -303,9 +307,7 @@ static alp_result pack_pages(layout *l, double density)
     bool large;
     ALP_TRY(alpi_atlas_tick(l->clock, "packing", PACKING_LIMIT, PACKING_LIMIT));
     ALP_TRY(make_items(l, density, &large));
-    ALP_TRY(pack_items(l));
-    place_all(l, density);
-    return ALP_OK;
+    return pack_items(l);
 }
 
 /// As dense as one page allows.
@@ -327,23 +329,169 @@ static alp_result fill_page(layout *l)
     alpi_note(l->atlas->context, "atlas-pages", l->atlas->scene->name,
               "%u charts do not fit one page of %u texels: pages are added", l->charts->count,
               l->rules.size);
-    return pack_pages(l, most_density(l, &all));
+    ALP_TRY(pack_pages(l, most_density(l, &all)));
+    place_all(l, most_density(l, &all));
+    return ALP_OK;
+}
+
+// --- a given density -----------------------------------------------------------------------------
+
+/// Charts as they are before they are cut.
+typedef struct whole_charts {
+    uint32_t count, triangle_count;
+    alpi_chart *charts;
+    uint32_t *triangles; // [triangle_count]
+    float (*uvs)[3][2];  // [triangle_count] metres
+} whole_charts;
+
+static void whole_charts_destroy(alp_context *context, whole_charts *w)
+{
+    alpi_release(context, w->charts);
+    alpi_release(context, w->triangles);
+    alpi_release(context, w->uvs);
+}
+
+static alp_result whole_charts_keep(const layout *l, whole_charts *w)
+{
+    alp_context *context = l->atlas->context;
+    w->count = l->charts->count;
+    for (uint32_t c = 0; c < w->count; c++) {
+        w->triangle_count += l->charts->charts[c].count;
+    }
+    ALPI_TRY_NEW(context, w->charts, w->count);
+    ALPI_TRY_NEW(context, w->triangles, w->triangle_count);
+    ALPI_TRY_NEW(context, w->uvs, w->triangle_count);
+    memcpy(w->charts, l->charts->charts, w->count * sizeof *w->charts);
+    memcpy(w->triangles, l->charts->triangles, w->triangle_count * sizeof *w->triangles);
+    for (uint32_t i = 0; i < w->triangle_count; i++) {
+        memcpy(w->uvs[i], l->atlas->corner_uvs[w->triangles[i]], sizeof *w->uvs);
+    }
+    return ALP_OK;
+}
+
+static void whole_charts_restore(const layout *l, const whole_charts *w)
+{
+    l->charts->count = w->count;
+    memcpy(l->charts->charts, w->charts, w->count * sizeof *w->charts);
+    memcpy(l->charts->triangles, w->triangles, w->triangle_count * sizeof *w->triangles);
+    for (uint32_t i = 0; i < w->triangle_count; i++) {
+        memcpy(l->atlas->corner_uvs[w->triangles[i]], w->uvs[i], sizeof *w->uvs);
+    }
+    for (uint32_t c = 0; c < w->count; c++) {
+        const alpi_chart *chart = &w->charts[c];
+        for (uint32_t i = chart->first; i < chart->first + chart->count; i++) {
+            l->atlas->triangle_charts[w->triangles[i]] = c;
+        }
+    }
+}
+
+/// Texels of the side of a part of which `parts` lie side by side in a page, with gaps.
+static uint32_t part_texels(const alpi_pack_rules *rules, uint32_t parts)
+{
+    const uint32_t cell = rules->mips > 0 ? 1u << (rules->mips - 1) : 1;
+    const uint32_t gap = rules->mips > 0 && 2 * cell > rules->padding ? 2 * cell : rules->padding;
+    const uint32_t gaps = (parts - 1) * gap;
+    const uint32_t unit = parts == 1 ? 1 : rules->block > cell ? rules->block : cell;
+    const uint32_t side = rules->size > gaps ? (rules->size - gaps) / parts / unit * unit : 0;
+    return side > 0 ? side : 1;
+}
+
+/// Cuts what is larger than a part. Overlapping charts are only cut where they are larger than a
+/// page, but then so that those that share triangles fit one together.
+static alp_result cut_charts(layout *l, double density, uint32_t parts)
+{
+    alpi_cut_sides sides = {.page = alpi_part_side(l->rules.size, density), .texel = 1.0 / density};
+    sides.part =
+        alpi_part_side(part_texels(&l->rules, l->charts->blend != NULL ? 2 : parts), density);
+    sides.limit = l->charts->blend != NULL ? sides.page : sides.part;
+    return alpi_charts_cut(l->atlas, l->neighbours, &sides, l->charts);
+}
+
+/// Whether there is room to save a page, charts counted with half of the gaps round them.
+static bool is_wasteful(const layout *l)
+{
+    uint64_t room = 0;
+    for (uint32_t c = 0; c < l->charts->count; c++) {
+        const alpi_pack_item *item = &l->items[c];
+        room += l->rules.padding * ((uint64_t)item->width + item->height);
+        for (size_t i = 0; i < mask_words(item); i++) {
+            room += (uint64_t)__builtin_popcountll(item->mask[i]);
+        }
+    }
+    const double page = (double)l->rules.size * l->rules.size, pages = l->atlas->info.pages;
+    return (double)room < fmin(FULL_PAGES * pages, LIKELY_UTILISATION * (pages - 1.0)) * page;
+}
+
+/// One way to cut and to pack.
+typedef struct attempt {
+    uint32_t parts, charts, pages;
+    bool by_middle;
+} attempt;
+
+/// @param former how many charts another attempt cut: as many are the same, and not packed again
+static alp_result make_attempt(layout *l, double density, const whole_charts *whole,
+                               uint32_t former, attempt *a)
+{
+    whole_charts_restore(l, whole);
+    ALP_TRY(cut_charts(l, density, a->parts));
+    if (l->charts->count != former) {
+        l->rules.by_middle = a->by_middle;
+        ALP_TRY(pack_pages(l, density));
+        a->pages = l->atlas->info.pages;
+    }
+    a->charts = l->charts->count;
+    return ALP_OK;
+}
+
+/// Cuts charts into ever smaller parts of a page, until the pages are well filled or it takes too
+/// long, and takes the first attempt of those that need the fewest pages.
+static alp_result pack_parts(layout *l, double density, const whole_charts *whole)
+{
+    const uint64_t words = (l->rules.size + 63) / 64;
+    const uint32_t most = l->charts->blend != NULL ? 1 : 2 * MOST_PARTS;
+    uint64_t rows = 0;
+    attempt last[2] = {{0}, {0}}, best = {.pages = UINT32_MAX};
+    bool is_packed = false;
+    l->rules.rows_tried = &rows;
+    for (uint32_t i = 0; i < most && rows * words < MOST_WORDS; i++) {
+        attempt *now = &last[i % 2];
+        now->parts = 1 + i / 2;
+        now->by_middle = i % 2 == 1;
+        ALP_TRY(make_attempt(l, density, whole, now->charts, now));
+        is_packed = now->pages < best.pages;
+        best = is_packed ? *now : best;
+        if (!is_wasteful(l)) {
+            break;
+        }
+    }
+    ALP_TRY(is_packed ? ALP_OK : make_attempt(l, density, whole, 0, &best));
+    l->rules.rows_tried = NULL;
+    place_all(l, density);
+    return ALP_OK;
+}
+
+static alp_result fill_pages(layout *l, double density)
+{
+    whole_charts whole = {0};
+    ALP_TRY(alpi_charts_check(l->atlas, density, l->charts));
+    alp_result result = whole_charts_keep(l, &whole);
+    result = result == ALP_OK ? pack_parts(l, density, &whole) : result;
+    whole_charts_destroy(l->atlas->context, &whole);
+    return result;
 }
 
 static alp_result choose_and_place(layout *l)
 {
     const double density = l->atlas->options.texels_per_metre;
-    if (density == 0.0) {
-        return fill_page(l);
-    }
-    ALP_TRY(alpi_charts_split(l->atlas, density, l->charts));
-    return pack_pages(l, density);
+    return density == 0.0 ? fill_page(l) : fill_pages(l, density);
 }
 
-alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock)
+alp_result alpi_layout(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts,
+                       alpi_atlas_clock *clock)
 {
     const alp_atlas_options *options = &atlas->options;
     layout l = {.atlas = atlas,
+                .neighbours = neighbours,
                 .charts = charts,
                 .clock = clock,
                 .rules = {.size = options->size,

@@ -142,7 +142,9 @@ static alp_result place_item(packer *p, alpi_pack_item *item)
     const uint32_t shorter = item->width > item->height ? item->height : item->width;
     hint *near = &p->hints[class_of_side(longer)][class_of_side(shorter)];
     place at = {.found = false};
-    for (uint32_t i = near->page; !at.found; i++) {
+    const uint32_t words = (p->rules->size + 63) / 64;
+    const bool all = longer >= EXACT_SIDES && p->rows_tried * words <= PATIENCE;
+    for (uint32_t i = all ? 0 : near->page; !at.found; i++) {
         if (i == p->page_count) {
             ALP_TRY(add_page(p));
         }
@@ -240,7 +242,8 @@ alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules
                 .by_middle = variant->by_middle,
                 .shapes.context = context};
     alp_result result = ALP_OK;
-    for (uint32_t i = 0; i < count && result == ALP_OK; i++) {
+    for (uint32_t i = 0;
+         i < count && result == ALP_OK && variant->left_texels <= variant->most_left; i++) {
         const uint32_t item = variant->order[i];
         result = place_item(&p, &variant->items[item]);
         if (result == ALP_ERROR_LIMIT) {
@@ -256,7 +259,10 @@ alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules
 alp_result alpi_pack(alp_context *context, const alpi_pack_rules *rules, alpi_pack_item *items,
                      uint32_t count, uint32_t page_limit, uint32_t *page_count)
 {
-    packer p = {.context = context, .rules = rules, .page_limit = page_limit};
+    packer p = {.context = context,
+                .rules = rules,
+                .page_limit = page_limit,
+                .by_middle = rules->by_middle};
     alp_result result = pack(&p, items, count);
     *page_count = p.page_count;
     return result;

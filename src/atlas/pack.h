@@ -60,6 +60,7 @@ typedef struct alpi_pack_variant {
     alpi_pack_item *items; // [count]
     bool *left;            // [count] by item: found no room
     uint64_t left_texels;  // of those
+    uint64_t most_left;    // more than these, and the packing is given up
     bool by_middle;        // to where the middle comes lowest, not the upper side
 } alpi_pack_variant;
 
@@ -68,13 +69,15 @@ typedef struct alpi_pack_search {
     const alpi_pack_rules *rules;
     const alpi_pack_item *items;
     uint32_t count, round;
+    bool first;                                         // of this density
     alpi_pack_variant variants[ALPI_PACK_VARIANTS + 1]; // the last is the best known
 } alpi_pack_search;
 
 /// The order in which items are packed without a search: the largest boxes first.
 alp_result alpi_pack_order(alp_context *context, const alpi_pack_item *items, uint32_t count,
                            uint32_t *order);
-/// Packs one page in the variant's order, and marks what finds no room.
+/// Packs one page in the variant's order, and marks what finds no room; ends early where that is
+/// more than most_left.
 alp_result alpi_pack_in_order(alp_context *context, const alpi_pack_rules *rules,
                               alpi_pack_variant *variant, uint32_t count);
 /// On failure the caller destroys what was made.

@@ -72,6 +72,7 @@ static alp_result try_variants(void *user, uint32_t begin, uint32_t end, uint32_
         memcpy(own->items, s->items, s->count * sizeof *own->items);
         memset(own->left, 0, s->count * sizeof *own->left);
         own->left_texels = 0;
+        own->most_left = s->first ? UINT64_MAX : base->left_texels; // what is worse is not taken
         own->by_middle = v % 2 == 1;
         ALP_TRY(alpi_pack_in_order(s->context, s->rules, own, s->count));
     }
@@ -83,6 +84,7 @@ alp_result alpi_pack_search_round(alpi_pack_search *s, alpi_pack_item *items, bo
 {
     alpi_pack_variant *base = &s->variants[ALPI_PACK_VARIANTS];
     s->items = items;
+    s->first = first;
     ALP_TRY(alpi_parallel_for(s->context, ALPI_PACK_VARIANTS, 1, try_variants, s, NULL));
     uint32_t best = 0;
     for (uint32_t v = 1; v < ALPI_PACK_VARIANTS; v++) {

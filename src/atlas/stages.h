@@ -5,6 +5,8 @@
 
 #include "atlas/raster.h"
 
+#include <math.h>
+
 enum {
     ALPI_ATLAS_PAGE_LIMIT = 4096,
     ALPI_ATLAS_SIZE_LIMIT = 16384,
@@ -63,14 +65,39 @@ alp_result alpi_charts_turn(alp_atlas *atlas, const uint32_t (*neighbours)[3], a
 /// Merges charts that meet, where both have one good unwrapping, and turns them again.
 alp_result alpi_charts_merge(alp_atlas *atlas, const uint32_t (*neighbours)[3],
                              alpi_charts *charts);
-/// Cuts every chart that is larger than a page at `density` texels per metre into pieces that fit.
-/// @return ALP_OK; LIMIT: one triangle alone is larger than a page
-alp_result alpi_charts_split(alp_atlas *atlas, double density, alpi_charts *charts);
+/// Of charts, in metres.
+typedef struct alpi_cut_sides {
+    double limit; // charts with a longer side are cut
+    double part;  // of pieces, the most
+    double page;  // of what fits a page
+    double texel;
+} alpi_cut_sides;
+/// How much a chart may be longer than what it must fit, to be clamped to it: the rounding of its
+/// 32-bit coordinates, where that is far below a texel. Sides are often whole texels.
+static inline double alpi_cut_slack(const alpi_chart *chart, double texel)
+{
+    return fmin(0x1p-21 * fmax(chart->width, chart->height), 1e-3 * texel);
+}
+/// The longest side, in metres, of a chart that fits `texels` texels at a density: a box of whole
+/// texels forgives what rounding adds.
+static inline double alpi_part_side(uint32_t texels, double density)
+{
+    return (texels + 5e-6) / density;
+}
+/// Whether every triangle fits a page at `density` texels per metre, turned as it needs to.
+/// @return ALP_OK; LIMIT: which does not, and what it takes
+alp_result alpi_charts_check(const alp_atlas *atlas, double density, const alpi_charts *charts);
+/// Cuts charts into connected pieces. Triangles larger than a part become pieces of their own,
+/// turned where they would not fit a page.
+alp_result alpi_charts_cut(alp_atlas *atlas, const uint32_t (*neighbours)[3],
+                           const alpi_cut_sides *sides, alpi_charts *charts);
 void alpi_charts_destroy(alp_context *context, alpi_charts *charts);
 
 /// Finds the density, packs, and turns corner_uvs from metres into page coordinates; sets
 /// triangle_pages and info.pages.
-alp_result alpi_layout(alp_atlas *atlas, alpi_charts *charts, alpi_atlas_clock *clock);
+/// @param neighbours of all triangles
+alp_result alpi_layout(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi_charts *charts,
+                       alpi_atlas_clock *clock);
 
 /// Texels that an item covers.
 uint64_t alpi_pack_texels(const alpi_pack_item *item);

@@ -194,7 +194,8 @@ static void find_stretch(const alp_atlas *atlas, double *bins, alpi_stretch_fact
             facts->worst_triangle = t;
         }
     }
-    facts->mean = area > 0.0 ? sqrt(sum / area) : 0.0;
+    facts->mean = area > 0.0 ? sqrt(sum / area) : 1.0;
+    facts->worst = area > 0.0 ? facts->worst : 1.0; // of slivers alone: nothing is stretched
 }
 
 alp_result alpi_stretch_measure(const alp_atlas *atlas, alpi_stretch_facts *facts)

@@ -167,7 +167,7 @@ static void a_chart_larger_than_a_page_is_cut(void **state)
     alp_context *context = test_context(1);
     alp_scene *scene = scene_plane(context, 16); // 2 m; at 100 texels per metre 200 texels
     alp_atlas *atlas = atlas_of(context, scene, 64, 100.0, 2);
-    assert_true(alp_atlas_get_info(atlas).pages >= 10); // 200² / 64² = 9.8
+    assert_in_range(alp_atlas_get_info(atlas).pages, 10, 11); // 200² / 64² = 9.8; see test_cut
     ASSERT_NEAR(alp_atlas_get_info(atlas).texels_per_metre, 100.0, 0.01);
     check_triangles(atlas);
     assert_int_equal(overlapping_texels(atlas), 0);

@@ -185,6 +185,23 @@ static void slivers_are_counted_and_left_out(void **state)
     alp_context_destroy(context);
 }
 
+/// What no texel shows is not stretched: 1, the least that there is.
+static void slivers_alone_are_not_stretched(void **state)
+{
+    (void)state;
+    static const float p[3][3] = {{2, 0, 0}, {3, 0, 0}, {3, 1e-6f, 0}};
+    static const uint32_t index[1][3] = {{0, 1, 2}};
+    alp_context *context = test_context(1);
+    alp_scene *scene = scene_of(context, p, NULL, 3, index, 1);
+    alp_atlas *atlas = charts_of_size(context, scene, 64);
+    assert_int_equal(alp_atlas_get_info(atlas).sliver_triangles, 1);
+    assert_true(alp_atlas_get_info(atlas).stretch_mean == 1.0);
+    assert_true(alp_atlas_get_info(atlas).stretch_worst == 1.0);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void the_layout_of_a_page_of_one_texel_overlaps(void **state)
 {
     (void)state;
@@ -226,6 +243,7 @@ int main(void)
         cmocka_unit_test(a_flat_triangle_has_no_end_of_stretch),
         cmocka_unit_test(charts_are_measured),
         cmocka_unit_test(slivers_are_counted_and_left_out),
+        cmocka_unit_test(slivers_alone_are_not_stretched),
         cmocka_unit_test(the_layout_of_a_page_of_one_texel_overlaps),
         cmocka_unit_test(workers_change_no_figure),
     };
