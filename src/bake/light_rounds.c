@@ -94,7 +94,11 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
 {
     alpi_bake_job *job = r->job;
     const alpi_light_task *t = r->task;
-    const alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    alpi_reference near;
+    if (r->fixed == NULL) {
+        alpi_light_near(job, t, r->solution, &from, &near);
+    }
     const alpi_cosine_rays cosine = {
         .context = job->context,
         .samples = rays,
@@ -544,40 +548,6 @@ static void release_rounds(rounds *r)
     r->counts = NULL;
 }
 
-/// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static alp_result put_together(const rounds *r)
-{
-    alpi_bake_job *job = r->job;
-    const uint32_t texels = r->task->receivers->count;
-    if (alpi_bake_lights_apart(job)) {
-        ALPI_TRY_NEW(job->context, job->direct, texels);
-        ALPI_TRY_NEW(job->context, job->bounced, texels);
-    }
-    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t texel = r->task->order[i];
-        const alpi_reference_value *direct = &r->solution->direct[texel];
-        alpi_reference_value *value = &r->task->values[texel];
-        for (int k = 0; k < 3; k++) {
-            const float sky = r->skies != NULL ? r->skies[texel][k] : 0.0f;
-            const float bounced = value->mean[k] - sky;
-            if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k] + sky;
-                job->bounced[texel][k] = bounced;
-            }
-            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
-            value->variance[k] += on ? direct->variance[k] : 0.0f;
-        }
-        if (on && r->task->directional != NULL) {
-            alpi_directional_mix(&r->task->directional[texel], 1.0f,
-                                 &r->solution->directional[texel], 1.0f);
-        }
-    }
-    alpi_bake_sum_layers(job, r->task->order, r->task->count, (const float(*)[3])r->skies, on,
-                         r->task->values);
-    return ALP_OK;
-}
-
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
                              alpi_radiosity *solution)
 {
@@ -588,7 +558,7 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        result = put_together(&r);
+        result = alpi_light_sum(job, task, solution, r.skies);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);
