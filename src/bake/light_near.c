@@ -17,7 +17,7 @@ void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
                              .tracer = task->tracer,
                              .lighting = task->whole != NULL ? task->whole : task->lighting,
                              .filter = o->filter,
-                             .bounces = 1,
+                             .bounces = 2,
                              .next_event = true,
                              .known = &from->light};
     from->near = near;

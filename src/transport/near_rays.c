@@ -33,7 +33,7 @@ static void start_path(alpi_near_rays *n, uint32_t k, int lane, const alpi_rays 
     w->key[slot] = alpi_hash32(key ^ alpi_hash32(packet % replicates + 1u));
     w->sample[slot] = packet / replicates * ALPI_PACKET + (uint32_t)lane;
     w->event[slot] = 0;
-    w->depth[slot] = 0;
+    w->depth[slot] = 1; // has bounced once: light is asked by area, which takes less time
     w->slot[slot] = w->block[slot] = slot;
     w->lanes[slot] = 1;
     w->throughput.x[slot] = w->throughput.y[slot] = w->throughput.z[slot] = 1.0f;
