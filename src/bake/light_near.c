@@ -2,7 +2,8 @@
 // How light is found that comes from near surfaces.
 #include "bake/light.h"
 
-/// Rays go on that meet something nearer than so many sides of its texels.
+/// Rays go on that meet something nearer than so many sides of its texels. Measured on teapot-room
+/// for 1 %: 2 and 4 took longer and erred no less.
 static const float NEAR_REACH = 1.0f;
 
 void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
