@@ -181,12 +181,14 @@ typedef struct alp_light_options {
     /// sun, of each emissive material and of the sky, in this order. See alp_lightmap_layer_page.
     /// Of more than 16, the last is "others", all that are left, with a warning "many-layers"; of
     /// more than 64 lamps, suns or emissive materials all are one layer "lamps", "suns" or
-    /// "materials". The map of all light is then their sum: that without layers within rounding,
-    /// and where several rounds are gathered (error) within the noise. Its stated error is that of
-    /// the whole. Not with PATHS or denoise. Cost: the rays of each round once more, a look-up of
-    /// them a layer, and 37 bytes of a texel and layer, 12 more where materials are double-sided.
-    /// Where the rays of a round would take more than 1 GiB, and in scenes that light passes
-    /// through, they are traced again for each layer. Default false.
+    /// "materials". The map of all light is then their sum: by HEMICUBE that without layers within
+    /// rounding. By rays light from surfaces within a texel is taken as even over the texel that
+    /// they meet, which without layers it is not (nor where `bounces` is a number), so that it
+    /// differs where surfaces meet, and where several rounds are gathered (error) by noise. Its
+    /// stated error is that of the whole. Not with PATHS or denoise. Cost: the rays of each round
+    /// once more, a look-up of them a layer, and 37 bytes of a texel and layer, 12 more where
+    /// materials are double-sided. Where the rays of a round would take more than 1 GiB, and in
+    /// scenes that light passes through, they are traced again for each layer. Default false.
     bool layers;
 } alp_light_options;
 

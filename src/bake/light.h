@@ -36,6 +36,7 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress);
 /// Where light is gathered, and what it becomes.
 typedef struct alpi_light_task {
     const alpi_lighting *lighting;
+    const alpi_lighting *whole; // NULL, or what `lighting` is a part of
     const alpi_tracer *tracer;
     const alpi_receivers *receivers; // texels of the job's atlas
     const uint32_t *order;           // [count] those with light of their own
@@ -64,6 +65,31 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
                              alpi_radiosity *solution);
+
+/// Has rays of texels go on from what is near (near_rays.h). Not
+/// - of layers: the light of a point is asked of all lights together, and layers shall sum to it;
+/// - of a number of bounces: cells hold all but the last, and from a point on it is the last but
+/// one;
+/// - by hemicubes: what their pixels see has no noise, and a path for each of the few that are near
+///   would be all there is.
+/// @param from what they meet; in these cases it is left as it is
+/// @param near out: how they do; from then on of `from`
+void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
+                     const alpi_radiosity *solution, alpi_gather_scene *from, alpi_reference *near);
+
+/// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
+/// them, that no number of rays tells. Root mean square over texels, as measured.
+/// @param bounced root mean square of bounced light, a soft sky's apart
+double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced);
+/// Adds it to the variances of task->values, as a share of the bounced light of each texel.
+/// @param skies as of alpi_light_sum
+void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share);
+
+/// Adds direct light to bounced light, and keeps them apart where that is asked for.
+/// @param skies [texels] or NULL: what of the bounced light is a soft sky's
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
+                          const alpi_radiosity *solution, float (*skies)[3]);
 
 /// Takes noise off task->values, and keeps the sky's share of them. Whoever ends the bake before,
 /// or meanwhile, and keeps what there is, gets the light as it was gathered: no texel is changed

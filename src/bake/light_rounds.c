@@ -56,6 +56,8 @@ typedef struct rounds {
     double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
     double mean;                         // of all light, over texels and channels
     double direct_error, bounced_error;  // root mean squares over the mean
+    double bounced_rms;                  // of bounced light, a soft sky's apart
+    double solved_error;                 // of the solution that rays meet, over the mean too
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -94,7 +96,11 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
 {
     alpi_bake_job *job = r->job;
     const alpi_light_task *t = r->task;
-    const alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    alpi_gather_scene from = alpi_radiosity_scene(r->solution);
+    alpi_reference near;
+    if (r->fixed == NULL) {
+        alpi_light_near(job, t, r->solution, &from, &near);
+    }
     const alpi_cosine_rays cosine = {
         .context = job->context,
         .samples = rays,
@@ -309,6 +315,9 @@ static void sum_errors(const void *user, uint32_t begin, uint32_t end, double su
             sums[0] += (double)d->mean[k] + (double)b->mean[k];
             sums[1] += (double)d->variance[k];
             sums[2] += (double)b->variance[k];
+            const double bounced =
+                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
+            sums[3] += bounced * bounced;
         }
     }
 }
@@ -321,6 +330,9 @@ static alp_result measure(rounds *r)
     r->mean = sums[0] / count;
     r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
     r->bounced_error = r->mean > 0.0 ? sqrt(sums[2] / count) / r->mean : 0.0;
+    r->bounced_rms = sqrt(sums[3] / count);
+    r->solved_error =
+        r->fixed == NULL ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms) : 0.0;
     return ALP_OK;
 }
 
@@ -340,11 +352,20 @@ static double affordable(const rounds *r, double samples, double seconds_each, d
     return most < samples && most < there / 8.0 ? 0.0 : most;
 }
 
-/// What the next round goes for: the error that is wanted; else 2^−½ of what there is.
+/// What the next round goes for: what the solution leaves of the error that is wanted, which no
+/// rays make better, and half of that error where it leaves less; else 2^−½ of what there is.
 static double aim_of(const rounds *r)
 {
     const double wanted = (double)r->job->options.light.error;
-    return wanted > 0.0 ? wanted : sqrt(0.5) * hypot(r->direct_error, r->bounced_error);
+    const double left = wanted * wanted - r->solved_error * r->solved_error;
+    return wanted > 0.0 ? sqrt(fmax(left, 0.25 * wanted * wanted))
+                        : sqrt(0.5) * hypot(r->direct_error, r->bounced_error);
+}
+
+/// Of all light, over the mean.
+static double stated_error(const rounds *r)
+{
+    return hypot(hypot(r->direct_error, r->bounced_error), r->solved_error);
 }
 
 /// What a round adds: samples of direct light, and rays.
@@ -489,7 +510,7 @@ static bool may_be_dropped(const rounds *r)
 static void warn_of_error(const rounds *r)
 {
     const double wanted = (double)r->job->options.light.error;
-    const double error = hypot(r->direct_error, r->bounced_error);
+    const double error = stated_error(r);
     if (r->job->report.cut_off) {
         alpi_warn(r->job->context, "cut-off", r->job->scene->name,
                   "light ended before its time, after %u rays a texel and %u samples of each "
@@ -544,40 +565,6 @@ static void release_rounds(rounds *r)
     r->counts = NULL;
 }
 
-/// Adds direct light to bounced light, and keeps them apart where that is asked for.
-static alp_result put_together(const rounds *r)
-{
-    alpi_bake_job *job = r->job;
-    const uint32_t texels = r->task->receivers->count;
-    if (alpi_bake_lights_apart(job)) {
-        ALPI_TRY_NEW(job->context, job->direct, texels);
-        ALPI_TRY_NEW(job->context, job->bounced, texels);
-    }
-    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t texel = r->task->order[i];
-        const alpi_reference_value *direct = &r->solution->direct[texel];
-        alpi_reference_value *value = &r->task->values[texel];
-        for (int k = 0; k < 3; k++) {
-            const float sky = r->skies != NULL ? r->skies[texel][k] : 0.0f;
-            const float bounced = value->mean[k] - sky;
-            if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k] + sky;
-                job->bounced[texel][k] = bounced;
-            }
-            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
-            value->variance[k] += on ? direct->variance[k] : 0.0f;
-        }
-        if (on && r->task->directional != NULL) {
-            alpi_directional_mix(&r->task->directional[texel], 1.0f,
-                                 &r->solution->directional[texel], 1.0f);
-        }
-    }
-    alpi_bake_sum_layers(job, r->task->order, r->task->count, (const float(*)[3])r->skies, on,
-                         r->task->values);
-    return ALP_OK;
-}
-
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
                              alpi_radiosity *solution)
 {
@@ -588,7 +575,10 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        result = put_together(&r);
+        alpi_light_state_solved(task, (const float(*)[3])r.skies,
+                                r.bounced_rms > 0.0 ? r.solved_error * r.mean / r.bounced_rms
+                                                    : 0.0);
+        result = alpi_light_sum(job, task, solution, r.skies);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);

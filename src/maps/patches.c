@@ -88,6 +88,12 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
     const alpi_patches *p = user;
     for (uint32_t t = begin; t < end; t++) {
         find_material(p, t);
+        const float covered = fmaxf(p->texels->coverages[t], 1e-6f);
+        const float side = sqrtf(p->texels->areas[t] / covered);
+        p->cells[alpi_patches_cell(p, t, ALPI_FRONT)][ALPI_CELL_SIDE] = side;
+        if (p->two_sided) {
+            p->cells[alpi_patches_cell(p, t, ALPI_BACK)][ALPI_CELL_SIDE] = side;
+        }
     }
     return ALP_OK;
 }

@@ -86,5 +86,6 @@ alpi_gatherer alpi_cosine_rays_gatherer(const alpi_cosine_rays *rays)
     return (alpi_gatherer){.aim = aim,
                            .user = rays,
                            .packet_count = rays->samples / ALPI_PACKET,
-                           .replicates = rays->replicates};
+                           .replicates = rays->replicates,
+                           .seed = rays->seed};
 }

@@ -3,6 +3,7 @@
 
 #include "base/tasks.h"
 #include "scene/double3.h"
+#include "transport/near_rays.h"
 #include "transport/panes.h"
 
 /// Points that rays of a packet have met, and whose they are.
@@ -229,20 +230,19 @@ bool alpi_gather_meets_cells(const alpi_gather_scene *from)
     return from->light.cell != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
 }
 
-void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
-                       bool coherent, uint32_t cells[ALPI_PACKET])
+static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
+                       bool coherent, alpi_hits *hits, uint32_t cells[ALPI_PACKET])
 {
     const alpi_rays *rays = &packet->rays;
-    alpi_hits hits;
     if (coherent) {
-        alpi_trace_nearest_coherent(from->tracer, rays, packet->active, from->filter, &hits);
+        alpi_trace_nearest_coherent(from->tracer, rays, packet->active, from->filter, hits);
     } else {
-        alpi_trace_nearest(from->tracer, rays, packet->active, from->filter, &hits);
+        alpi_trace_nearest(from->tracer, rays, packet->active, from->filter, hits);
     }
     uint32_t met = 0; // bit i: lane i met a surface that is not black
     alpi_surface_point points[ALPI_PACKET];
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const uint32_t triangle = hits.triangle[i];
+        const uint32_t triangle = hits->triangle[i];
         cells[i] = triangle == ALPI_NONE && (packet->active >> i & 1u) != 0 ? ALPI_CELL_ESCAPED
                                                                             : ALPI_CELL_BLACK;
         if ((packet->active >> i & 1u) == 0 || triangle == ALPI_NONE) {
@@ -252,7 +252,7 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
         const bool behind = is_behind(from->scene, triangle, direction);
         if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
             met |= 1u << i;
-            points[i] = (alpi_surface_point){triangle, hits.b1[i], hits.b2[i],
+            points[i] = (alpi_surface_point){triangle, hits->b1[i], hits->b2[i],
                                              vec3_scale(direction, -1.0f), behind};
             if (from->light.fetch != NULL) {
                 from->light.fetch(from->light.user, &points[i]);
@@ -264,6 +264,13 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
             cells[i] = from->light.cell(from->light.user, &points[i]);
         }
     }
+}
+
+void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
+                       bool coherent, uint32_t cells[ALPI_PACKET])
+{
+    alpi_hits hits;
+    meet_cells(from, packet, coherent, &hits, cells);
 }
 
 void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
@@ -282,10 +289,12 @@ void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_g
 
 // --- receivers -----------------------------------------------------------------------------------
 
-/// Light of cells, and of the sky, by its direction.
+/// Light of cells, of rays that went on, and of the sky, by its direction.
+/// @param near radiance of what went on; NULL: nothing did
 static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
                                   const alpi_gather_packet *aimed,
-                                  const uint32_t cells[ALPI_PACKET], alpi_gather_sums *sums)
+                                  const uint32_t cells[ALPI_PACKET], const vec3 *near,
+                                  alpi_gather_sums *sums)
 {
     const alpi_rays *rays = &aimed->rays;
     vec3 radiance[ALPI_PACKET];
@@ -296,8 +305,60 @@ static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
             radiance[i] = sky_radiance(job->from, (vec3){rays->direction_x[i], rays->direction_y[i],
                                                          rays->direction_z[i]});
         }
+        if (near != NULL) { // where the cell is black
+            radiance[i] = vec3_add(radiance[i], near[i]);
+        }
     }
     alpi_gather_add_directional(job->gatherer, packet, aimed, radiance, sums);
+}
+
+/// A batch of packets that meet cells.
+static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint32_t first,
+                             uint32_t count, const alpi_gather_packet *packets,
+                             alpi_gather_sums *sums)
+{
+    const alpi_gatherer *g = job->gatherer;
+    const bool goes_on = job->from->near != NULL;
+    uint32_t met[ALPI_GATHER_BATCH][ALPI_PACKET];
+    alpi_near_rays near;
+    alpi_near_rays_start(job, receiver, first, &near);
+    for (uint32_t k = 0; k < count; k++) {
+        alpi_hits hits;
+        meet_cells(job->from, &packets[k], g->coherent, &hits, met[k]);
+        if (goes_on) {
+            alpi_near_rays_take(&near, k, &packets[k], &hits, met[k]);
+        }
+    }
+    alpi_near_rays_go_on(&near);
+    for (uint32_t k = 0; k < count; k++) {
+        alpi_gather_add_cells(g, first + k, met[k], job->from->light.cells, sums);
+        if (goes_on) {
+            alpi_gather_add(g, first + k, near.radiance[k], sums);
+        }
+        if (job->from->sky) {
+            alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met[k], sums);
+        }
+        if (job->directional != NULL) {
+            add_cells_directional(job, first + k, &packets[k], met[k],
+                                  goes_on ? near.radiance[k] : NULL, sums);
+        }
+    }
+}
+
+/// The same of packets that meet whatever there is.
+static void look_around(const alpi_gather_job *job, uint32_t first, uint32_t count,
+                        alpi_gather_packet *packets, alpi_gather_sums *sums)
+{
+    const alpi_gatherer *g = job->gatherer;
+    for (uint32_t k = 0; k < count; k++) {
+        vec3 radiance[ALPI_PACKET];
+        alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
+                         NULL);
+        alpi_gather_add(g, first + k, radiance, sums);
+        if (job->directional != NULL) { // panes move where rays start, not where they go
+            alpi_gather_add_directional(g, first + k, &packets[k], radiance, sums);
+        }
+    }
 }
 
 /// Packets [first, first + count) of one receiver.
@@ -307,26 +368,10 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
     const alpi_gatherer *g = job->gatherer;
     alpi_gather_packet packets[ALPI_GATHER_BATCH];
     g->aim(g->user, job->receivers, receiver, first, count, packets);
-    for (uint32_t k = 0; k < count; k++) {
-        if (cells) {
-            uint32_t met[ALPI_PACKET];
-            alpi_gather_cells(job->from, &packets[k], g->coherent, met);
-            alpi_gather_add_cells(g, first + k, met, job->from->light.cells, sums);
-            if (job->from->sky) {
-                alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met, sums);
-            }
-            if (job->directional != NULL) {
-                add_cells_directional(job, first + k, &packets[k], met, sums);
-            }
-        } else {
-            vec3 radiance[ALPI_PACKET];
-            alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
-                             NULL);
-            alpi_gather_add(g, first + k, radiance, sums);
-            if (job->directional != NULL) { // panes move where rays start, not where they go
-                alpi_gather_add_directional(g, first + k, &packets[k], radiance, sums);
-            }
-        }
+    if (cells) {
+        gather_met_cells(job, receiver, first, count, packets, sums);
+    } else {
+        look_around(job, first, count, packets, sums);
     }
 }
 

@@ -21,6 +21,11 @@ typedef struct alpi_gather_scene {
     alpi_trace_filter filter;      // panes are seen to here, whatever it says
     alpi_surface_light light;
     bool emitters, sky; // that they count
+    // NULL, or how rays go on that meet surface light in cells nearer than near_reach of the cell's
+    // sides (near_rays.h): paths of two bounces that end with that light. Of all light there is,
+    // the sky's and emitters' too. Of gather jobs whose `lost` is NULL.
+    const alpi_reference *near;
+    float near_reach;
 } alpi_gather_scene;
 
 /// Radiance that comes back along rays, through panes on their way.
@@ -56,6 +61,7 @@ typedef struct alpi_gatherer {
     uint32_t replicates; // packet k is of replicate k % replicates, each scrambled apart; 1: the
                          // error is not known
     bool coherent;       // the rays of a packet leave in about one direction
+    uint64_t seed;       // of what is random where rays go on
 } alpi_gatherer;
 
 /// What is gathered, where and how; all borrowed.

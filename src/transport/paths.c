@@ -273,7 +273,7 @@ static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint3
     if (w->depth[i] >= (int32_t)r->bounces) {
         return false;
     }
-    if (r->known != NULL && w->depth[i] == 0) {
+    if (r->known != NULL && w->depth[i] >= 0) {
         meet_known(r, w, i, kept);
         return false;
     }

@@ -35,8 +35,8 @@ typedef struct alpi_reference {
     bool share;       // eight receivers that follow each other, best if neighbours, share what
                       // their paths find after the first bounce: less noise for as many paths,
                       // alike in all eight. Pixels do not
-    // NULL, or light that surfaces reflect, as somebody knows already: from its first vertex a path
-    // goes to what it meets next and ends there with this, if there is to be a bounce at all.
+    // NULL, or light that surfaces reflect, as somebody knows already: from the first vertex on a
+    // surface a path goes to what it meets next and ends there with this, if it may bounce there.
     const alpi_surface_light *known;
     uint64_t seed;
 } alpi_reference;

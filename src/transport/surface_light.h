@@ -27,6 +27,8 @@ typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *point
 
 /// Cells of surface light that are none: what a ray meets that leaves the scene, and what is black.
 enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
+/// Where a cell tells the length of its sides on the surface, metres.
+enum { ALPI_CELL_SIDE = 3 };
 /// The cell that holds a point, CELL_FIRST or more, or CELL_BLACK. Asked like alpi_reflected_fn.
 typedef uint32_t alpi_light_cell_fn(const void *user, const alpi_surface_point *point);
 /// Has what tells the cell of a point brought near: asked for some points before the first cell,
@@ -40,7 +42,7 @@ typedef struct alpi_surface_light {
     // once need not be again when the light changes.
     alpi_light_cell_fn *cell;
     alpi_light_fetch_fn *fetch; // NULL: nothing to fetch
-    const float (*cells)[4];    // radiance in RGB; black in the first CELL_FIRST
+    const float (*cells)[4];    // radiance in RGB, and CELL_SIDE; 0 in the first CELL_FIRST
 } alpi_surface_light;
 
 #endif

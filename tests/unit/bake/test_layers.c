@@ -119,9 +119,11 @@ static void layers_add_up_to_the_whole(void **state)
         printf("layers: way %d: %.1e of the largest from the map without layers\n", way, apart);
         // Floats; a cubic between texels whose light has an edge may fall below 0, and is cut off
         // there, of each layer apart: 8 texels of 1398 here. Later rounds see direct light that has
-        // become better, within the error that was asked for.
-        const bool exact = way == EVERY_TEXEL || way == HEMICUBES || way == DIRECT_ONLY;
-        assert_true(apart < (exact ? 2e-6 : 0.02));
+        // become better, within the error that was asked for. Without layers cosine rays go on from
+        // what is near: other light and noise of its own where surfaces meet, in a texel of a
+        // corner as much as an eighth of the largest that is bounced.
+        const bool exact = way == HEMICUBES || way == DIRECT_ONLY;
+        assert_true(apart < (exact ? 2e-6 : way == BOUNCED_ONLY ? 0.2 : 0.05));
         alp_lightmap_destroy(whole);
         alp_lightmap_destroy(again);
         alp_lightmap_destroy(layers);

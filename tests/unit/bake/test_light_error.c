@@ -201,7 +201,7 @@ static void corners_reflect_direct_light_as_it_becomes_known(void **state)
     printf("accuracy: error of light in rounds, teapot room, 64x64: stated %.2f %%, of other seeds "
            "%.2f %%\n",
            100.0 * j.stated, 100.0 * j.spread);
-    // What blocks gathered, of the first samples and by few rays, is not stated.
+    // What blocks gathered of the first samples is not stated.
     assert_true(j.spread < 2.6 * j.stated);
     release(&truth);
     alp_scene_destroy(scene);
@@ -223,7 +223,7 @@ static void some_surfaces_err_as_stated(void **state)
     printf("accuracy: error of light on some surfaces, Cornell box, 64x64: stated %.2f %%, of "
            "other seeds %.2f %%, bias %.2f %%\n",
            100.0 * j.stated, 100.0 * j.spread, 100.0 * j.bias);
-    ASSERT_NEAR(j.stated / j.spread, 1.0, 0.2); // blocks' own noise is not stated
+    ASSERT_NEAR(j.stated / j.spread, 1.0, 0.2);
     release(&truth);
     alp_scene_destroy(scene);
 }

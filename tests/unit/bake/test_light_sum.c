@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What is stated of light beyond what its own rays tell: the noise of the solution that they meet.
+#include "bake/light.h"
+#include "test_support.h"
+
+enum { TEXELS = 3, RAYS = 64 };
+
+typedef struct solved {
+    alpi_gatherer gatherer;
+    alpi_radiosity solution;
+} solved;
+
+static void solve(solved *s, uint32_t bounces)
+{
+    *s = (solved){.gatherer = {.packet_count = RAYS / ALPI_PACKET}};
+    s->solution.options = (alpi_radiosity_options){.bounces = bounces, .gatherer = &s->gatherer};
+}
+
+/// 1.6 % of the mean over the root of the rays of blocks, and not more than 16 % of what is bounced
+/// over that; nothing where rays meet direct light alone, and in the dark.
+static void of_all_light(void **state)
+{
+    (void)state;
+    solved s;
+    solve(&s, UINT32_MAX);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 0.05), 0.0002, 1e-9);
+    assert_true(alpi_light_solved_error(&s.solution, 5.0, 0.0) == 0.0);
+    assert_true(alpi_light_solved_error(&s.solution, 0.0, 0.0) == 0.0);
+    solve(&s, 1);
+    assert_true(alpi_light_solved_error(&s.solution, 5.0, 2.0) == 0.0);
+    solve(&s, 2);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
+    alpi_lighting *sky = (alpi_lighting *)&s; // another than what is looked for directly
+    solve(&s, 1);
+    s.solution.options.lighting = sky;
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
+}
+
+/// Each texel gets its part by what is bounced of its light, a sky's left out: what gets none is
+/// known as well as before. Texels that are not of the order are left alone.
+static void of_each_texel(void **state)
+{
+    (void)state;
+    alpi_reference_value values[TEXELS] = {
+        {{2.0f, 3.0f, 1.0f}, {0.5f, 0.0f, 0.0f}}, {{9, 9, 9}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+    const float skies[TEXELS][3] = {{1.0f, 3.0f, 0.0f}, {0, 0, 0}, {0, 0, 0}};
+    const uint32_t order[2] = {0, 2};
+    const alpi_light_task task = {.order = order, .count = 2, .values = values};
+    alpi_light_state_solved(&task, skies, 0.5);
+    ASSERT_NEAR(values[0].variance[0], 0.75, 1e-6);
+    assert_true(values[0].variance[1] == 0.0f);
+    ASSERT_NEAR(values[0].variance[2], 0.25, 1e-6);
+    alpi_light_state_solved(&task, NULL, 0.5);
+    ASSERT_NEAR(values[0].variance[0], 1.75, 1e-6);
+    for (int k = 0; k < 3; k++) {
+        assert_true(values[1].variance[k] == 0.0f && values[2].variance[k] == 0.0f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_all_light),
+        cmocka_unit_test(of_each_texel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
