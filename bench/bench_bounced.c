@@ -17,17 +17,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRUTH_RAYS = 1024, QUICK_TRUTH_RAYS = 64, QUICK_SIZE = 32, REPLICATES = 4, PATH_SIZE = 1024 };
+enum {
+    TRUTH_RAYS = 1024,
+    QUICK_TRUTH_RAYS = 64,
+    QUICK_SIZE = 32,
+    REPLICATES = 4,
+    PATH_SIZE = 1024
+};
 enum { SEED_TRUTH = 900, SEED_SOLUTION = 1, SEED_MAPS = 10, SEEDS = 3 };
 enum { BLOCK_RAYS = 256, DIRECT_SAMPLES = 64, TIMED_RAYS = 64 };
 
 typedef struct bounced_scene {
     const char *name, *title;
     const char *sky; // a picture below $ALPENGLOW_SHARED, or NULL
-    uint32_t size;   // of the page; 0: so many texels per metre
     double texels_per_metre;
-    bool shared; // a file below $ALPENGLOW_SHARED
-    bool clear;  // under a clear sky
+    uint32_t size; // of the page; 0: so many texels per metre
+    bool shared;   // a file below $ALPENGLOW_SHARED
+    bool clear;    // under a clear sky
 } bounced_scene;
 
 static const bounced_scene scenes[] = {
@@ -78,10 +84,8 @@ static alp_result light_case(bounced_case *c, const char *sky)
 
 static alp_result solve_case(const bounced_case *c, uint32_t bounces, alpi_radiosity *solution)
 {
-    const alpi_cosine_rays rays = {.context = c->scene.context,
-                                   .samples = BLOCK_RAYS,
-                                   .replicates = 1,
-                                   .seed = SEED_SOLUTION};
+    const alpi_cosine_rays rays = {
+        .context = c->scene.context, .samples = BLOCK_RAYS, .replicates = 1, .seed = SEED_SOLUTION};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
     alpi_radiosity_options o = alpi_radiosity_options_default();
     o.context = c->scene.context;
@@ -137,8 +141,8 @@ static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays,
                                           .near = c->map.validity.near,
                                           .adaptive = way->adaptive,
                                           .straight = way->straight};
-    return bench_good(&c->scene, alpi_bounced_map(&options, &c->map.lattice, NULL, c->states,
-                                                  report));
+    return bench_good(&c->scene,
+                      alpi_bounced_map(&options, &c->map.lattice, NULL, c->states, report));
 }
 
 static bool find_truth(bounced_case *c, bool quick)
@@ -270,8 +274,7 @@ static bool measure_ways(const bounced_case *c, const bench_options *options, be
             bench_table_add(table, "%s|%u|%s|%.1f %%|%.2f %%|%+.3f %%|%.2f|%.3f|%.2f",
                             c->what->title, rays[r], ways[w].name, 100.0 * e.traced,
                             100.0 * sqrt(e.squares), 100.0 * e.bias, sqrt(e.stated / e.squares),
-                            e.seconds,
-                            first.squares * first.seconds / (e.squares * e.seconds));
+                            e.seconds, first.squares * first.seconds / (e.squares * e.seconds));
         }
     }
     return true;
