@@ -127,6 +127,7 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
         .near = job->validity.near,
         .adaptive = r->fixed == NULL && !job->options.light.denoise &&
                     job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .straight = true,
         .held_out = r->rays == 0 || r->held_out->count > 0 ? r->held_out : NULL,
         .beside = &beside,
         .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,

@@ -45,6 +45,7 @@ alp_result alpi_bounced_again_create(const alpi_bounced_options *options,
 {
     *again = (alpi_bounced_again){.options = *options, .lattice = *lattice};
     again->lattice.states = states;
+    again->lattice.straight = options->straight;
     again->lattice.values = NULL;
     const alp_result result = prepare(again, kept_limit, progress);
     if (result != ALP_OK) {

@@ -401,6 +401,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     *report = (alpi_bounced_report){0};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;
+    job.lattice.straight = options->straight;
     job.lattice.values = options->levels;
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);

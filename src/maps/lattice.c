@@ -190,7 +190,8 @@ static void add_to_stencil(alpi_stencil *s, uint32_t texel, float weight)
 }
 
 /// Along one axis, the four nearest at −3h, −h, h, 3h: cubic weights (−1, 9, 9, −1) / 16, or the
-/// mean of the inner two where an outer one is missing. @return false: an inner one is missing
+/// mean of the inner two where an outer one is missing or stencils are straight.
+/// @return false: an inner one is missing
 static bool add_axis(const alpi_lattice *l, const centre *t, int dx, int dy, float share,
                      alpi_stencil *s)
 {
@@ -200,12 +201,15 @@ static bool add_axis(const alpi_lattice *l, const centre *t, int dx, int dy, flo
     }
     const uint32_t c = neighbour(l, t, -3 * dx, -3 * dy), d = neighbour(l, t, 3 * dx, 3 * dy);
     const bool cubic = c != ALPI_NONE && d != ALPI_NONE;
-    add_to_stencil(s, a, share * (cubic ? 0.5625f : 0.5f));
-    add_to_stencil(s, b, share * (cubic ? 0.5625f : 0.5f));
-    float bend = 0.25f * fabsf(l->values[a] - l->values[b]);
-    if (cubic) {
+    const float inner = cubic && !l->straight ? 0.5625f : 0.5f;
+    add_to_stencil(s, a, share * inner);
+    add_to_stencil(s, b, share * inner);
+    if (cubic && !l->straight) {
         add_to_stencil(s, c, share * -0.0625f);
         add_to_stencil(s, d, share * -0.0625f);
+    }
+    float bend = 0.25f * fabsf(l->values[a] - l->values[b]);
+    if (cubic) {
         bend = 0.0625f * fabsf(l->values[a] + l->values[b] - l->values[c] - l->values[d]);
     }
     s->bend = bend > s->bend ? bend : s->bend;

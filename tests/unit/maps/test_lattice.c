@@ -115,6 +115,40 @@ static void cubics_are_interpolated_exactly(void **state)
     tear_down(&s);
 }
 
+/// A parabola along x: the mean of two at ±h misses ½ E'' h² of it, and the cubic misses nothing.
+static void straight_stencils_take_two_and_know_their_bend(void **state)
+{
+    (void)state;
+    lattice_setup s;
+    set_up(&s);
+    alpi_lattice *l = &s.lattice;
+    const float bent = 0.01f;
+    l->straight = true;
+    for (uint32_t i = 0; i < s.texels.count; i++) {
+        const float x = (float)s.texels.pixels[i][0];
+        l->values[i] = 0.5f * bent * x * x;
+        l->states[i] = ALPI_TEXEL_TRACED;
+    }
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
+        const uint32_t h = alpi_lattice_reach(pass);
+        const uint32_t x = 16 + h, y = pass == 1 || pass == 3 ? 16 : 16 + h;
+        const uint32_t texel = l->grid[y * SIZE + x];
+        assert_int_equal(alpi_lattice_pass(s.texels.pixels[texel]), pass);
+        alpi_stencil stencil;
+        assert_true(alpi_lattice_stencil(l, texel, &stencil));
+        const uint32_t axes = pass == 1 || pass == 3 ? 1 : 2;
+        assert_int_equal(stencil.count, 2 * axes);
+        for (uint32_t k = 0; k < stencil.count; k++) {
+            assert_true(stencil.weights[k] == 0.5f / (float)axes);
+        }
+        const float missed = 0.5f * bent * (float)(h * h);
+        ASSERT_NEAR(stencil.bend, missed, 1e-6); // rounding of values up to 5
+        ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), l->values[texel] + missed / (float)axes,
+                    1e-6);
+    }
+    tear_down(&s);
+}
+
 static void no_stencil_crosses_a_chart_or_takes_the_unknown(void **state)
 {
     (void)state;
@@ -176,6 +210,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_texel_has_its_pass_and_its_turn),
         cmocka_unit_test(cubics_are_interpolated_exactly),
+        cmocka_unit_test(straight_stencils_take_two_and_know_their_bend),
         cmocka_unit_test(no_stencil_crosses_a_chart_or_takes_the_unknown),
         cmocka_unit_test(kinks_are_found_beside_traced_texels_only),
     };

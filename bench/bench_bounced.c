@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+// Bounced light at texels: what each way to save rays costs and errs.
+//
+// All gather from the same solution, so that direct light and blocks are no part of the figures.
+// The truth is two maps y₁ and y₂ of which every texel is traced by many rays, independent of each
+// other and of what is held to them, so that E[(x − y₁)(x − y₂)] is the squared error of x.
+#include "bench.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "maps/bounced_map.h"
+#include "maps/radiosity.h"
+#include "transport/cosine_rays.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    TRUTH_RAYS = 1024,
+    QUICK_TRUTH_RAYS = 64,
+    QUICK_SIZE = 32,
+    REPLICATES = 4,
+    PATH_SIZE = 1024
+};
+enum { SEED_TRUTH = 900, SEED_SOLUTION = 1, SEED_MAPS = 10, SEEDS = 3 };
+enum { BLOCK_RAYS = 256, DIRECT_SAMPLES = 64, TIMED_RAYS = 64 };
+
+typedef struct bounced_scene {
+    const char *name, *title;
+    const char *sky; // a picture below $ALPENGLOW_SHARED, or NULL
+    double texels_per_metre;
+    uint32_t size; // of the page; 0: so many texels per metre
+    bool shared;   // a file below $ALPENGLOW_SHARED
+    bool clear;    // under a clear sky
+} bounced_scene;
+
+static const bounced_scene scenes[] = {
+    {.name = "builtin:cornell", .title = "cornell", .size = 256},
+    {.name = "builtin:teapot-room", .title = "teapot-room", .size = 256},
+    {.name = "builtin:atrium", .title = "atrium", .size = 256, .clear = true},
+    {.name = "scenes/architecture/living_room.glb",
+     .title = "living_room",
+     .shared = true,
+     .texels_per_metre = 8.0,
+     .sky = "scenes/hdr/spiaggia_di_mondello_1k.hdr"},
+};
+enum { SCENE_COUNT = sizeof scenes / sizeof *scenes };
+
+typedef struct bounced_case {
+    const bounced_scene *what;
+    bench_scene scene;
+    bench_map map;
+    alpi_receivers receivers;
+    uint32_t *order, count; // texels that have light of their own
+    alp_image *sky;
+    alpi_lighting *lighting, *soft, *direct;
+    alpi_radiosity solution;
+    alpi_reference_value *truth[2], *values; // [texels]
+    uint8_t *states;
+    double mean; // of the truth
+} bounced_case;
+
+// --- scenes --------------------------------------------------------------------------------------
+
+static alp_result light_case(bounced_case *c, const char *sky)
+{
+    alp_lighting_options options = alp_lighting_options_default();
+    if (sky != NULL) {
+        ALP_TRY(alp_image_load(c->scene.context, sky, &c->sky));
+        options.sky.kind = ALP_SKY_IMAGE;
+        options.sky.image = c->sky;
+    } else if (c->what->clear) {
+        options.sky.kind = ALP_SKY_CLEAR;
+        options.sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
+        options.sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
+    }
+    ALP_TRY(alpi_lighting_create(c->scene.scene, &options, &c->lighting));
+    return alpi_lighting_sky(c->lighting) == NULL || alpi_tracer_has_panes(c->scene.tracer)
+               ? ALP_OK
+               : alpi_lighting_split_sky(c->lighting, &options, &c->soft, &c->direct);
+}
+
+static alp_result solve_case(const bounced_case *c, uint32_t bounces, alpi_radiosity *solution)
+{
+    const alpi_cosine_rays rays = {
+        .context = c->scene.context, .samples = BLOCK_RAYS, .replicates = 1, .seed = SEED_SOLUTION};
+    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
+    alpi_radiosity_options o = alpi_radiosity_options_default();
+    o.context = c->scene.context;
+    o.scene = c->scene.scene;
+    o.tracer = c->scene.tracer;
+    o.lighting = c->soft != NULL ? c->soft : c->lighting;
+    o.direct = c->direct != NULL ? c->direct : c->lighting;
+    o.blocks.near = c->map.validity.near;
+    o.gatherer = &gatherer;
+    o.direct_samples = DIRECT_SAMPLES;
+    o.seed = SEED_SOLUTION;
+    o.bounces = bounces;
+    return alpi_radiosity_solve(&o, &c->map.lattice, c->map.atlas, c->order, c->count, NULL,
+                                solution);
+}
+
+/// Lists the texels that have light of their own.
+static void list_texels(bounced_case *c)
+{
+    c->receivers = alpi_texels_receivers(&c->map.texels);
+    c->order = bench_allocate(c->map.texels.count, sizeof *c->order);
+    for (uint32_t i = 0; i < c->map.texels.count; i++) {
+        const uint32_t texel = c->map.lattice.order[i];
+        if (!c->map.validity.dropped[texel]) {
+            c->order[c->count++] = texel;
+        }
+    }
+}
+
+/// A way to gather.
+typedef struct bounced_way {
+    const char *name;
+    bool adaptive, straight;
+} bounced_way;
+
+static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays, uint64_t seed,
+                   alpi_reference_value *values, alpi_bounced_report *report)
+{
+    const alpi_gather_scene from = alpi_radiosity_scene(&c->solution);
+    const alpi_cosine_rays cosine = {.context = c->scene.context,
+                                     .samples = alpi_cosine_rays_samples(rays, REPLICATES),
+                                     .replicates = REPLICATES,
+                                     .seed = alpi_hash64(seed)};
+    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
+    const alpi_gather_job job = {.context = c->scene.context,
+                                 .from = &from,
+                                 .gatherer = &gatherer,
+                                 .receivers = &c->receivers,
+                                 .values = values};
+    const alpi_bounced_options options = {.gather = &job,
+                                          .order = c->order,
+                                          .count = c->count,
+                                          .near = c->map.validity.near,
+                                          .adaptive = way->adaptive,
+                                          .straight = way->straight};
+    return bench_good(&c->scene,
+                      alpi_bounced_map(&options, &c->map.lattice, NULL, c->states, report));
+}
+
+static bool find_truth(bounced_case *c, bool quick)
+{
+    const bounced_way all = {.name = ""};
+    const uint32_t texels = c->map.texels.count;
+    alpi_bounced_report report = {0};
+    double sum = 0.0;
+    c->states = bench_allocate(texels, sizeof *c->states);
+    c->values = bench_allocate(texels, sizeof *c->values);
+    for (uint64_t k = 0; k < 2; k++) {
+        c->truth[k] = bench_allocate(texels, sizeof *c->truth[k]);
+        if (!gather(c, &all, quick ? QUICK_TRUTH_RAYS : TRUTH_RAYS, SEED_TRUTH + k, c->truth[k],
+                    &report)) {
+            return false;
+        }
+        for (uint32_t i = 0; i < c->count; i++) {
+            for (int ch = 0; ch < 3; ch++) {
+                sum += (double)c->truth[k][c->order[i]].mean[ch];
+            }
+        }
+    }
+    c->mean = fmax(sum / (6.0 * fmax(c->count, 1.0)), 1e-30);
+    return true;
+}
+
+static bool open_case(const bounced_scene *what, bool quick, bounced_case *c)
+{
+    char path[PATH_SIZE], sky[PATH_SIZE];
+    *c = (bounced_case){.what = what};
+    snprintf(path, sizeof path, "%s", what->shared ? bench_shared(what->name, "") : what->name);
+    snprintf(sky, sizeof sky, "%s", what->sky != NULL ? bench_shared(what->sky, "") : "");
+    if (!bench_scene_open(path, 0, &c->scene)) {
+        return false;
+    }
+    alp_atlas_options options = alp_atlas_options_default();
+    options.size = quick ? QUICK_SIZE : what->size > 0 ? what->size : options.size;
+    options.texels_per_metre = quick ? 0.0 : what->texels_per_metre;
+    if (!bench_good(&c->scene, light_case(c, what->sky != NULL ? sky : NULL)) ||
+        !bench_map_open_with(&c->scene, &options, &c->map)) {
+        return false;
+    }
+    list_texels(c);
+    return bench_good(&c->scene, solve_case(c, UINT32_MAX, &c->solution)) && find_truth(c, quick);
+}
+
+static void close_case(bounced_case *c)
+{
+    free(c->order);
+    free(c->states);
+    free(c->values);
+    free(c->truth[0]);
+    free(c->truth[1]);
+    alpi_radiosity_destroy(&c->solution);
+    alpi_lighting_destroy(c->scene.context, c->lighting);
+    alpi_lighting_destroy(c->scene.context, c->soft);
+    alpi_lighting_destroy(c->scene.context, c->direct);
+    alp_image_destroy(c->sky);
+    if (c->map.atlas != NULL) {
+        bench_map_close(&c->scene, &c->map);
+    }
+    bench_scene_close(&c->scene);
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+typedef struct bounced_error {
+    double squares, bias, stated, seconds, traced;
+} bounced_error;
+
+static void add_error(const bounced_case *c, bounced_error *e)
+{
+    double squares = 0.0, bias = 0.0, stated = 0.0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        const uint32_t t = c->order[i];
+        for (int k = 0; k < 3; k++) {
+            const double x = (double)c->values[t].mean[k];
+            const double a = x - (double)c->truth[0][t].mean[k];
+            const double b = x - (double)c->truth[1][t].mean[k];
+            squares += a * b;
+            bias += 0.5 * (a + b);
+            stated += (double)c->values[t].variance[k];
+        }
+    }
+    const double all = 3.0 * fmax(c->count, 1.0);
+    e->squares += fmax(squares, 0.0) / all / (c->mean * c->mean);
+    e->bias += bias / all / c->mean;
+    e->stated += stated / all / (c->mean * c->mean);
+}
+
+static bool measure(const bounced_case *c, const bounced_way *way, uint32_t rays, int seeds,
+                    bounced_error *e)
+{
+    *e = (bounced_error){0};
+    double seconds[SEEDS];
+    for (int s = 0; s < seeds; s++) {
+        alpi_bounced_report report = {0};
+        const double began = bench_process_seconds();
+        if (!gather(c, way, rays, SEED_MAPS + (uint64_t)s, c->values, &report)) {
+            return false;
+        }
+        seconds[s] = bench_process_seconds() - began;
+        add_error(c, e);
+        e->traced += (double)report.traced / c->count;
+    }
+    e->seconds = bench_median(seconds, seeds);
+    e->squares /= seeds;
+    e->bias /= seeds;
+    e->stated /= seeds;
+    e->traced /= seeds;
+    return true;
+}
+
+static bool measure_ways(const bounced_case *c, const bench_options *options, bench_table *table)
+{
+    static const bounced_way ways[] = {{.name = "every texel"},
+                                       {"lattice, cubic", true, false},
+                                       {"lattice, straight", true, true}};
+    enum { WAYS = sizeof ways / sizeof *ways };
+    static const uint32_t rays[] = {64, 1024};
+    for (int r = 0; r < (options->quick ? 1 : 2); r++) {
+        bounced_error first = {0};
+        for (int w = 0; w < WAYS; w++) {
+            bounced_error e;
+            if (!measure(c, &ways[w], rays[r], options->quick ? 1 : SEEDS, &e)) {
+                return false;
+            }
+            first = w == 0 ? e : first;
+            bench_table_add(table, "%s|%u|%s|%.1f %%|%.2f %%|%+.3f %%|%.2f|%.3f|%.2f",
+                            c->what->title, rays[r], ways[w].name, 100.0 * e.traced,
+                            100.0 * sqrt(e.squares), 100.0 * e.bias, sqrt(e.stated / e.squares),
+                            e.seconds, first.squares * first.seconds / (e.squares * e.seconds));
+        }
+    }
+    return true;
+}
+
+// --- where the time goes -------------------------------------------------------------------------
+
+static uint32_t find_no_cell(const void *user, const alpi_surface_point *point)
+{
+    (void)user;
+    (void)point;
+    return ALPI_CELL_FIRST;
+}
+
+/// Processor seconds of the rays of all texels. @param look whether what they meet is looked up
+static bool time_rays(const bounced_case *c, bool look, double *seconds)
+{
+    alpi_gather_scene from = alpi_radiosity_scene(&c->solution);
+    const alpi_cosine_rays cosine = {
+        .context = c->scene.context, .samples = TIMED_RAYS, .replicates = REPLICATES, .seed = 1};
+    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
+    if (!look) {
+        from.light.cell = find_no_cell;
+        from.light.fetch = NULL;
+    }
+    const alpi_gather_job job = {.context = c->scene.context,
+                                 .from = &from,
+                                 .gatherer = &gatherer,
+                                 .receivers = &c->receivers,
+                                 .list = c->order,
+                                 .count = c->count,
+                                 .values = c->values};
+    const double began = bench_process_seconds();
+    const bool good = bench_good(&c->scene, alpi_gather_irradiance(&job, NULL));
+    *seconds = bench_process_seconds() - began;
+    return good;
+}
+
+/// Processor seconds of the solution, and how many passes it had.
+static bool time_solution(const bounced_case *c, uint32_t bounces, double *seconds,
+                          uint32_t *passes)
+{
+    alpi_radiosity solution;
+    const double began = bench_process_seconds();
+    if (!bench_good(&c->scene, solve_case(c, bounces, &solution))) {
+        return false;
+    }
+    *seconds = bench_process_seconds() - began;
+    *passes = solution.passes;
+    alpi_radiosity_destroy(&solution);
+    return true;
+}
+
+static bool measure_times(const bounced_case *c, const bench_options *options, bench_table *table)
+{
+    enum { ROUNDS = 5 };
+    double all[ROUNDS], blind[ROUNDS], solved[ROUNDS], once[ROUNDS];
+    uint32_t passes = 0, one = 0;
+    const int rounds = options->quick ? 1 : ROUNDS;
+    for (int i = 0; i < rounds; i++) {
+        if (!time_rays(c, true, &all[i]) || !time_rays(c, false, &blind[i]) ||
+            !time_solution(c, UINT32_MAX, &solved[i], &passes) ||
+            !time_solution(c, 1, &once[i], &one)) {
+            return false;
+        }
+    }
+    const double looked = bench_median(all, rounds), not_looked = bench_median(blind, rounds);
+    const double whole = bench_median(solved, rounds), first = bench_median(once, rounds);
+    bench_table_add(table, "%s|%.3f|%.3f|%.0f %%|%.3f|%u|%.3f|%.0f %%", c->what->title, looked,
+                    not_looked, 100.0 * (1.0 - not_looked / looked), whole, passes,
+                    fmax(whole - first, 0.0), 100.0 * fmax(1.0 - first / whole, 0.0));
+    return true;
+}
+
+// --- all -----------------------------------------------------------------------------------------
+
+static bool is_asked(const bounced_scene *what, const bench_options *options)
+{
+    return (!what->shared || bench_shared(what->name, NULL) != NULL) &&
+           (options->scene == NULL || strcmp(options->scene, what->title) == 0);
+}
+
+int bench_bounced(const bench_options *options)
+{
+    bench_table errors, times;
+    bench_table_start(&errors, "Bounced light at the texels",
+                      "Root mean square error over the mean, against a map of which every texel is "
+                      "traced by twice 1,024 rays of the same solution; processor seconds of all "
+                      "threads. Worth: the seconds that tracing every texel takes to the same "
+                      "error, over those of the way.",
+                      "scene|rays|way|traced|error|bias|stated/true|s|worth");
+    bench_table_start(&times, "Where the time of bounced light goes",
+                      "Processor seconds. Rays: 64 of every texel, and the same where what they "
+                      "meet is not looked up. Solution: direct light, the rays of blocks, which "
+                      "are traced once and kept, and passes over them, of which the later ones "
+                      "are all but the first.",
+                      "scene|rays|no look-ups|look-ups|solution|passes|later ones|of it");
+    bool good = true;
+    for (int i = 0; i < SCENE_COUNT && good; i++) {
+        if (!is_asked(&scenes[i], options)) {
+            continue;
+        }
+        bounced_case c;
+        good = open_case(&scenes[i], options->quick, &c) && measure_times(&c, options, &times) &&
+               measure_ways(&c, options, &errors);
+        close_case(&c);
+    }
+    if (good) {
+        bench_table_print(&errors, options);
+        bench_table_print(&times, options);
+    }
+    return good ? 0 : 1;
+}
