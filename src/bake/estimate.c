@@ -20,6 +20,7 @@ static const double TEXELS_PER_CHART = 1500.0;
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
 static const double BOUNCED_ERROR = 0.037; // of 64 rays, over the mean of all light
+static const double BOUNCED_POWER = 1.6;   // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
 static const double EDGE_SHARE = 1.0;      // noisy texels with those around them, over noisy ones
 static const double PACKET_SHARE = 0.22;   // time of a ray in a packet, over that of a path
@@ -244,7 +245,7 @@ static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_b
         rays = 3.0 * l->hemicube * l->hemicube;
         rays *= l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
     } else if (l->gather == ALP_GATHER_RAYS && l->error > 0.0f) {
-        rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, 2.0), 1.0);
+        rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, BOUNCED_POWER), 1.0);
     }
     const double share = find_traced_share(o, (double)w->texels);
     rays = rays * share + (l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0);

@@ -63,8 +63,9 @@ enum {
     LEVEL_BYTES = 4,   // where those of occlusion may not be written over
     SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds
     ROUND_BYTES = 33,  // of later rounds: fresh 24, counts 4, list 4, between 1
-    // Texels held out, with what they found in a round; and in all rounds.
-    HELD_OUT_BYTES = sizeof(alpi_held_out) + ALPI_HELD_OUT * sizeof(alpi_reference_value),
+    // Texels held out, with what they found in a round; and in all rounds; and probes.
+    HELD_OUT_BYTES = sizeof(alpi_held_out) +
+                     (ALPI_HELD_OUT + ALPI_BOUNCED_PROBES) * sizeof(alpi_reference_value),
     BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
     BAND_BYTES = 5 << 18,          // so many at most
     DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10 };
+enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, STREAM_PROBES = 11 };
 enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all workers busy
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
@@ -23,8 +23,9 @@ typedef struct bounced_job {
     alpi_bounced_report *report;
     uint8_t *wanted; // [texels] to be traced next
     uint32_t *list;  // [LIST_LIMIT], or count if that is less
-    float noise; // standard deviation of the mean of the channels, over the root mean square light
-    float level; // mean light
+    float noise;  // standard deviation of the mean of the channels, over the root mean square light
+    float level;  // mean light
+    float factor; // true variances over those that replicates state
     uint32_t pass;
     bool flood;
     uint64_t gathered, expected; // texels, those held out too
@@ -43,6 +44,13 @@ static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
 static float level_of(const alpi_reference_value *v)
 {
     return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
+}
+
+static void scale_variance(const bounced_job *job, alpi_reference_value *v)
+{
+    for (int k = 0; k < 3; k++) {
+        v->variance[k] *= job->factor;
+    }
 }
 
 /// Traces `count` texels of the list. @param gather what is written
@@ -68,6 +76,7 @@ static alp_result trace_listed(bounced_job *job, uint32_t count)
         const uint32_t t = job->list[i];
         job->lattice.states[t] = ALPI_TEXEL_TRACED;
         job->lattice.values[t] = level_of(&g->values[t]);
+        scale_variance(job, &g->values[t]);
     }
     return ALP_OK;
 }
@@ -88,6 +97,92 @@ static alp_result trace_wanted(bounced_job *job)
         }
     }
     return trace_listed(job, count);
+}
+
+/// Some texels of a state, evenly and at random, into the list. @param count that there are
+/// @param most the list shall hold @return how many it holds
+static uint32_t choose(const bounced_job *job, alpi_texel_state state, uint32_t count,
+                       uint32_t most, uint32_t stream)
+{
+    uint32_t chosen = 0, seen = 0;
+    const double step = fmax((double)count / most, 1.0);
+    const float offset = alpi_unit_float(alpi_random_key(count, 0, stream));
+    double next = (double)offset * step;
+    for (uint32_t i = 0; i < job->options->count && chosen < most; i++) {
+        const uint32_t t = job->options->order[i];
+        const bool hidden = (job->lattice.texels->flags[t] & ALPI_TEXEL_HIDDEN) != 0;
+        if (job->lattice.states[t] == state && !hidden && (double)seen++ >= next) {
+            job->list[chosen++] = t;
+            next += step;
+        }
+    }
+    return chosen;
+}
+
+/// Rays of their own from the listed texels, which stay as they are. @param found [count] out
+static alp_result gather_beside(bounced_job *job, uint32_t count, const alpi_gatherer *gatherer,
+                                alpi_reference_value *found)
+{
+    alpi_reference_value *values = job->options->gather->values;
+    for (uint32_t i = 0; i < count; i++) { // the rays write into the map, which gets them back
+        found[i] = values[job->list[i]];
+    }
+    alpi_gather_job alone = *job->options->gather;
+    alone.gatherer = gatherer;
+    alone.skies = NULL;
+    alone.directional = NULL;
+    const alp_result result = gather_list(job, count, alone);
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_reference_value kept = found[i];
+        found[i] = values[job->list[i]];
+        scale_variance(job, &found[i]);
+        values[job->list[i]] = kept;
+    }
+    return result;
+}
+
+// --- probes --------------------------------------------------------------------------------------
+
+/// Σ (x − y)² / 2 over Σ Var as it is stated, over the channels of some texels; 1 where nothing is
+/// stated.
+static float compare_probes(const bounced_job *job, const alpi_reference_value *found,
+                            uint32_t count)
+{
+    double squares = 0.0, stated = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_reference_value *x = &job->options->gather->values[job->list[i]];
+        for (int k = 0; k < 3; k++) {
+            const double apart = (double)x->mean[k] - (double)found[i].mean[k];
+            squares += 0.5 * apart * apart;
+            stated += 0.5 * ((double)x->variance[k] + (double)found[i].variance[k]);
+        }
+    }
+    return stated > 0.0 ? (float)(squares / stated) : 1.0f;
+}
+
+/// Finds how far the spread of joined replicates is from the truth, and makes it true.
+static alp_result find_factor(bounced_job *job, uint32_t traced)
+{
+    enum { LEAST = 64, SHARE = 8 }; // a tenth of that error is chance, and an eighth of the rays
+    const uint32_t few = traced / SHARE > LEAST ? traced / SHARE : LEAST;
+    const uint32_t most = few < ALPI_BOUNCED_PROBES ? few : ALPI_BOUNCED_PROBES;
+    const uint32_t count = choose(job, ALPI_TEXEL_TRACED, traced, most, STREAM_PROBES);
+    alpi_reference_value *found = ALPI_NEW(job->lattice.context, alpi_reference_value, count);
+    if (found == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = gather_beside(job, count, job->options->beside, found);
+    if (result == ALP_OK) {
+        job->factor = compare_probes(job, found, count);
+        for (uint32_t i = 0; i < job->options->count; i++) {
+            const uint32_t t = job->options->order[i];
+            if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
+                scale_variance(job, &job->options->gather->values[t]);
+            }
+        }
+    }
+    alpi_release(job->lattice.context, found);
+    return result;
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -241,7 +336,11 @@ static alp_result run_lattice(bounced_job *job)
 {
     ALP_TRY(for_texels(job, want_range));
     ALP_TRY(judge(job, 0, false)); // what is wanted, and the lattice: no stencil ends at it
-    ALP_TRY(measure_noise(job, count_traced(job)));
+    const uint32_t traced = count_traced(job);
+    if (job->options->joined) {
+        ALP_TRY(find_factor(job, traced));
+    }
+    ALP_TRY(measure_noise(job, traced));
     if (!job->options->adaptive) {
         return ALP_OK;
     }
@@ -258,44 +357,6 @@ static alp_result run_lattice(bounced_job *job)
 }
 
 // --- errors --------------------------------------------------------------------------------------
-
-/// Some interpolated texels, evenly and at random.
-static uint32_t hold_out(const bounced_job *job, uint32_t interpolated)
-{
-    uint32_t count = 0, seen = 0;
-    const double step = fmax((double)interpolated / ALPI_HELD_OUT, 1.0);
-    const float offset = alpi_unit_float(alpi_random_key(interpolated, 0, STREAM_HELD_OUT));
-    double next = (double)offset * step;
-    for (uint32_t i = 0; i < job->options->count && count < ALPI_HELD_OUT; i++) {
-        const uint32_t t = job->options->order[i];
-        if (job->lattice.states[t] == ALPI_TEXEL_INTERPOLATED && (double)seen++ >= next) {
-            job->list[count++] = t;
-            next += step;
-        }
-    }
-    return count;
-}
-
-/// Rays of their own from the listed texels, which stay as they are. @param found [count] out
-static alp_result gather_beside(bounced_job *job, uint32_t count, const alpi_gatherer *gatherer,
-                                alpi_reference_value *found)
-{
-    alpi_reference_value *values = job->options->gather->values;
-    for (uint32_t i = 0; i < count; i++) { // the rays write into the map, which gets them back
-        found[i] = values[job->list[i]];
-    }
-    alpi_gather_job alone = *job->options->gather;
-    alone.gatherer = gatherer;
-    alone.skies = NULL;
-    alone.directional = NULL;
-    const alp_result result = gather_list(job, count, alone);
-    for (uint32_t i = 0; i < count; i++) {
-        const alpi_reference_value kept = found[i];
-        found[i] = values[job->list[i]];
-        values[job->list[i]] = kept;
-    }
-    return result;
-}
 
 void alpi_held_out_error(const uint32_t *texels, const alpi_reference_value *found, uint32_t count,
                          const alpi_reference_value *values, float variance[3])
@@ -320,7 +381,8 @@ static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, 
         memcpy(job->list, held->texels, held->count * sizeof *job->list);
         return gather_beside(job, held->count, job->options->beside, held->values);
     }
-    const uint32_t count = hold_out(job, interpolated);
+    const uint32_t count =
+        choose(job, ALPI_TEXEL_INTERPOLATED, interpolated, ALPI_HELD_OUT, STREAM_HELD_OUT);
     alpi_reference_value *found = ALPI_NEW(context, alpi_reference_value, count);
     if (found == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -397,6 +459,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     bounced_job job = {.options = options,
                        .lattice = *lattice,
                        .report = report,
+                       .factor = 1.0f,
                        .expected = (first ? options->count : report->traced) + ALPI_HELD_OUT};
     *report = (alpi_bounced_report){0};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};

@@ -14,7 +14,7 @@
 
 /// Texels that several maps of the same light hold out: those, evenly and at random, that the first
 /// of them interpolates, with rays of their own in each.
-enum { ALPI_HELD_OUT = 1024 };
+enum { ALPI_HELD_OUT = 1024, ALPI_BOUNCED_PROBES = 512 };
 typedef struct alpi_held_out {
     uint32_t count; // 0: none yet
     uint32_t texels[ALPI_HELD_OUT];
@@ -29,8 +29,10 @@ typedef struct alpi_bounced_options {
     bool adaptive;               // false: all texels are traced
     bool straight;               // alpi_lattice
     alpi_held_out *held_out;     // NULL: one map alone; else in and out
-    const alpi_gatherer *beside; // where held_out has some: like that of `gather`, of other random
-                                 // numbers, as some of them may be traced now
+    const alpi_gatherer *beside; // like that of `gather`, of other random numbers: of texels that
+                                 // are held out, as some may be traced now, and, where replicates
+                                 // are joined, of probes, which tell what their spread is worth
+    bool joined;                 // they are
     float *levels;               // [texels] that may be written over, or NULL
 } alpi_bounced_options;
 
@@ -40,7 +42,9 @@ typedef struct alpi_bounced_report {
 } alpi_bounced_report;
 
 /// Writes the values (with variances), skies and light by direction of the gather job for the
-/// texels of the order. Variances are pooled over a texel and its neighbours. Those of interpolated
+/// texels of the order. Variances are pooled over a texel and its neighbours; where replicates are
+/// joined, times the one factor that makes them true over some traced texels, chosen at random,
+/// which have rays of their own once more: E[(x − y)²] = 2 Var x. Those of interpolated
 /// texels are the mean square difference to independent rays from some of them, chosen at random,
 /// less the variance of those rays: it holds what interpolation misses, as a mean over all of them.
 /// Where a map before held some out, it is 0: means of maps are held to means of what those found.

@@ -50,9 +50,9 @@ static bool is_masked_out(const alp_scene *scene, const alpi_texel_spot *s)
 }
 
 /// Albedo and emission, means over those of the texel's strata that are there for a ray to meet.
-static void find_material(const alpi_patches *p, uint32_t texel)
+static void find_material(const alpi_patches *p, uint32_t texel, bool even)
 {
-    const uint32_t strata = is_even(p, texel) ? 1 : ALBEDO_STRATA;
+    const uint32_t strata = even ? 1 : ALBEDO_STRATA;
     double albedo[3] = {0.0}, emission[3] = {0.0};
     uint32_t met = 0;
     for (uint32_t i = 0; i < strata * strata; i++) {
@@ -82,18 +82,32 @@ static void find_material(const alpi_patches *p, uint32_t texel)
         met > 0 ? (float)((emission[0] + emission[1] + emission[2]) / (3.0 * met)) : 0.0f;
 }
 
+/// How far a hit counts as near, for those that meet it.
+static void note_side(const alpi_patches *p, uint32_t texel)
+{
+    const float covered = fmaxf(p->texels->coverages[texel], 1e-6f);
+    const float side = sqrtf(p->texels->areas[texel] / covered);
+    p->cells[alpi_patches_cell(p, texel, ALPI_FRONT)][ALPI_CELL_SIDE] = side;
+    if (p->two_sided) {
+        p->cells[alpi_patches_cell(p, texel, ALPI_BACK)][ALPI_CELL_SIDE] = side;
+    }
+}
+
 static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const alpi_patches *p = user;
+    uint32_t known = ALPI_NONE; // an even texel, whose triangle is mostly that of the next one too
     for (uint32_t t = begin; t < end; t++) {
-        find_material(p, t);
-        const float covered = fmaxf(p->texels->coverages[t], 1e-6f);
-        const float side = sqrtf(p->texels->areas[t] / covered);
-        p->cells[alpi_patches_cell(p, t, ALPI_FRONT)][ALPI_CELL_SIDE] = side;
-        if (p->two_sided) {
-            p->cells[alpi_patches_cell(p, t, ALPI_BACK)][ALPI_CELL_SIDE] = side;
+        note_side(p, t);
+        const bool even = is_even(p, t);
+        if (even && known != ALPI_NONE && p->texels->triangles[known] == p->texels->triangles[t]) {
+            memcpy(p->reflectances[t], p->reflectances[known], sizeof *p->reflectances);
+            p->emissions[t] = p->emissions[known];
+            continue;
         }
+        find_material(p, t, even);
+        known = even ? t : known;
     }
     return ALP_OK;
 }

@@ -21,10 +21,12 @@ static void number_rays(const alpi_cosine_rays *r, uint32_t receiver, uint32_t f
                         alpi_path_wave *w)
 {
     const uint32_t key = alpi_random_key(r->seed, receiver, STREAM_COSINE_RAYS);
+    const uint32_t each = r->samples / ALPI_PACKET / r->replicates; // packets of a replicate
     for (uint32_t i = 0; i < w->count; i++) {
-        const uint32_t packet = first + i / ALPI_PACKET;
-        w->key[i] = alpi_hash32(key ^ alpi_hash32(packet % r->replicates + 1u));
-        w->sample[i] = packet / r->replicates * ALPI_PACKET + i % ALPI_PACKET;
+        const uint32_t packet = first + i / ALPI_PACKET, replicate = packet % r->replicates;
+        const uint32_t own = packet / r->replicates + (r->joined ? replicate * each : 0);
+        w->key[i] = alpi_hash32(key ^ alpi_hash32(r->joined ? 1u : replicate + 1u));
+        w->sample[i] = own * ALPI_PACKET + i % ALPI_PACKET;
         w->event[i] = 0;
     }
 }

@@ -6,12 +6,16 @@
 
 #include "transport/gather.h"
 
-/// Packets are dealt out to the replicates in turns, each with sequences of its own; the spread of
-/// the replicates' means tells the error. One replicate is the best stratified.
+/// Packets are dealt out to the replicates in turns. Apart, each has a sequence of its own, and the
+/// spread of their means tells the error. Joined, each is a run of one sequence, which is as well
+/// stratified as one replicate: half the variance of four apart (64 to 256 rays in a box), but
+/// their spread tells as much as before, which is too much by a factor that depends on what is
+/// seen.
 typedef struct alpi_cosine_rays {
     alp_context *context; // for its instruction set
     uint32_t samples;     // of each receiver: a multiple of 8 × replicates
     uint32_t replicates;  // [1, ALPI_GATHER_REPLICATE_LIMIT]
+    bool joined;
     uint64_t seed;
 } alpi_cosine_rays;
 

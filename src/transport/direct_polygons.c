@@ -9,9 +9,10 @@
 #include <string.h>
 
 enum { STREAM_POLYGON = 13, USE_PLACE = 0, USE_POLYGON = 1 };
-enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, FEWEST = 16, SCOUTS = 8 };
-enum { MISSED = 2 * R }; // rays of those that met nothing
-_Static_assert(CHUNK % R == 0 && SCOUTS <= R, "replicates take turns");
+enum { R = ALPI_DIRECT_REPLICATES, CHUNK = ALPI_POLYGON_CHUNK, SCOUTS = 8 };
+enum { FEWEST = 8, FEW = 16 };
+enum { MISSED = 16 }; // rays of those that met nothing
+_Static_assert(CHUNK % R == 0 && SCOUTS % R == 0 && MISSED % R == 0, "replicates take turns");
 /// Means of form factors over a half's replicates are uneven where their range is more of their
 /// mean than this over the root of all samples.
 static const double UNEVEN = 0.25;
@@ -430,8 +431,8 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
 /// Directions have no closed form, and may not change what is gathered: half of what is many.
 static uint32_t first_samples(uint32_t samples)
 {
-    const uint32_t few = samples > 64 ? samples / 2 / R * R : FEWEST;
-    return few > FEWEST ? few : samples < FEWEST ? samples : FEWEST;
+    const uint32_t few = samples > 64 ? samples / 2 / R * R : samples > 32 ? FEW : FEWEST;
+    return samples < few ? samples : few;
 }
 
 /// Of each receiver of a block, so that all corners of a polygon are seen.
@@ -453,7 +454,7 @@ static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receive
 {
     alpi_polygon_wave *w = &g->wave;
     for (uint32_t first = range[0]; first < range[1]; first += w->count) {
-        const uint32_t left = range[1] - first, room = CHUNK - (scouts > 0 ? R : 0);
+        const uint32_t left = range[1] - first, room = CHUNK - (scouts > 0 ? SCOUTS : 0);
         w->scouts = scouts;
         w->count = (left < room ? left : room) + scouts;
         gather_chunk(g, receivers, count, first);

@@ -41,6 +41,12 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
                      alpi_direct_output *output)
 {
     const uint32_t each = d->samples / R;
+    alpi_reference_value *value = &output->values[receiver];
+    if (d->part_count == 1) {
+        alpi_reference_mean(sums[0], R, each, value);
+        alpi_direct_put_part(output, 1, 0, receiver, value);
+        return;
+    }
     double all[R][3] = {{0.0}};
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
@@ -54,7 +60,6 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
     }
-    alpi_reference_value *value = &output->values[receiver];
     alpi_reference_mean((const double(*)[3])all, R, each, value);
     for (int k = 0; k < 3; k++) {
         value->mean[k] = mean[k];
