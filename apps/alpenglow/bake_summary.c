@@ -155,7 +155,8 @@ static void print_seam_error(const alp_seam_report *s, const char *map, const al
                100.0 * e->stitched_p99);
     }
     if (isfinite(e->mean) && isfinite(noise)) {
-        printf(", noise %.2g %%", 100.0 * noise);
+        printf(", noise ");
+        print_percent(stdout, noise);
     }
 }
 
