@@ -31,7 +31,7 @@ import tempfile
 
 SCENES = ["{shared}/peers/blender/cornell.glb", "{shared}/peers/blender/sphere_plane.glb",
           "builtin:torus-plane=0.5", "builtin:teapot-room=0.5", "boxes:400=0.5"]
-RAYS = [64, 80, 96, 112, 128, 160, 192, 224, 256, 288, 320, 384, 448, 512, 640, 768, 1024]
+RAYS = [*range(64, 160, 8), *range(160, 320, 16), *range(320, 640, 32), *range(640, 1025, 64)]
 LIGHT_PATHS = [16, 32, 48, 64, 80, 96, 128, 192, 256]
 SIZE = 256
 SIZE_OF_BOXES = 512

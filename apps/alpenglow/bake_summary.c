@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What alpenglow bake says when it is done.
 #include "bake_options.h"
+#include "output.h"
+#include "report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,18 +10,18 @@
 
 static void print_atlas(const alp_atlas_info *atlas)
 {
-    printf("atlas      %s, %u page%s of %u x %u, %u charts, %llu texels, %.1f %% used, "
+    printf("atlas      %s, %u page%s of %u x %u, %u chart%s, %llu texels, %.1f %% used, "
            "%.4g texels per metre\n",
-           atlas->mode == ALP_ATLAS_KEEP    ? "kept"
-           : atlas->mode == ALP_ATLAS_BLEND ? "blend"
-                                            : "charts",
-           atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width, atlas->height, atlas->charts,
+           atlas_mode_name(atlas->mode), atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width,
+           atlas->height, atlas->charts, atlas->charts == 1 ? "" : "s",
            (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
-    printf(
-        "stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, %llu texels "
-        "overlap\n",
-        atlas->stretch_mean, atlas->stretch_worst, atlas->density_spread, atlas->flipped_triangles,
-        (unsigned long long)atlas->overlapping_texels);
+    printf("stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, ",
+           atlas->stretch_mean, atlas->stretch_worst, atlas->density_spread,
+           atlas->flipped_triangles);
+    if (atlas->sliver_triangles > 0) {
+        printf("%u slivers, ", atlas->sliver_triangles);
+    }
+    printf("%llu texels overlap\n", (unsigned long long)atlas->overlapping_texels);
 }
 
 /// Names of files, .exr as the format of the maps has it.
@@ -70,8 +72,11 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
 static void print_stated_error(double relative, double p99)
 {
     if (isfinite(relative)) {
-        printf("; stated error %.2g %% of the mean, 99 %% of the texels within %.2g %%\n",
-               100.0 * relative, 100.0 * p99);
+        printf("; stated error ");
+        print_percent(stdout, relative);
+        printf(" of the mean, 99 %% of the texels within ");
+        print_percent(stdout, p99);
+        putchar('\n');
     } else {
         printf("; error unknown\n");
     }

@@ -13,13 +13,6 @@
 /// So many lamps, and so many emissive surfaces, are told one by one; JSON has them all.
 enum { LIGHTS_TOLD = 16 };
 
-/// Density at which a scene fills half of a page of 1024², about what charts leave for triangles.
-static double estimate_density(const alp_scene_info *info)
-{
-    enum { PAGE = 1024 };
-    return info->area > 0.0 ? sqrt(0.5 * PAGE * PAGE / info->area) : 0.0;
-}
-
 static void print_scene(const char *path, const alp_scene_info *i)
 {
     printf("scene      ");
@@ -34,9 +27,6 @@ static void print_scene(const char *path, const alp_scene_info *i)
     printf("size       %g x %g x %g m\n", (double)high[0] - (double)low[0],
            (double)high[1] - (double)low[1], (double)high[2] - (double)low[2]);
     printf("area       %.6g m2\n", i->area);
-    if (i->area > 0.0) {
-        printf("estimate   --size 1024 gives about %.4g texels per metre\n", estimate_density(i));
-    }
 }
 
 /// What the file states, and what else its unit may be where that is in doubt.
@@ -94,9 +84,11 @@ static alp_result estimate_work(session *s, default_work *work)
     return result == ALP_OK ? alp_bake_estimate(s->scene, &options, &work->light) : result;
 }
 
-static void print_work(const default_work *work)
+static void print_work(const default_work *work, double area)
 {
-    if (work->ao.texels > 0) {
+    if (work->ao.texels > 0 && area > 0.0) {
+        printf("density    --size 1024 gives about %.4g texels per metre\n",
+               sqrt((double)work->ao.texels / area));
         printf("bake       --maps ao: ");
         work_print(stdout, &work->ao);
         printf("bake       --maps light: ");
@@ -315,7 +307,7 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
 {
     print_scene(path, info);
     print_unit(s->scene, info);
-    print_work(work);
+    print_work(work, info->area);
     print_surfaces(s->scene, info->surfaces);
     findings_print_uv_sets(diagnosis);
     print_lights(s->scene, info);

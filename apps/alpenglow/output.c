@@ -240,6 +240,21 @@ json_t *json_text(const char *text)
     return json;
 }
 
+double two_digits(double value)
+{
+    const double step = value > 0.0 ? pow(10.0, floor(log10(value)) - 1.0) : 1.0;
+    return round(value / step) * step;
+}
+
+void print_percent(FILE *stream, double share)
+{
+    if (share > 0.0 && share < 1e-5) {
+        fputs("under 0.001 %", stream);
+    } else {
+        fprintf(stream, "%g %%", two_digits(100.0 * share));
+    }
+}
+
 bool path_ends(const char *path, const char *ending)
 {
     size_t length = strlen(path), ending_length = strlen(ending);

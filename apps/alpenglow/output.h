@@ -4,6 +4,7 @@
 #define COMMAND_OUTPUT_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include <jansson.h>
 
@@ -28,6 +29,11 @@ json_t *json_number(double number);
 json_t *json_text(const char *text);
 /// How documents are written: "key": value, 2 blanks a level, 9 digits.
 enum { JSON_STYLE = JSON_INDENT(2) | JSON_REAL_PRECISION(9) };
+
+/// A guess or a measure with two digits that count: "110", "0.0012"; by %g.
+double two_digits(double value);
+/// A share as percent with two digits: "1.2 %", "110 %"; "under 0.001 %" for what nobody sees.
+void print_percent(FILE *stream, double share);
 
 /// Whether the path ends so, in any case of letters.
 bool path_ends(const char *path, const char *ending);

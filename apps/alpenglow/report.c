@@ -110,18 +110,27 @@ json_t *report_warnings(const message_log *messages)
     return list;
 }
 
+const char *atlas_mode_name(alp_atlas_mode mode)
+{
+    return mode == ALP_ATLAS_KEEP     ? "kept"
+           : mode == ALP_ATLAS_BLEND  ? "blend"
+           : mode == ALP_ATLAS_VERTEX ? "vertex"
+                                      : "charts";
+}
+
 static json_t *make_atlas(const alp_atlas_info *atlas)
 {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:I, s:I, s:I}", "pages",
-                     (json_int_t)atlas->pages, "width", (json_int_t)atlas->width, "height",
-                     (json_int_t)atlas->height, "charts", (json_int_t)atlas->charts, "texels",
-                     (json_int_t)atlas->texels, "utilisation", json_number(atlas->utilisation),
-                     "stretch_mean", json_number(atlas->stretch_mean), "stretch_worst",
-                     json_number(atlas->stretch_worst), "density_spread",
-                     json_number(atlas->density_spread), "flipped_triangles",
-                     (json_int_t)atlas->flipped_triangles, "sliver_triangles",
-                     (json_int_t)atlas->sliver_triangles, "overlapping_texels",
-                     (json_int_t)atlas->overlapping_texels);
+    return json_pack(
+        "{s:s, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I}", "mode",
+        atlas_mode_name(atlas->mode), "pages", (json_int_t)atlas->pages, "width",
+        (json_int_t)atlas->width, "height", (json_int_t)atlas->height, "charts",
+        (json_int_t)atlas->charts, "texels", (json_int_t)atlas->texels, "utilisation",
+        json_number(atlas->utilisation), "texels_per_metre", json_number(atlas->texels_per_metre),
+        "stretch_mean", json_number(atlas->stretch_mean), "stretch_worst",
+        json_number(atlas->stretch_worst), "density_spread", json_number(atlas->density_spread),
+        "flipped_triangles", (json_int_t)atlas->flipped_triangles, "sliver_triangles",
+        (json_int_t)atlas->sliver_triangles, "overlapping_texels",
+        (json_int_t)atlas->overlapping_texels);
 }
 
 static json_t *make_seconds(const alp_bake_report *r, double load)

@@ -15,4 +15,7 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
 /// [{"code", "object", "text"}]
 json_t *report_warnings(const message_log *messages);
 
+/// "charts", "kept", "blend", "vertex".
+const char *atlas_mode_name(alp_atlas_mode mode);
+
 #endif

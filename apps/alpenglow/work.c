@@ -6,12 +6,6 @@
 
 #include <math.h>
 
-static double two_digits(double value)
-{
-    const double step = value > 0.0 ? pow(10.0, floor(log10(value)) - 1.0) : 1.0;
-    return round(value / step) * step;
-}
-
 /// 47,000; 2,100,000
 static void print_count(FILE *stream, double count)
 {
@@ -28,7 +22,7 @@ void work_print(FILE *stream, const alp_bake_work *work)
 {
     fputs("about ", stream);
     print_count(stream, two_digits((double)work->texels));
-    fprintf(stream, " texels, %.2g Mrays, %.0f MiB, ", two_digits(1e-6 * (double)work->rays),
+    fprintf(stream, " texels, %g Mrays, %.0f MiB, ", two_digits(1e-6 * (double)work->rays),
             ceil(two_digits((double)work->bytes / 0x1p20)));
     if (work->seconds < 1.0) {
         fputs("under 1 s\n", stream);

@@ -7,6 +7,7 @@
 #include "atlas/blend.h"
 
 #include "atlas/factors.h"
+#include "atlas/regions.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -135,14 +136,6 @@ static alp_result add_further_faces(builder *b)
     return ALP_OK;
 }
 
-/// Whether one node shows both triangles, in one instance of its mesh.
-static bool share_node(const alp_scene *scene, uint32_t a, uint32_t b)
-{
-    const alpi_surface *first = &scene->surfaces[scene->triangle_surface[a]];
-    const alpi_surface *second = &scene->surfaces[scene->triangle_surface[b]];
-    return first->node == second->node && first->instance == second->instance;
-}
-
 static alp_result find_face_neighbours(builder *b)
 {
     const uint32_t count = b->faces.count;
@@ -153,7 +146,7 @@ static alp_result find_face_neighbours(builder *b)
             const uint32_t across = b->neighbours[face->triangle][k];
             uint32_t other = ALPI_NONE;
             if (across != ALPI_NONE && b->strongest[across] != NO_AXIS &&
-                share_node(b->scene, face->triangle, across)) {
+                alpi_share_node(b->scene, face->triangle, across)) {
                 other = b->of_axis[across][face->axis];
             }
             const bool joined =

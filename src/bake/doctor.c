@@ -16,6 +16,33 @@ enum { TEXT_LIMIT = 600, LEAST_PAGE = 1, MOST_PAGE = 16384 };
 
 // --- the list ------------------------------------------------------------------------------------
 
+static bool has_same_name(const alp_scene *scene, uint32_t a, uint32_t b)
+{
+    return b < scene->surface_count &&
+           strcmp(scene->surfaces[a].name, scene->surfaces[b].name) == 0;
+}
+
+/// Its material's name where the surface beside has the same name, "" elsewhere.
+static const char *find_distinction(const alp_scene *scene, uint32_t surface)
+{
+    const uint32_t material = scene->surfaces[surface].material;
+    const bool same = has_same_name(scene, surface, surface + 1) ||
+                      (surface > 0 && has_same_name(scene, surface, surface - 1));
+    return same && material != ALPI_NONE ? scene->materials[material].name : "";
+}
+
+alpi_surface_label alpi_doctor_label(const alp_scene *scene, uint32_t surface)
+{
+    const char *name = scene->surfaces[surface].name, *other = find_distinction(scene, surface);
+    alpi_surface_label label;
+    if (other[0] != '\0') {
+        snprintf(label.text, sizeof label.text, "%.60s (%.60s)", name, other);
+    } else {
+        snprintf(label.text, sizeof label.text, "%.60s", name);
+    }
+    return label;
+}
+
 static const char *name_of(const alp_scene *scene, const alpi_finding_facts *facts)
 {
     switch (facts->place) {
@@ -36,6 +63,11 @@ static char *make_name(const alp_diagnosis *d, const alpi_finding_facts *facts)
     const char *name = name_of(d->scene, facts);
     if (facts->place == ALP_PLACE_UV_SET) {
         return alpi_format(d->context, "UV set %u", facts->index);
+    }
+    const char *other =
+        facts->place == ALP_PLACE_SURFACE ? find_distinction(d->scene, facts->index) : "";
+    if (other[0] != '\0') {
+        return alpi_format(d->context, "%s (%s)", name, other);
     }
     return name != NULL && name[0] != '\0'
                ? alpi_copy_string(d->context, name)

@@ -77,6 +77,13 @@ alp_result alpi_doctor_look_at_overlaps(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_sides(alp_diagnosis *diagnosis);
 alp_result alpi_doctor_look_at_scale(alp_diagnosis *diagnosis);
 
+/// What a surface is called in a finding: its name, and its material where the one beside it in the
+/// file has that name too, as parts of one mesh have. Cut to what fits.
+typedef struct alpi_surface_label {
+    char text[128];
+} alpi_surface_label;
+alpi_surface_label alpi_doctor_label(const alp_scene *scene, uint32_t surface);
+
 /// What to tell of many surfaces: the worst, at most ALPI_DOCTOR_SURFACES of them.
 /// @param measure [surface_count] > 0: worth a word; the worst are the largest
 /// @param worst   out: surfaces, worst first; equal ones in their order

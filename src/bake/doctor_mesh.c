@@ -162,7 +162,8 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
     const alp_scene *scene = d->scene;
     for (uint32_t s = 0; s < scene->surface_count; s++) {
         const alpi_surface *surface = &scene->surfaces[s];
-        const char *with = w->with[s] == s ? "itself" : scene->surfaces[w->with[s]].name;
+        const alpi_surface_label other = alpi_doctor_label(scene, w->with[s]);
+        const char *with = w->with[s] == s ? "itself" : other.text;
         alpi_finding_facts facts = {
             .place = ALP_PLACE_SURFACE, .index = s, .value = surface->triangle_count};
         if (w->same[s] > 0) {
@@ -170,7 +171,7 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.count = w->same[s];
             facts.value = (double)w->same[s] / surface->triangle_count;
             ALP_TRY(alpi_diagnosis_add(
-                d, facts, "%u of %u triangle%s in the very place of others, of %.60s", w->same[s],
+                d, facts, "%u of %u triangle%s in the very place of others, of %s", w->same[s],
                 surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
             alpi_diagnosis_mark_triangle(d, w->first[0][s]);
         }
@@ -179,7 +180,7 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.count = w->opposite[s];
             facts.value = (double)w->opposite[s] / surface->triangle_count;
             ALP_TRY(alpi_diagnosis_add(
-                d, facts, "%u of %u triangle%s back to back with others, of %.60s", w->opposite[s],
+                d, facts, "%u of %u triangle%s back to back with others, of %s", w->opposite[s],
                 surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
             alpi_diagnosis_mark_triangle(d, w->first[1][s]);
         }

@@ -140,10 +140,9 @@ static alp_result tell_buried(alp_diagnosis *d, const alpi_doctor_points *p, con
         const alpi_finding_facts facts = {ALP_FINDING_BURIED, ALP_PLACE_SURFACE, worst[i], surfaces,
                                           share};
         ALP_TRY(alpi_diagnosis_add(
-            d, facts,
-            "%.3g %% of it, %.2g %% of all area, lies inside other objects, such as %.60s",
+            d, facts, "%.3g %% of it, %.2g %% of all area, lies inside other objects, such as %s",
             100.0 * share, 100.0 * share * t->points[worst[i]] / p->count,
-            d->scene->surfaces[all[point].inside].name));
+            alpi_doctor_label(d->scene, all[point].inside).text));
         alpi_doctor_mark_point(d, &p->points[point]);
     }
     return ALP_OK;

@@ -49,8 +49,10 @@ static void put_atlas(alpi_page *page, const alp_bake_report *r)
         return;
     }
     alpi_page_format(page, "<dt>Atlas</dt><dd>%s; %u page%s of %u × %u</dd>\n",
-                     a->mode == ALP_ATLAS_KEEP ? "the scene’s own coordinates" : "charts", a->pages,
-                     a->pages == 1 ? "" : "s", a->width, a->height);
+                     a->mode == ALP_ATLAS_KEEP    ? "the scene’s own coordinates"
+                     : a->mode == ALP_ATLAS_BLEND ? "charts of three axes, blended"
+                                                  : "charts",
+                     a->pages, a->pages == 1 ? "" : "s", a->width, a->height);
     put_count(page, "Charts", a->charts);
     alpi_page_format(page, "<dt>Texels</dt><dd>%s, %s of the pages used</dd>\n",
                      alpi_grouped(a->texels).text, alpi_percent(a->utilisation).text);
@@ -59,9 +61,10 @@ static void put_atlas(alpi_page *page, const alp_bake_report *r)
                      alpi_significant(a->stretch_mean, 3).text,
                      alpi_significant(a->stretch_worst, 3).text,
                      alpi_significant(a->density_spread, 3).text);
-    alpi_page_format(page, "<dt>Flipped triangles</dt><dd>%s; overlapping texels: %s</dd>\n",
-                     alpi_grouped(a->flipped_triangles).text,
-                     alpi_grouped(a->overlapping_texels).text);
+    alpi_page_format(
+        page, "<dt>Flipped triangles</dt><dd>%s; slivers: %s; overlapping texels: %s</dd>\n",
+        alpi_grouped(a->flipped_triangles).text, alpi_grouped(a->sliver_triangles).text,
+        alpi_grouped(a->overlapping_texels).text);
 }
 
 static void put_occlusion(alpi_page *page, const alp_bake_report *r)

@@ -191,7 +191,7 @@ static bool stop_at_ends(const solver *v, float *const *pages, uint32_t channel)
     return any;
 }
 
-/// direction = residual / diagonal + share · direction; gives residual · (residual / diagonal).
+/// Gives residual · (residual / diagonal).
 static double find_norm(const solver *v)
 {
     double sum = 0.0;
@@ -201,6 +201,7 @@ static double find_norm(const solver *v)
     return sum;
 }
 
+/// direction = residual / diagonal + share · direction.
 static void turn(const solver *v, double share)
 {
     for (uint32_t i = 0; i < v->stitch->seams->pixel_count; i++) {

@@ -138,6 +138,29 @@ static alp_scene *make_twins(alp_context *context, const float (*positions)[3],
     return make(context, meshes, 2);
 }
 
+/// Parts of one mesh have one name: findings tell them apart by their materials.
+static void parts_of_one_name(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_mesh meshes[2] = {square(), square()};
+    meshes[0].name = meshes[1].name = "house";
+    meshes[0].uvs = meshes[1].uvs = NULL;
+    alp_scene *scene = make(context, meshes, 2);
+    const char *wall = scene->materials[scene->surfaces[0].material].name;
+    const char *roof = scene->materials[scene->surfaces[1].material].name;
+    char first[64], second[64];
+    snprintf(first, sizeof first, "house (%s)", wall);
+    snprintf(second, sizeof second, "house (%s)", roof);
+    alp_diagnosis *d = diagnose(scene);
+    const alp_finding f = find(d, ALP_FINDING_DUPLICATES);
+    assert_string_equal(f.name, second);
+    assert_non_null(strstr(f.what, first));
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void triangles_in_one_place(void **state)
 {
     (void)state;
@@ -555,6 +578,7 @@ int main(void)
         cmocka_unit_test(a_good_scene_is_well),
         cmocka_unit_test(nothing_to_bake_is_an_error),
         cmocka_unit_test(triangles_in_one_place),
+        cmocka_unit_test(parts_of_one_name),
         cmocka_unit_test(normals_against_their_triangles),
         cmocka_unit_test(backs_that_others_see),
         cmocka_unit_test(sizes_that_are_odd),
