@@ -268,8 +268,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 static bool same_need(const need *a, const need *b)
 {
     return a->old == b->old && a->page == b->page &&
-           memcmp(a->sets, b->sets, sizeof a->sets) == 0 &&
-           memcmp(&a->light_scale, &b->light_scale, sizeof a->light_scale) == 0;
+           memcmp(a->sets, b->sets, sizeof a->sets) == 0 && a->light_scale == b->light_scale;
 }
 
 static alp_result find_material(alpi_gltf_patcher *p, needs *all, const need *wanted,

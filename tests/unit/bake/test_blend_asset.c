@@ -97,6 +97,7 @@ static void three_sets_come_back(void **state)
     alp_scene *last = load(context, again);
     assert_int_equal(alp_scene_get_surface(last, 0).uv_sets, 3);
     check_sets(last, lightmap, 0, 3, 0.0);
+    check_blend(last, lightmap);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(last);
     // Of a file that does not say what is ours all stays, and one set is free still.
