@@ -44,9 +44,10 @@ typedef struct alp_atlas_options {
     size_t struct_size;
     alp_atlas_mode mode;
     uint32_t size; ///< side of a page in texels, [1, 16384]; default 1024
-    double
-        texels_per_metre; ///< texel density; 0 (default) = the highest at which all fits one page
-    uint32_t padding;     ///< free texels between neighbouring charts, [0, 64]; default 2
+    /// Texel density; 0 (default) = the highest at which all fits one page. Charts larger than a
+    /// page are cut, and where less than 3/4 of several pages is used and cuts save one, others.
+    double texels_per_metre;
+    uint32_t padding; ///< free texels between neighbouring charts, [0, 64]; default 2
     /// Radians between a triangle and the plane that it is projected on, (0, 1.2]; default π/4.
     /// Below 0.35 charts stay as they are projected; else those that meet where the surface is
     /// smooth, and tiny ones, are merged and unfolded together.
@@ -84,7 +85,8 @@ ALP_API alp_atlas_options alp_atlas_options_default(void);
 /// @param scene must outlive the atlas
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
 ///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
-///         4096 pages); OUT_OF_MEMORY; CANCELLED
+///         4096 pages; a triangle that is larger than a page: the message has its numbers);
+///         OUT_OF_MEMORY; CANCELLED
 /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
 /// 2007; M. Garland, A. Willmott, P. S. Heckbert. Hierarchical Face Clustering on Polygonal
 /// Surfaces. I3D, 2001; L. Liu, L. Zhang, Y. Xu, C. Gotsman, S. J. Gortler. A Local/Global Approach
@@ -101,15 +103,16 @@ typedef struct alp_atlas_info {
     uint64_t texels; ///< covered: with area of a chart inside
     /// Share of all pages' texels that are in use. CHARTS: covered texels and free ones within
     /// `padding` texels of a covered one, rows and columns counted alike. KEEP: covered texels.
+    /// Every page counts whole, the last one too, however little it holds.
     double utilisation;
     double texels_per_metre;   ///< mean over the area, √(texel area / world area)
     uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
     /// L2 stretch √((Γ² + γ²) / 2) of the map from texels to the surface, Γ ≥ γ its singular
     /// values, times texels_per_metre: 1 = the mean density without shear. The mean is the root of
-    /// the mean square over the area; both leave slivers out. Based on: P. V. Sander et al. Texture
-    /// Mapping Progressive Meshes. SIGGRAPH 2001.
-    /// With `densities` a triangle of factor f is measured against what is asked of it, f times the
-    /// density of factor 1, √(texel area / Σ f² · area); and the mean is over f² · area.
+    /// the mean square over the area; both leave slivers out, and are 1 without others. Based on:
+    /// P. V. Sander et al. Texture Mapping Progressive Meshes. SIGGRAPH 2001. With `densities` a
+    /// triangle of factor f is measured against what is asked of it, f times the density of factor
+    /// 1, √(texel area / Σ f² · area); and the mean is over f² · area.
     double stretch_mean, stretch_worst;
     /// 99th over 1st percentile, by area, of triangles' texels per metre; with `densities` over
     /// their factors, by f² · area.

@@ -135,7 +135,7 @@ static uint32_t take_part(const cutter *c, span *spans, uint32_t count)
     const double end = spans[0].low + c->sides.part + c->slack;
     uint32_t taken = 0, kept = 0, i = 0;
     for (; i < count && spans[i].low <= end; i++) {
-        if (spans[i].high <= end) {
+        if (i == 0 || spans[i].high <= end) { // the first whatever sums round to
             spans[taken++] = spans[i];
         } else {
             c->kept[kept++] = spans[i];

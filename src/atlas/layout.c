@@ -45,6 +45,7 @@ typedef struct layout {
     size_t bit_capacity;
     double density; // at which they are drawn
     uint32_t packings;
+    uint64_t rows_tried; // of several pages
 } layout;
 
 static size_t mask_words(const alpi_pack_item *item)
@@ -449,11 +450,10 @@ static alp_result pack_parts(layout *l, double density, const whole_charts *whol
 {
     const uint64_t words = (l->rules.size + 63) / 64;
     const uint32_t most = l->charts->blend != NULL ? 1 : 2 * MOST_PARTS;
-    uint64_t rows = 0;
     attempt last[2] = {{0}, {0}}, best = {.pages = UINT32_MAX};
     bool is_packed = false;
-    l->rules.rows_tried = &rows;
-    for (uint32_t i = 0; i < most && rows * words < MOST_WORDS; i++) {
+    l->rules.rows_tried = &l->rows_tried;
+    for (uint32_t i = 0; i < most && l->rows_tried * words < MOST_WORDS; i++) {
         attempt *now = &last[i % 2];
         now->parts = 1 + i / 2;
         now->by_middle = i % 2 == 1;
@@ -465,7 +465,6 @@ static alp_result pack_parts(layout *l, double density, const whole_charts *whol
         }
     }
     ALP_TRY(is_packed ? ALP_OK : make_attempt(l, density, whole, 0, &best));
-    l->rules.rows_tried = NULL;
     place_all(l, density);
     return ALP_OK;
 }
