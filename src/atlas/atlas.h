@@ -187,6 +187,8 @@ alp_result alpi_uv_layout_visit(const alp_atlas *layout, uint32_t parts, alpi_uv
 /// The same of a page of any atlas.
 alp_result alpi_atlas_visit(const alp_atlas *atlas, uint32_t page, uint32_t parts,
                             alpi_uv_cell_fn *each, void *user);
+/// Side of a texel on the surface, metres.
+float alpi_texels_side(const alpi_texels *texels, uint32_t texel);
 /// A texel's representative point.
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point);
 

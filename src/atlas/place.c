@@ -252,6 +252,11 @@ alpi_receivers alpi_texels_receivers(const alpi_texels *texels)
         .count = texels->count, .extended = true, .place = place, .user = texels};
 }
 
+float alpi_texels_side(const alpi_texels *texels, uint32_t texel)
+{
+    return sqrtf(texels->areas[texel] / fmaxf(texels->coverages[texel], 1e-6f));
+}
+
 bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
 {
     const alp_scene *scene = texels->atlas->scene;

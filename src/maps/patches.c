@@ -12,11 +12,6 @@ enum { ALBEDO_STRATA = 4, SPACING_LIMIT = 16, BLOCK_LIMIT = SPACING_LIMIT * SPAC
 
 // --- what a texel reflects -----------------------------------------------------------------------
 
-static bool is_textured(const alpi_texture *texture)
-{
-    return texture->image != ALPI_NONE;
-}
-
 /// Whether all points of a texel are alike: of one triangle, without textures or vertex colours.
 static bool is_even(const alpi_patches *p, uint32_t texel)
 {
@@ -31,8 +26,8 @@ static bool is_even(const alpi_patches *p, uint32_t texel)
         return scene->colors == NULL;
     }
     const alpi_material *m = &scene->materials[material];
-    return !is_textured(&m->base_color_texture) && !is_textured(&m->metallic_texture) &&
-           !is_textured(&m->emission_texture) && !is_textured(&m->transmission_texture);
+    return m->base_color_texture.image == ALPI_NONE && m->metallic_texture.image == ALPI_NONE &&
+           m->emission_texture.image == ALPI_NONE && m->transmission_texture.image == ALPI_NONE;
 }
 
 static vec3 outward(const alp_scene *scene, uint32_t triangle)
@@ -82,14 +77,12 @@ static void find_material(const alpi_patches *p, uint32_t texel, bool even)
         met > 0 ? (float)((emission[0] + emission[1] + emission[2]) / (3.0 * met)) : 0.0f;
 }
 
-/// How far a hit counts as near, for those that meet it.
+/// How far a hit counts as near.
 static void note_side(const alpi_patches *p, uint32_t texel)
 {
-    const float covered = fmaxf(p->texels->coverages[texel], 1e-6f);
-    const float side = sqrtf(p->texels->areas[texel] / covered);
-    p->cells[alpi_patches_cell(p, texel, ALPI_FRONT)][ALPI_CELL_SIDE] = side;
-    if (p->two_sided) {
-        p->cells[alpi_patches_cell(p, texel, ALPI_BACK)][ALPI_CELL_SIDE] = side;
+    for (int of = ALPI_FRONT; of <= (p->two_sided ? ALPI_BACK : ALPI_FRONT); of++) {
+        const uint32_t cell = alpi_patches_cell(p, texel, (alpi_side)of);
+        p->cells[cell][ALPI_CELL_SIDE] = alpi_texels_side(p->texels, texel);
     }
 }
 

@@ -33,12 +33,6 @@ typedef struct validity_job {
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry; the scratch's
 } validity_job;
 
-/// Side of a texel on the surface, metres.
-static float texel_side(const alpi_texels *t, uint32_t texel)
-{
-    return sqrtf(t->areas[texel] / fmaxf(t->coverages[texel], 1e-6f));
-}
-
 // --- what is near --------------------------------------------------------------------------------
 
 /// Texels that are asked for all around them: every second of every second row.
@@ -50,7 +44,7 @@ static bool is_scout(const alpi_texels *t, uint32_t texel)
 /// The octave of a texel's side: scouts of one octave look equally far.
 static int find_octave(const alpi_texels *t, uint32_t texel)
 {
-    const int octave = ilogbf(texel_side(t, texel));
+    const int octave = ilogbf(alpi_texels_side(t, texel));
     return octave < -OCTAVE_LIMIT ? -OCTAVE_LIMIT : octave > OCTAVE_LIMIT ? OCTAVE_LIMIT : octave;
 }
 
@@ -358,7 +352,7 @@ static bool is_inside(const validity_job *job, const alpi_receiver_point *point,
 /// that is outside, are outside; the others are asked.
 static uint16_t find_inside(const validity_job *job, uint32_t texel)
 {
-    const float side = texel_side(job->texels, texel);
+    const float side = alpi_texels_side(job->texels, texel);
     const float none[ALPI_PACKET] = {0.0f};
     const uint8_t all[STRATA] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     alpi_receiver_point points[STRATA], middle;
@@ -391,7 +385,7 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
     alpi_receiver_point point;
     alpi_rays rays;
     alpi_texels_point(job->texels, texel, &point);
-    aim_around(&point, 1.6f * texel_side(job->texels, texel), true, &rays);
+    aim_around(&point, 1.6f * alpi_texels_side(job->texels, texel), true, &rays);
     alpi_trace_occluded(job->setup->tracer, &rays, 1, 0xffu, (alpi_trace_filter){0},
                         ALPI_RAYS_NEAR);
     bool suspicious = false;
@@ -406,7 +400,7 @@ static bool is_covered(const validity_job *job, uint32_t texel)
 {
     alpi_receiver_point point;
     alpi_texels_point(job->texels, texel, &point);
-    return is_inside(job, &point, texel_side(job->texels, texel));
+    return is_inside(job, &point, alpi_texels_side(job->texels, texel));
 }
 
 static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
