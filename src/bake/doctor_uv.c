@@ -187,7 +187,7 @@ static alp_result tell_space(alp_diagnosis *d, const alpi_uv_set_facts *f, const
         ALP_TRY(alpi_diagnosis_add(
             d, facts,
             "%u free texel%s between triangle %u of %.60s and %u of %.60s, nearest of all islands "
-            "on a page of %u: enough for one mip level",
+            "on a page of %u: enough for the full size, not for smaller mip levels",
             q->free, alpi_plural(q->free), one.triangle, one.surface, other.triangle, other.surface,
             d->page_size));
         mark_in_set(d, q->near[0], q->gap);

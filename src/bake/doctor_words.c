@@ -93,8 +93,8 @@ static const alpi_finding_words words[] = {
     {ALP_FINDING_UV_MIPS, ALP_SEVERITY_NOTE, "uv-mips",
      "with --atlas keep, light bleeds over the seams from afar: smaller mip levels mix the "
      "islands",
-     "give the set a margin of two texels for a second level, four for a third, or bake "
-     "without mip-maps"},
+     "give the set a margin of two texels for the first smaller level, four for the second, or "
+     "bake without mip-maps"},
     {ALP_FINDING_UV_TINY, ALP_SEVERITY_WARNING, "uv-tiny",
      "with --atlas keep, one value for all of such an island: no shadow falls across it",
      "scale those islands up, bake at that size, or use --atlas charts"},

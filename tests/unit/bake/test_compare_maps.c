@@ -141,7 +141,8 @@ static void first_corners_do_not_matter(void **state)
     ASSERT_OK(context, alp_scene_load(context, b.path, &a));
     ASSERT_OK(context, alp_scene_load(context, b.path, &turned));
     for (uint32_t t = 0; t < turned->triangle_count; t++) {
-        uint32_t *c = turned->triangles[t], old[3] = {c[0], c[1], c[2]};
+        uint32_t *c = turned->triangles[t];
+        const uint32_t old[3] = {c[0], c[1], c[2]};
         for (uint32_t k = 0; k < 3; k++) {
             c[k] = old[(k + 1 + t % 2) % 3];
         }
