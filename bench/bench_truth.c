@@ -375,9 +375,8 @@ static void print_all(const truth_summary *told, int count, const bench_options 
     print_matrix(told, count, MATRIX_STATED, "Stated error over the true one",
                  "Of techniques that state one: √ mean variance of the texels asked, over the error "
                  "above. 1 is the truth; where an error is below the truth's own, the latter's "
-                 "chance is in it. Radiosity states the noise of its rays and what interpolation "
-                 "misses. It does not state that a texel's light is taken for even where a ray "
-                 "meets it: beside edges and contacts, the more the coarser the texels.",
+                 "chance is in it. Radiosity states the noise of its rays, that of the solution "
+                 "they meet, and what interpolation misses.",
                  options);
 }
 
