@@ -117,8 +117,12 @@ static void choose_texels(truth_case *c, uint32_t count)
         order[i] = texel;
     }
     c->list = order;
-    c->question = (bench_question){
-        .scene = &c->scene, .map = &c->map, .lighting = c->lighting, .light = &c->light, .count = count, .list = order};
+    c->question = (bench_question){.scene = &c->scene,
+                                   .map = &c->map,
+                                   .lighting = c->lighting,
+                                   .light = &c->light,
+                                   .count = count,
+                                   .list = order};
 }
 
 static void close_case(truth_case *c)
@@ -372,12 +376,13 @@ static void print_all(const truth_summary *told, int count, const bench_options 
                  "estimation, where few paths meet a small sun, and those by chance, it may be "
                  "more than is stated.",
                  options);
-    print_matrix(told, count, MATRIX_STATED, "Stated error over the true one",
-                 "Of techniques that state one: √ mean variance of the texels asked, over the error "
-                 "above. 1 is the truth; where an error is below the truth's own, the latter's "
-                 "chance is in it. Radiosity states the noise of its rays, that of the solution "
-                 "they meet, and what interpolation misses.",
-                 options);
+    print_matrix(
+        told, count, MATRIX_STATED, "Stated error over the true one",
+        "Of techniques that state one: √ mean variance of the texels asked, over the error "
+        "above. 1 is the truth; where an error is below the truth's own, the latter's "
+        "chance is in it. Radiosity states the noise of its rays, that of the solution "
+        "they meet, and what interpolation misses.",
+        options);
 }
 
 // --- all -----------------------------------------------------------------------------------------

@@ -173,7 +173,7 @@ typedef struct alp_light_options {
                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
                       ///< each light, to a multiple of 8. HEMICUBE: not read
     /// RAYS: noise of the bounced light is taken off by neighbours in space, never across a wall
-    /// (docs/accuracy.md); then every texel is gathered. Default false.
+    /// (alpenglow bench denoise); then every texel is gathered. Default false.
     bool denoise;
     uint32_t hemicube;     ///< pixels along an edge of a hemicube, even, [2, 1024]; default 64
     alp_emitters emitters; ///< of HEMICUBE, else ANALYTIC
