@@ -147,12 +147,16 @@ static void print_seam_error(const alp_seam_report *s, const char *map, const al
                              double noise)
 {
     if (isfinite(e->mean)) {
-        printf("; %s %.2g %% of the mean, 99 %% within %.2g %%", map, 100.0 * e->mean,
-               100.0 * e->p99);
+        printf("; %s ", map);
+        print_percent(stdout, e->mean);
+        printf(" of the mean, 99 %% within ");
+        print_percent(stdout, e->p99);
     }
     if (isfinite(e->mean) && s->stitched) {
-        printf(", stitched %.2g %%, within %.2g %%", 100.0 * e->stitched_mean,
-               100.0 * e->stitched_p99);
+        printf(", stitched ");
+        print_percent(stdout, e->stitched_mean);
+        printf(", within ");
+        print_percent(stdout, e->stitched_p99);
     }
     if (isfinite(e->mean) && isfinite(noise)) {
         printf(", noise ");

@@ -39,21 +39,20 @@ static void print_difference(const alp_image_difference *d)
     printf("means     %.6g and %.6g\n", d->mean_first, d->mean_second);
 }
 
-/// Whether --max-rmse is kept.
-static int judge(const command_line *arguments, const alp_image_difference *d)
+int compare_judge(const command_line *arguments, uint64_t compared, double rmse, const char *none)
 {
     const option_value *limit = &arguments->values[OPTION_MAX_RMSE];
     char text[128];
     if (!limit->given) {
         return EXIT_DONE;
     }
-    if (d->pixels == 0) {
-        return failure("no pixel is covered in both images");
+    if (compared == 0) {
+        return failure(none);
     }
-    if (d->rmse <= limit->real) {
+    if (rmse <= limit->real) {
         return EXIT_DONE;
     }
-    snprintf(text, sizeof text, "rmse %.6g is above --max-rmse %s", d->rmse, limit->text);
+    snprintf(text, sizeof text, "rmse %.6g is above --max-rmse %s", rmse, limit->text);
     return failure(text);
 }
 
@@ -93,7 +92,8 @@ static int compare(comparison *c, const command_line *arguments)
             return code;
         }
     }
-    return judge(arguments, &c->difference);
+    return compare_judge(arguments, c->difference.pixels, c->difference.rmse,
+                         "no pixel is covered in both images");
 }
 
 static int check_outputs(const command_line *arguments)

@@ -70,21 +70,6 @@ static void print_difference(const assets *s)
     printf("\nmeans     %.6g and %.6g\n", d->mean_first, d->mean_second);
 }
 
-/// Whether --max-rmse is kept.
-static int judge(const command_line *arguments, const alp_map_difference *d)
-{
-    const option_value *limit = &arguments->values[OPTION_MAX_RMSE];
-    char text[128];
-    if (!limit->given || (d->points > 0 && d->rmse <= limit->real)) {
-        return EXIT_DONE;
-    }
-    if (d->points == 0) {
-        return failure("no point has the map in both scenes");
-    }
-    snprintf(text, sizeof text, "rmse %.6g is above --max-rmse %s", d->rmse, limit->text);
-    return failure(text);
-}
-
 static alp_result compare_files(alp_context *context, const command_line *arguments, assets *s)
 {
     const option_value *map = &arguments->values[OPTION_MAP];
@@ -108,14 +93,17 @@ static int tell(const command_line *arguments, const assets *s)
         print_difference(s);
     }
     if (json == NULL) {
-        return judge(arguments, &s->difference);
+        return compare_judge(arguments, s->difference.points, s->difference.rmse,
+                             "no point has the map in both scenes");
     }
     json_t *document = make_document(arguments, s);
     const int code = document == NULL
                          ? failure("out of memory")
                          : output_write_json(document, json, arguments->values[OPTION_FORCE].given);
     json_decref(document);
-    return code == EXIT_DONE ? judge(arguments, &s->difference) : code;
+    return code == EXIT_DONE ? compare_judge(arguments, s->difference.points, s->difference.rmse,
+                                             "no point has the map in both scenes")
+                             : code;
 }
 
 int compare_assets(alp_context *context, const command_line *arguments)
