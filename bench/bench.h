@@ -18,7 +18,7 @@ typedef struct bench_options {
 /// One bench: prints its tables. @return 0, or 1 after a message
 typedef int bench_fn(const bench_options *options);
 bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, bench_against_truth,
-    bench_denoise, bench_bounced, bench_formats;
+    bench_denoise, bench_bounced, bench_light, bench_formats;
 bench_fn bench_direct, bench_path_tracer; // further tables of transport
 
 /// Figures of one atlas for scripts; the words after its name. @return exit status
@@ -80,6 +80,11 @@ bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map);
 bool bench_map_open_with(const bench_scene *scene, const alp_atlas_options *options,
                          bench_map *map);
 void bench_map_close(const bench_scene *scene, bench_map *map);
+/// Runs of so many neighbours, spread evenly over an order of texels, `wanted` in all, or as many as
+/// there are; whole packets.
+/// @param list out: for the caller to free   @return how many
+uint32_t bench_pick_texels(const uint32_t *order, uint32_t count, uint32_t wanted, uint32_t run,
+                           uint32_t **list);
 
 /// Prints the context's message. @return whether the result is ALP_OK
 bool bench_good(const bench_scene *scene, alp_result result);

@@ -4,13 +4,12 @@
 // All gather from the same solution, so that direct light and blocks are no part of the figures.
 // The truth is two maps y₁ and y₂ of which every texel is traced by many rays, independent of each
 // other and of what is held to them, so that E[(x − y₁)(x − y₂)] is the squared error of x.
-#include "bench.h"
+#include "lit_scene.h"
 
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/bounced_map.h"
-#include "maps/radiosity.h"
 #include "transport/cosine_rays.h"
 
 #include <math.h>
@@ -24,8 +23,8 @@ enum {
     REPLICATES = 4,
     PATH_SIZE = 1024
 };
-enum { SEED_TRUTH = 900, SEED_SOLUTION = 1, SEED_MAPS = 10, SEEDS = 3 };
-enum { BLOCK_RAYS = 256, DIRECT_SAMPLES = 64, TIMED_RAYS = 64 };
+enum { SEED_TRUTH = 900, SEED_MAPS = 10, SEEDS = 3 };
+enum { TIMED_RAYS = 64 };
 
 typedef struct bounced_scene {
     const char *name, *title;
@@ -50,13 +49,8 @@ enum { SCENE_COUNT = sizeof scenes / sizeof *scenes };
 
 typedef struct bounced_case {
     const bounced_scene *what;
-    bench_scene scene;
-    bench_map map;
-    alpi_receivers receivers;
-    uint32_t *order, count; // texels that have light of their own
+    lit_scene lit;
     alp_image *sky;
-    alpi_lighting *lighting, *soft, *direct;
-    alpi_radiosity solution;
     alpi_reference_value *truth[2], *values; // [texels]
     uint8_t *states;
     double mean; // of the truth
@@ -64,55 +58,19 @@ typedef struct bounced_case {
 
 // --- scenes --------------------------------------------------------------------------------------
 
-static alp_result light_case(bounced_case *c, const char *sky)
+static alp_result find_lighting(bounced_case *c, const char *sky, alp_lighting_options *options)
 {
-    alp_lighting_options options = alp_lighting_options_default();
+    *options = alp_lighting_options_default();
     if (sky != NULL) {
-        ALP_TRY(alp_image_load(c->scene.context, sky, &c->sky));
-        options.sky.kind = ALP_SKY_IMAGE;
-        options.sky.image = c->sky;
+        ALP_TRY(alp_image_load(c->lit.scene.context, sky, &c->sky));
+        options->sky.kind = ALP_SKY_IMAGE;
+        options->sky.image = c->sky;
     } else if (c->what->clear) {
-        options.sky.kind = ALP_SKY_CLEAR;
-        options.sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
-        options.sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
+        options->sky.kind = ALP_SKY_CLEAR;
+        options->sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
+        options->sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
     }
-    ALP_TRY(alpi_lighting_create(c->scene.scene, &options, &c->lighting));
-    return alpi_lighting_sky(c->lighting) == NULL || alpi_tracer_has_panes(c->scene.tracer)
-               ? ALP_OK
-               : alpi_lighting_split_sky(c->lighting, &options, &c->soft, &c->direct);
-}
-
-static alp_result solve_case(const bounced_case *c, uint32_t bounces, alpi_radiosity *solution)
-{
-    const alpi_cosine_rays rays = {
-        .context = c->scene.context, .samples = BLOCK_RAYS, .replicates = 1, .seed = SEED_SOLUTION};
-    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
-    alpi_radiosity_options o = alpi_radiosity_options_default();
-    o.context = c->scene.context;
-    o.scene = c->scene.scene;
-    o.tracer = c->scene.tracer;
-    o.lighting = c->soft != NULL ? c->soft : c->lighting;
-    o.direct = c->direct != NULL ? c->direct : c->lighting;
-    o.blocks.near = c->map.validity.near;
-    o.gatherer = &gatherer;
-    o.direct_samples = DIRECT_SAMPLES;
-    o.seed = SEED_SOLUTION;
-    o.bounces = bounces;
-    return alpi_radiosity_solve(&o, &c->map.lattice, c->map.atlas, c->order, c->count, NULL,
-                                solution);
-}
-
-/// Lists the texels that have light of their own.
-static void list_texels(bounced_case *c)
-{
-    c->receivers = alpi_texels_receivers(&c->map.texels);
-    c->order = bench_allocate(c->map.texels.count, sizeof *c->order);
-    for (uint32_t i = 0; i < c->map.texels.count; i++) {
-        const uint32_t texel = c->map.lattice.order[i];
-        if (!c->map.validity.dropped[texel]) {
-            c->order[c->count++] = texel;
-        }
-    }
+    return ALP_OK;
 }
 
 /// A way to gather.
@@ -124,31 +82,31 @@ typedef struct bounced_way {
 static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays, uint64_t seed,
                    alpi_reference_value *values, alpi_bounced_report *report)
 {
-    const alpi_gather_scene from = alpi_radiosity_scene(&c->solution);
-    const alpi_cosine_rays cosine = {.context = c->scene.context,
+    const alpi_gather_scene from = alpi_radiosity_scene(&c->lit.solution);
+    const alpi_cosine_rays cosine = {.context = c->lit.scene.context,
                                      .samples = alpi_cosine_rays_samples(rays, REPLICATES),
                                      .replicates = REPLICATES,
                                      .seed = alpi_hash64(seed)};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
-    const alpi_gather_job job = {.context = c->scene.context,
+    const alpi_gather_job job = {.context = c->lit.scene.context,
                                  .from = &from,
                                  .gatherer = &gatherer,
-                                 .receivers = &c->receivers,
+                                 .receivers = &c->lit.receivers,
                                  .values = values};
     const alpi_bounced_options options = {.gather = &job,
-                                          .order = c->order,
-                                          .count = c->count,
-                                          .near = c->map.validity.near,
+                                          .order = c->lit.order,
+                                          .count = c->lit.count,
+                                          .near = c->lit.map.validity.near,
                                           .adaptive = way->adaptive,
                                           .straight = way->straight};
-    return bench_good(&c->scene,
-                      alpi_bounced_map(&options, &c->map.lattice, NULL, c->states, report));
+    return bench_good(&c->lit.scene,
+                      alpi_bounced_map(&options, &c->lit.map.lattice, NULL, c->states, report));
 }
 
 static bool find_truth(bounced_case *c, bool quick)
 {
     const bounced_way all = {.name = ""};
-    const uint32_t texels = c->map.texels.count;
+    const uint32_t texels = c->lit.map.texels.count;
     alpi_bounced_report report = {0};
     double sum = 0.0;
     c->states = bench_allocate(texels, sizeof *c->states);
@@ -159,13 +117,13 @@ static bool find_truth(bounced_case *c, bool quick)
                     &report)) {
             return false;
         }
-        for (uint32_t i = 0; i < c->count; i++) {
+        for (uint32_t i = 0; i < c->lit.count; i++) {
             for (int ch = 0; ch < 3; ch++) {
-                sum += (double)c->truth[k][c->order[i]].mean[ch];
+                sum += (double)c->truth[k][c->lit.order[i]].mean[ch];
             }
         }
     }
-    c->mean = fmax(sum / (6.0 * fmax(c->count, 1.0)), 1e-30);
+    c->mean = fmax(sum / (6.0 * fmax(c->lit.count, 1.0)), 1e-30);
     return true;
 }
 
@@ -175,36 +133,25 @@ static bool open_case(const bounced_scene *what, bool quick, bounced_case *c)
     *c = (bounced_case){.what = what};
     snprintf(path, sizeof path, "%s", what->shared ? bench_shared(what->name, "") : what->name);
     snprintf(sky, sizeof sky, "%s", what->sky != NULL ? bench_shared(what->sky, "") : "");
-    if (!bench_scene_open(path, 0, &c->scene)) {
+    alp_lighting_options lighting;
+    if (!bench_scene_open(path, 0, &c->lit.scene) ||
+        !bench_good(&c->lit.scene, find_lighting(c, what->sky != NULL ? sky : NULL, &lighting))) {
         return false;
     }
     alp_atlas_options options = alp_atlas_options_default();
     options.size = quick ? QUICK_SIZE : what->size > 0 ? what->size : options.size;
     options.texels_per_metre = quick ? 0.0 : what->texels_per_metre;
-    if (!bench_good(&c->scene, light_case(c, what->sky != NULL ? sky : NULL)) ||
-        !bench_map_open_with(&c->scene, &options, &c->map)) {
-        return false;
-    }
-    list_texels(c);
-    return bench_good(&c->scene, solve_case(c, UINT32_MAX, &c->solution)) && find_truth(c, quick);
+    return lit_scene_make(&lighting, &options, &c->lit) && find_truth(c, quick);
 }
 
 static void close_case(bounced_case *c)
 {
-    free(c->order);
     free(c->states);
     free(c->values);
     free(c->truth[0]);
     free(c->truth[1]);
-    alpi_radiosity_destroy(&c->solution);
-    alpi_lighting_destroy(c->scene.context, c->lighting);
-    alpi_lighting_destroy(c->scene.context, c->soft);
-    alpi_lighting_destroy(c->scene.context, c->direct);
     alp_image_destroy(c->sky);
-    if (c->map.atlas != NULL) {
-        bench_map_close(&c->scene, &c->map);
-    }
-    bench_scene_close(&c->scene);
+    lit_scene_close(&c->lit);
 }
 
 // --- errors --------------------------------------------------------------------------------------
@@ -216,8 +163,8 @@ typedef struct bounced_error {
 static void add_error(const bounced_case *c, bounced_error *e)
 {
     double squares = 0.0, bias = 0.0, stated = 0.0;
-    for (uint32_t i = 0; i < c->count; i++) {
-        const uint32_t t = c->order[i];
+    for (uint32_t i = 0; i < c->lit.count; i++) {
+        const uint32_t t = c->lit.order[i];
         for (int k = 0; k < 3; k++) {
             const double x = (double)c->values[t].mean[k];
             const double a = x - (double)c->truth[0][t].mean[k];
@@ -227,7 +174,7 @@ static void add_error(const bounced_case *c, bounced_error *e)
             stated += (double)c->values[t].variance[k];
         }
     }
-    const double all = 3.0 * fmax(c->count, 1.0);
+    const double all = 3.0 * fmax(c->lit.count, 1.0);
     e->squares += fmax(squares, 0.0) / all / (c->mean * c->mean);
     e->bias += bias / all / c->mean;
     e->stated += stated / all / (c->mean * c->mean);
@@ -246,7 +193,7 @@ static bool measure(const bounced_case *c, const bounced_way *way, uint32_t rays
         }
         seconds[s] = bench_process_seconds() - began;
         add_error(c, e);
-        e->traced += (double)report.traced / c->count;
+        e->traced += (double)report.traced / c->lit.count;
     }
     e->seconds = bench_median(seconds, seeds);
     e->squares /= seeds;
@@ -292,23 +239,23 @@ static uint32_t find_no_cell(const void *user, const alpi_surface_point *point)
 /// Processor seconds of the rays of all texels. @param look whether what they meet is looked up
 static bool time_rays(const bounced_case *c, bool look, double *seconds)
 {
-    alpi_gather_scene from = alpi_radiosity_scene(&c->solution);
+    alpi_gather_scene from = alpi_radiosity_scene(&c->lit.solution);
     const alpi_cosine_rays cosine = {
-        .context = c->scene.context, .samples = TIMED_RAYS, .replicates = REPLICATES, .seed = 1};
+        .context = c->lit.scene.context, .samples = TIMED_RAYS, .replicates = REPLICATES, .seed = 1};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
     if (!look) {
         from.light.cell = find_no_cell;
         from.light.fetch = NULL;
     }
-    const alpi_gather_job job = {.context = c->scene.context,
+    const alpi_gather_job job = {.context = c->lit.scene.context,
                                  .from = &from,
                                  .gatherer = &gatherer,
-                                 .receivers = &c->receivers,
-                                 .list = c->order,
-                                 .count = c->count,
+                                 .receivers = &c->lit.receivers,
+                                 .list = c->lit.order,
+                                 .count = c->lit.count,
                                  .values = c->values};
     const double began = bench_process_seconds();
-    const bool good = bench_good(&c->scene, alpi_gather_irradiance(&job, NULL));
+    const bool good = bench_good(&c->lit.scene, alpi_gather_irradiance(&job, NULL));
     *seconds = bench_process_seconds() - began;
     return good;
 }
@@ -319,7 +266,7 @@ static bool time_solution(const bounced_case *c, uint32_t bounces, double *secon
 {
     alpi_radiosity solution;
     const double began = bench_process_seconds();
-    if (!bench_good(&c->scene, solve_case(c, bounces, &solution))) {
+    if (!bench_good(&c->lit.scene, lit_scene_solve(&c->lit, bounces, &solution))) {
         return false;
     }
     *seconds = bench_process_seconds() - began;

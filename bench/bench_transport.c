@@ -91,22 +91,6 @@ static double time_natural(measured_case *c, uint32_t *open)
 
 // --- one case ------------------------------------------------------------------------------------
 
-/// Runs of neighbours, spread evenly over the order of packets.
-static void pick_texels(const bench_map *map, uint32_t wanted, measured_case *c)
-{
-    const uint32_t count = map->texels.count;
-    const uint32_t run_count = wanted < count ? wanted / TEXELS_PER_RUN : 1;
-    const uint32_t run = wanted < count ? TEXELS_PER_RUN : count / ALPI_PACKET * ALPI_PACKET;
-    c->list = bench_allocate((size_t)run_count * run, sizeof *c->list);
-    for (uint32_t r = 0; r < run_count; r++) {
-        const uint32_t first = (uint32_t)((double)r * count / run_count) / 8 * 8;
-        for (uint32_t i = 0; i < run && first + i < count; i++) {
-            c->list[c->list_count++] = map->lattice.order[first + i];
-        }
-    }
-    c->list_count = c->list_count / ALPI_PACKET * ALPI_PACKET;
-}
-
 static bool record_rays(measured_case *c)
 {
     alpi_occlusion_setup recording = c->setup;
@@ -168,7 +152,8 @@ static bool run_case(const bench_scene *scene, const bench_map *map, const raw_e
     for (int w = 0; w < WORKER_LIMIT; w++) {
         c.blocks[w] = aligned_alloc(64, BLOCK * sizeof(alpi_rays));
     }
-    pick_texels(map, options->quick ? 1024 : 20480, &c);
+    c.list_count = bench_pick_texels(map->lattice.order, map->texels.count,
+                                     options->quick ? 1024 : 20480, TEXELS_PER_RUN, &c.list);
     bool good = c.blocks[0] != NULL && c.blocks[1] != NULL && record_rays(&c);
     for (c.workers = 1; c.workers <= WORKER_LIMIT && good; c.workers++) {
         alp_context_options context = alp_context_options_default();

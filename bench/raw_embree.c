@@ -98,15 +98,17 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
                   sizeof *packets);
 }
 
-double raw_embree_time_nearest_coherent(const raw_embree *raw, const alpi_rays *packets,
-                                        uint32_t count)
+double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
+                               bool coherent, double (*clock)(void))
 {
     enum { BLOCK = 256 };
     static const _Alignas(32) int valid[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
-    static struct RTCRayHit8 block[BLOCK];
+    static _Thread_local struct RTCRayHit8 block[BLOCK];
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (coherent) {
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
     double seconds = 0.0;
     for (uint32_t first = 0; first < count; first += BLOCK) {
         const uint32_t some = count - first < BLOCK ? count - first : BLOCK;
@@ -114,11 +116,11 @@ double raw_embree_time_nearest_coherent(const raw_embree *raw, const alpi_rays *
             memcpy(&block[i].ray, &packets[first + i], sizeof block[i].ray);
             memset(&block[i].hit, 0xff, sizeof block[i].hit);
         }
-        const double started = bench_thread_seconds();
+        const double started = clock();
         for (uint32_t i = 0; i < some; i++) {
             rtcIntersect8(valid, raw->scene, &context, &block[i]);
         }
-        seconds += bench_thread_seconds() - started;
+        seconds += clock() - started;
     }
     return seconds;
 }

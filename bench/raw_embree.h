@@ -17,9 +17,11 @@ void raw_embree_occluded(const raw_embree *raw, alpi_rays *packets, uint32_t cou
 /// rtcOccludedNM on all packets at once.
 void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint32_t count);
 
-/// rtcIntersect8 with the coherent flag on copies of the packets that lie ready in the cache.
-/// @return CPU seconds of the calls alone
-double raw_embree_time_nearest_coherent(const raw_embree *raw, const alpi_rays *packets,
-                                        uint32_t count);
+/// rtcIntersect8, with the coherent flag or without, on copies of the packets that lie ready in the
+/// cache. Of one scene by many threads.
+/// @param clock bench_thread_seconds or alpi_seconds
+/// @return its seconds of the calls alone
+double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
+                               bool coherent, double (*clock)(void));
 
 #endif

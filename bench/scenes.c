@@ -215,3 +215,20 @@ void bench_map_close(const bench_scene *scene, bench_map *map)
     alp_atlas_destroy(map->atlas);
     memset(map, 0, sizeof *map);
 }
+
+uint32_t bench_pick_texels(const uint32_t *order, uint32_t count, uint32_t wanted, uint32_t run,
+                           uint32_t **list)
+{
+    const uint32_t run_count = wanted < count ? wanted / run : 1;
+    const uint32_t each = wanted < count ? run : count;
+    uint32_t picked = 0;
+    *list = bench_allocate((size_t)run_count * each, sizeof **list);
+    for (uint32_t r = 0; r < run_count; r++) {
+        const uint32_t first =
+            (uint32_t)((double)r * count / run_count) / ALPI_PACKET * ALPI_PACKET;
+        for (uint32_t i = 0; i < each && first + i < count; i++) {
+            (*list)[picked++] = order[first + i];
+        }
+    }
+    return picked / ALPI_PACKET * ALPI_PACKET;
+}

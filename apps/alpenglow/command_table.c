@@ -38,9 +38,10 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Measures this machine: in turns, what the hardware and the ray tracer give at most, and "
          "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
          "(the innermost loop), atlas, maps (error per second), accuracy (stated against true "
-         "errors), truth (each technique against the reference) or formats (reading); without it "
-         "all are run, which "
-         "takes a quarter of an hour. Other work on the machine makes the figures worse and the "
+         "errors), truth (each technique against the reference), denoise, bounced (ways to gather "
+         "bounced light), light (its rays against the ray tracer, its bakes by workers and size) "
+         "or formats (reading); without it all are run, which takes an hour. Other work on the "
+         "machine makes the figures worse and the "
          "ratios little."},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
                         "bake --maps ao puts light on surfaces"},
