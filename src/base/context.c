@@ -12,9 +12,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 enum { MESSAGE_SIZE = 1024, WORKER_LIMIT = 1024, ISA_SIZE = 16 };
+enum { LARGE_PAGE = 1 << 21, LARGE_BLOCK = 2 * LARGE_PAGE };
 
 /// Stands before every block, so that a release knows its size. 16 bytes keep the alignment.
 typedef struct block_header {
@@ -35,10 +37,30 @@ struct alp_context {
     _Atomic uint64_t memory_peak;
 };
 
+/// Asks for large pages under a large block: what rays meet is looked up all over it, and with
+/// small ones each look misses the table of pages too.
+static void ask_for_large_pages(void *block, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    const uintptr_t page = LARGE_PAGE, first = ((uintptr_t)block + page - 1) / page * page;
+    const uintptr_t end = ((uintptr_t)block + size) / page * page;
+    if (end > first) {
+        (void)madvise((char *)block + (first - (uintptr_t)block), end - first, MADV_HUGEPAGE);
+    }
+#else
+    (void)block;
+    (void)size;
+#endif
+}
+
 static void *default_allocate(void *user, size_t size)
 {
     (void)user;
-    return calloc(1, size); // fresh pages come zeroed and cost nothing before they are used
+    void *block = calloc(1, size); // fresh pages come zeroed and cost nothing before they are used
+    if (block != NULL && size >= LARGE_BLOCK) {
+        ask_for_large_pages(block, size);
+    }
+    return block;
 }
 
 static void default_release(void *user, void *pointer)

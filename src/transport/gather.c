@@ -133,28 +133,42 @@ void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
     }
 }
 
+/// Σ weight over the lanes that hold a cell.
+static float weigh_cells(const float weights[ALPI_PACKET], const uint32_t cells[ALPI_PACKET],
+                         uint32_t cell)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        sum += cells[i] == cell ? weights[i] : 0.0f;
+    }
+    return sum;
+}
+
 void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            const uint32_t cells[ALPI_PACKET], const float (*light)[4],
                            alpi_gather_sums *sums)
 {
+    static const float ones[ALPI_PACKET] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
     double *sum = sums->light[packet % gatherer->replicates];
     const bool even = gatherer->weights == NULL;
-    float parts[5] = {0.0f};
+    const float *weights = even ? ones : gatherer->weights[packet];
+    float parts[4] = {0.0f}; // the last, of sides, is nothing: four make a vector
+    bool none = false;       // of the cells is one of those that are none
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const float weight = even ? 1.0f : gatherer->weights[packet][i];
         const float *l = light[cells[i]];
-        parts[0] += weight * l[0];
-        parts[1] += weight * l[1];
-        parts[2] += weight * l[2];
-        parts[3] += cells[i] == ALPI_CELL_ESCAPED ? weight : 0.0f;
-        parts[4] += cells[i] == ALPI_CELL_BLACK ? weight : 0.0f;
+        for (int k = 0; k < 4; k++) {
+            parts[k] += weights[i] * l[k];
+        }
+        none = none || cells[i] < ALPI_CELL_FIRST;
     }
     const double scale = even ? weight_of(gatherer, packet, 0) : 1.0;
     for (int k = 0; k < 3; k++) {
         sum[k] += scale * (double)parts[k];
     }
-    sums->lost[0] += scale * (double)parts[3];
-    sums->lost[1] += scale * (double)parts[4];
+    if (none) {
+        sums->lost[0] += scale * (double)weigh_cells(weights, cells, ALPI_CELL_ESCAPED);
+        sums->lost[1] += scale * (double)weigh_cells(weights, cells, ALPI_CELL_BLACK);
+    }
 }
 
 void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
@@ -230,17 +244,19 @@ bool alpi_gather_meets_cells(const alpi_gather_scene *from)
     return from->light.cell != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
 }
 
-static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
-                       bool coherent, alpi_hits *hits, uint32_t cells[ALPI_PACKET])
+/// What the rays of a batch met that is not black, bit i of `met` for lane i, and the cells of the
+/// others.
+typedef struct met_surfaces {
+    uint32_t met[ALPI_GATHER_BATCH];
+    alpi_surface_point points[ALPI_GATHER_BATCH][ALPI_PACKET];
+} met_surfaces;
+
+static void list_surfaces(const alpi_gather_scene *from, const alpi_gather_packet *packet,
+                          const alpi_hits *hits, uint32_t *met,
+                          alpi_surface_point points[ALPI_PACKET], uint32_t cells[ALPI_PACKET])
 {
     const alpi_rays *rays = &packet->rays;
-    if (coherent) {
-        alpi_trace_nearest_coherent(from->tracer, rays, packet->active, from->filter, hits);
-    } else {
-        alpi_trace_nearest(from->tracer, rays, packet->active, from->filter, hits);
-    }
-    uint32_t met = 0; // bit i: lane i met a surface that is not black
-    alpi_surface_point points[ALPI_PACKET];
+    *met = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         const uint32_t triangle = hits->triangle[i];
         cells[i] = triangle == ALPI_NONE && (packet->active >> i & 1u) != 0 ? ALPI_CELL_ESCAPED
@@ -251,7 +267,7 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
         const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
         const bool behind = is_behind(from->scene, triangle, direction);
         if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
-            met |= 1u << i;
+            *met |= 1u << i;
             points[i] = (alpi_surface_point){triangle, hits->b1[i], hits->b2[i],
                                              vec3_scale(direction, -1.0f), behind};
             if (from->light.fetch != NULL) {
@@ -259,18 +275,42 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
             }
         }
     }
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        if ((met >> i & 1u) != 0) {
-            cells[i] = from->light.cell(from->light.user, &points[i]);
+}
+
+/// Cells that the rays of a batch meet. One step for all of them after the other: what a step reads
+/// was asked for by the step before, so that memory brings it for many rays at once.
+static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *packets,
+                       uint32_t count, bool coherent, alpi_hits *hits,
+                       uint32_t (*cells)[ALPI_PACKET])
+{
+    met_surfaces m;
+    for (uint32_t k = 0; k < count; k++) {
+        if (coherent) {
+            alpi_trace_nearest_coherent(from->tracer, &packets[k].rays, packets[k].active,
+                                        from->filter, &hits[k]);
+        } else {
+            alpi_trace_nearest(from->tracer, &packets[k].rays, packets[k].active, from->filter,
+                               &hits[k]);
+        }
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        list_surfaces(from, &packets[k], &hits[k], &m.met[k], m.points[k], cells[k]);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            if ((m.met[k] >> i & 1u) != 0) {
+                cells[k][i] = from->light.cell(from->light.user, &m.points[k][i]);
+                __builtin_prefetch(from->light.cells[cells[k][i]]);
+            }
         }
     }
 }
 
-void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
-                       bool coherent, uint32_t cells[ALPI_PACKET])
+void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packets,
+                       uint32_t count, bool coherent, uint32_t (*cells)[ALPI_PACKET])
 {
-    alpi_hits hits;
-    meet_cells(from, packet, coherent, &hits, cells);
+    alpi_hits hits[ALPI_GATHER_BATCH];
+    meet_cells(from, packets, count, coherent, hits, cells);
 }
 
 void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
@@ -320,14 +360,12 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
     const alpi_gatherer *g = job->gatherer;
     const bool goes_on = job->from->near != NULL;
     uint32_t met[ALPI_GATHER_BATCH][ALPI_PACKET];
+    alpi_hits hits[ALPI_GATHER_BATCH];
     alpi_near_rays near;
     alpi_near_rays_start(job, receiver, first, &near);
-    for (uint32_t k = 0; k < count; k++) {
-        alpi_hits hits;
-        meet_cells(job->from, &packets[k], g->coherent, &hits, met[k]);
-        if (goes_on) {
-            alpi_near_rays_take(&near, k, &packets[k], &hits, met[k]);
-        }
+    meet_cells(job->from, packets, count, g->coherent, hits, met);
+    for (uint32_t k = 0; k < count && goes_on; k++) {
+        alpi_near_rays_take(&near, k, &packets[k], &hits[k], met[k]);
     }
     alpi_near_rays_go_on(&near);
     for (uint32_t k = 0; k < count; k++) {

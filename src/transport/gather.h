@@ -87,10 +87,11 @@ alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_pr
 
 /// Whether rays meet nothing but surface light that is kept in cells, and the sky.
 bool alpi_gather_meets_cells(const alpi_gather_scene *from);
-/// The cells that the rays of a packet meet. Needs alpi_gather_meets_cells.
-/// @param cells out: CELL_BLACK of lanes that are not active
-void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packet,
-                       bool coherent, uint32_t cells[ALPI_PACKET]);
+/// The cells that the rays of packets meet, at most ALPI_GATHER_BATCH. Needs
+/// alpi_gather_meets_cells.
+/// @param cells [count] out: CELL_BLACK of lanes that are not active
+void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packets,
+                       uint32_t count, bool coherent, uint32_t (*cells)[ALPI_PACKET]);
 
 /// Sums over the rays of one receiver, in their order.
 typedef struct alpi_gather_sums {

@@ -5,6 +5,7 @@
 #include "base/tasks.h"
 
 enum { RAYS_PER_RANGE = 4096 };
+enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
 
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
 {
@@ -57,12 +58,10 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
             g->aim(g->user, job->receivers, receiver, first, count, packets);
-            for (uint32_t p = 0; p < count; p++) {
-                alpi_gather_cells(job->from, &packets[p], g->coherent, cells[first + p]);
-                if (job->from->sky) {
-                    alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
-                                        &sums);
-                }
+            alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
+            for (uint32_t p = 0; p < count && job->from->sky; p++) {
+                alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
+                                    &sums);
             }
             if (!alpi_loop_goes_on(job->context)) {
                 return ALP_ERROR_CANCELLED;
@@ -106,6 +105,9 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
             (const uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
         alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
+            for (int r = 0; r < ALPI_PACKET && p + AHEAD < job->gatherer->packet_count; r++) {
+                __builtin_prefetch(job->from->light.cells[cells[p + AHEAD][r]]);
+            }
             alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
         }
         alpi_gather_put(&without_sky, receiver, &sums);
