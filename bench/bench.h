@@ -20,6 +20,7 @@ typedef int bench_fn(const bench_options *options);
 bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, bench_against_truth,
     bench_denoise, bench_bounced, bench_light, bench_formats;
 bench_fn bench_direct, bench_path_tracer; // further tables of transport
+bench_fn bench_light_bakes;               // of light
 
 /// Figures of one atlas for scripts; the words after its name. @return exit status
 int bench_measure_atlas(int count, char **words);

@@ -212,5 +212,5 @@ int bench_light(const bench_options *options)
     if (good) {
         bench_table_print(&table, options);
     }
-    return good ? 0 : 1;
+    return good ? bench_light_bakes(options) : 1;
 }

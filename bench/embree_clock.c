@@ -5,6 +5,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <string.h>
+
 static _Thread_local bool running;
 static _Thread_local double inside;
 static _Thread_local uint64_t call_count;
@@ -43,6 +45,44 @@ static void take(double started)
     }
 }
 
+// --- recording -----------------------------------------------------------------------------------
+
+static embree_record *record_in_use;
+
+void embree_record_to(embree_record *record)
+{
+    record_in_use = record;
+}
+
+/// @param valid NULL: all lanes   @param stride bytes from packet to packet
+static void write_down(embree_call_kind kind, const int *valid,
+                       const struct RTCIntersectContext *context, const void *rays, uint32_t count,
+                       size_t stride)
+{
+    embree_record *r = record_in_use;
+    if (r == NULL) {
+        return;
+    }
+    const bool wanted = r->calls++ / EMBREE_RECORD_BLOCK % r->every == 0;
+    r->seen += count;
+    if (!wanted || r->capacity - r->count < count) {
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        embree_packet *p = &r->packets[r->count++];
+        memcpy(&p->rays, (const char *)rays + i * stride, sizeof p->rays);
+        memset(p->valid, 0xff, sizeof p->valid);
+        if (valid != NULL) {
+            memcpy(p->valid, valid, sizeof p->valid);
+        }
+        p->kind = kind;
+        p->count = i == 0 ? count : 0;
+        p->coherent = (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0;
+    }
+}
+
+// --- calls ---------------------------------------------------------------------------------------
+
 // Names that the linker makes: references to NAME become __wrap_NAME, the original is __real_NAME.
 void __real_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays);
@@ -60,6 +100,7 @@ void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, s
 void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays)
 {
+    write_down(EMBREE_NEAREST, valid, context, &rays->ray, 1, 0);
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcIntersect8(valid, scene, context, rays);
     take(started);
@@ -68,6 +109,7 @@ void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectC
 void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                          struct RTCRay8 *rays)
 {
+    write_down(EMBREE_OCCLUDED, valid, context, rays, 1, 0);
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcOccluded8(valid, scene, context, rays);
     take(started);
@@ -76,6 +118,7 @@ void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectCo
 void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
                           unsigned n, unsigned m, size_t stride)
 {
+    write_down(EMBREE_STREAM, NULL, context, rays, m, stride); // ours are of eight
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcOccludedNM(scene, context, rays, n, m, stride);
     take(started);

@@ -124,3 +124,55 @@ double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, 
     }
     return seconds;
 }
+
+static void call_again(const raw_embree *raw, const embree_packet *p, struct RTCRayHit8 *packet,
+                       alpi_rays *stream)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (p->coherent) {
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
+    if (p->kind == EMBREE_NEAREST) {
+        rtcIntersect8(p->valid, raw->scene, &context, packet);
+    } else if (p->kind == EMBREE_OCCLUDED) {
+        rtcOccluded8(p->valid, raw->scene, &context, (struct RTCRay8 *)stream);
+    } else if (p->count > 0) {
+        rtcOccludedNM(raw->scene, &context, (struct RTCRayN *)stream, ALPI_PACKET, p->count,
+                      sizeof *stream);
+    }
+}
+
+/// Where the first call at a packet or behind it begins.
+static uint32_t next_call(const embree_record *record, uint32_t packet)
+{
+    while (packet < record->count && record->packets[packet].count == 0) {
+        packet++;
+    }
+    return packet;
+}
+
+double raw_embree_time_calls(const raw_embree *raw, const embree_record *record, uint32_t begin,
+                             uint32_t end, double (*clock)(void))
+{
+    enum { BLOCK = 256, MOST = BLOCK + ALPI_TRACE_BATCH };
+    static _Thread_local struct RTCRayHit8 block[MOST];
+    static _Thread_local alpi_rays streams[MOST];
+    double seconds = 0.0;
+    end = next_call(record, end);
+    for (uint32_t first = next_call(record, begin), next; first < end; first = next) {
+        next = next_call(record, end - first < BLOCK ? end : first + BLOCK);
+        const embree_packet *packets = &record->packets[first];
+        for (uint32_t i = 0; i < next - first; i++) {
+            memcpy(&block[i].ray, &packets[i].rays, sizeof block[i].ray);
+            memset(&block[i].hit, 0xff, sizeof block[i].hit);
+            streams[i] = packets[i].rays;
+        }
+        const double started = clock();
+        for (uint32_t i = 0; i < next - first; i++) {
+            call_again(raw, &packets[i], &block[i], &streams[i]);
+        }
+        seconds += clock() - started;
+    }
+    return seconds;
+}

@@ -3,7 +3,7 @@
 #ifndef BENCH_RAW_EMBREE_H
 #define BENCH_RAW_EMBREE_H
 
-#include "trace/trace.h"
+#include "embree_clock.h"
 
 typedef struct raw_embree raw_embree;
 /// The scene's usable triangles with the flags and the quality that src/trace/embree.c asks for.
@@ -23,5 +23,8 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
 /// @return its seconds of the calls alone
 double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
                                bool coherent, double (*clock)(void));
+/// The recorded calls that begin at packets [begin, end), in the same way.
+double raw_embree_time_calls(const raw_embree *raw, const embree_record *record, uint32_t begin,
+                             uint32_t end, double (*clock)(void));
 
 #endif
