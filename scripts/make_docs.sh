@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Writes docs/speed.md, docs/accuracy.md and the tables of docs/atlas.md anew from measurements, in
-# half an hour.
+# an hour.
 #
 #   scripts/make_docs.sh [COMMAND [TESTS]]
 #
@@ -38,6 +38,7 @@ processor time for one worker, wall time for more.
 TEXT
     machine
     section 'The innermost loop' transport
+    section 'Light' light
     section 'Error per second' maps
     section 'Atlases' atlas
     section 'Acceleration structure' trace
