@@ -165,9 +165,10 @@ typedef struct alp_light_options {
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. Rounds of
-    /// more and more samples until it is stated. 0 (default): `samples` in one round; with a
-    /// time_limit or keep_partial in rounds that double.
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map, with the
+    /// 99th percentile of its texels' at most four times as much. Rounds of more and more samples
+    /// until both are stated. 0 (default): `samples` in one round; with a time_limit or
+    /// keep_partial in rounds that double.
     float error;
     uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to

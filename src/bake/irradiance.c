@@ -3,10 +3,10 @@
 // reference.
 #include "bake/layers.h"
 #include "bake/light.h"
+#include "bake/light_error.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/stated_error.h"
 #include "transport/direct.h"
 #include "transport/examine.h"
 #include "transport/reference.h"
@@ -28,35 +28,24 @@ static bool is_by_hemicubes(const alpi_bake_job *job)
 static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
                               const alpi_reference_value *values)
 {
-    double mean = 0.0, squares = 0.0, p99 = 0.0;
     const uint32_t texels = job->lightmap->texels.count;
     ALPI_TRY_NEW(job->context, job->irradiance, texels);
     ALPI_TRY_NEW(job->context, job->irradiance_errors, texels);
-    float *errors = ALPI_NEW(job->context, float, texels);
-    if (errors == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
     for (uint32_t i = 0; i < count; i++) {
         const alpi_reference_value *v = &values[order[i]];
-        double square = 0.0;
         for (int k = 0; k < 3; k++) {
             job->irradiance[order[i]][k] = v->mean[k];
             job->irradiance_errors[order[i]][k] = sqrtf(v->variance[k]);
-            mean += (double)v->mean[k];
-            square += (double)v->variance[k];
         }
-        errors[order[i]] = (float)sqrt(square / 3.0); // of its channels
-        squares += square;
     }
-    const alp_result result = alpi_percentile(job->context, errors, order, count, 0.99, &p99);
-    alpi_release(job->context, errors);
-    const double all = 3.0 * fmax((double)count, 1.0);
+    alpi_light_error error;
+    ALP_TRY(alpi_light_find_error(job->context, values, texels, order, count, &error));
+    const bool told = !is_by_hemicubes(job);
     alp_bake_report *r = &job->report;
-    r->light_mean = mean / all;
-    const bool told = mean > 0.0 && !is_by_hemicubes(job);
-    r->light_relative_error = told ? sqrt(squares / all) / r->light_mean : (double)NAN;
-    r->light_p99_error = told ? p99 / r->light_mean : (double)NAN;
-    return result;
+    r->light_mean = error.mean;
+    r->light_relative_error = told ? error.over_mean.rms : (double)NAN;
+    r->light_p99_error = told ? error.over_mean.p99 : (double)NAN;
+    return ALP_OK;
 }
 
 /// Light that comes straight from where it is made.

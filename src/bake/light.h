@@ -79,11 +79,17 @@ void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
 
 /// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
 /// them, that no number of rays tells. Root mean square over texels, as measured.
-/// @param bounced root mean square of bounced light, a soft sky's apart
+/// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart
 double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced);
 /// Adds it to the variances of task->values, as a share of the bounced light of each texel.
 /// @param skies as of alpi_light_sum
 void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share);
+
+/// What the two make of the light so far, which stays as it is.
+/// @param whole [texels] out
+void alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
+                     const alpi_radiosity *solution, const float (*skies)[3], double share,
+                     alpi_reference_value *whole);
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
 /// @param skies [texels] or NULL: what of the bounced light is a soft sky's

@@ -14,6 +14,7 @@
 // the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
 #include "bake/layers.h"
 #include "bake/light.h"
+#include "bake/light_error.h"
 
 #include "base/memory.h"
 #include "base/random.h"
@@ -54,10 +55,11 @@ typedef struct rounds {
     uint8_t *noisy;                      // [texels] the same
     uint32_t number;                     // of the round
     double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
-    double mean;                         // of all light, over texels and channels
-    double direct_error, bounced_error;  // root mean squares over the mean
+    double mean, map_mean;               // of all light, and of that of the map: see measure()
+    double direct_error, bounced_error;  // root mean squares over a mean
     double bounced_rms;                  // of bounced light, a soft sky's apart
-    double solved_error;                 // of the solution that rays meet, over the mean too
+    double solved_error;                 // of the solution that rays meet, over a mean too
+    alpi_light_error map;                // as the map would be stated; see look_at_map()
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -316,36 +318,53 @@ static void sum_errors(const void *user, uint32_t begin, uint32_t end, double su
         const uint32_t t = r->task->order[i];
         const alpi_reference_value *d = &r->solution->direct[t], *b = &r->task->values[t];
         for (int k = 0; k < 3; k++) {
+            const double bounced =
+                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
             sums[0] += (double)d->mean[k] + (double)b->mean[k];
             sums[1] += (double)d->variance[k];
             sums[2] += (double)b->variance[k];
-            const double bounced =
-                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
             sums[3] += bounced * bounced;
+            sums[4] += bounced;
         }
     }
 }
 
+/// Errors are over the mean of what the map will hold. Where that is bounced light alone, direct
+/// light is what others reflect, and errs over the mean of all.
 static alp_result measure(rounds *r)
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
     const double count = 3.0 * fmax((double)r->task->count, 1.0);
     ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_errors, r, NULL, sums));
+    const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
     r->mean = sums[0] / count;
+    r->map_mean = direct ? r->mean : sums[4] / count;
     r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
-    r->bounced_error = r->mean > 0.0 ? sqrt(sums[2] / count) / r->mean : 0.0;
+    r->bounced_error = r->map_mean > 0.0 ? sqrt(sums[2] / count) / r->map_mean : 0.0;
     r->bounced_rms = sqrt(sums[3] / count);
-    r->solved_error =
+    const double solved =
         r->fixed == NULL ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms) : 0.0;
+    r->solved_error = r->map_mean > 0.0 ? solved * r->mean / r->map_mean : 0.0;
+    r->map = (alpi_light_error){.over_mean = {(double)NAN, (double)NAN}};
     return ALP_OK;
 }
 
-/// How many times the samples there are, added to them, bring an error down to what is wanted: it
-/// falls with a power of their number.
-static double more_samples(double error, double wanted, double power)
+/// Error of the solution over the bounced light of a texel.
+static double solved_share(const rounds *r)
 {
-    return error > wanted ? fmax(1.1 * pow(error / wanted, 1.0 / power) - 1.0, 0.25) : 0.0;
+    return r->bounced_rms > 0.0 ? r->solved_error * r->map_mean / r->bounced_rms : 0.0;
 }
+
+/// The map as it would be if this were all, in `fresh`, and its errors.
+static alp_result look_at_map(rounds *r)
+{
+    const alpi_light_task *t = r->task;
+    alpi_light_peek(r->job, t, r->solution, (const float(*)[3])r->skies, solved_share(r), r->fresh);
+    return alpi_light_find_error(r->job->context, r->fresh, t->receivers->count, t->order, t->count,
+                                 &r->map);
+}
+
+// --- what comes next -----------------------------------------------------------------------------
 
 /// As many of `samples` as there is time for; 0 where they would be too few to help those there
 /// are.
@@ -366,65 +385,58 @@ static double aim_of(const rounds *r)
                         : sqrt(0.5) * hypot(r->direct_error, r->bounced_error);
 }
 
-/// Of all light, over the mean.
-static double stated_error(const rounds *r)
+static alpi_light_plan cheapest(const rounds *r, const alpi_light_noise *noise, double aim)
 {
-    return hypot(hypot(r->direct_error, r->bounced_error), r->solved_error);
+    const alpi_light_effort effort = {.direct = r->direct,
+                                      .rays = r->rays,
+                                      .most = most_rays(&r->job->options.light),
+                                      .texels = r->task->count,
+                                      .traced = (double)r->job->report.light_traced};
+    return alpi_light_cheapest(&effort, noise, aim);
 }
 
-/// What a round adds: samples of direct light, and rays.
-typedef struct plan {
-    double direct, rays; // 0: none
-    double for_direct;   // error that direct light would have then
-    double cost;
-} plan;
-
-/// @param share of the squared error, that bounced light may have
-static plan plan_for(const rounds *r, double aim, double share)
+/// Where the map as a whole is good enough, its worst texels may not be yet: few of them, whose
+/// direct light is mostly what is noisy, cost little.
+static alp_result plan_for_worst(rounds *r, alpi_light_plan *p)
 {
-    // Of direct light only what is noisy gets more, about a fifth of the map; a bounced ray takes
-    // as long as two or three of shadow. Direct light's error falls with the root of its samples;
-    // that of rays, which are stratified better, a little faster.
-    const double noisy = 0.2, dear = 2.5, most = most_rays(&r->job->options.light);
-    const double falls[2] = {0.5, 0.55};
-    plan p = {.for_direct = sqrt(1.0 - share) * aim};
-    p.direct = more_samples(r->direct_error, p.for_direct, falls[0]) * r->direct;
-    p.rays = more_samples(r->bounced_error, sqrt(share) * aim, falls[1]) * r->rays;
-    p.cost =
-        noisy * r->task->count * p.direct + dear * (double)r->job->report.light_traced * p.rays;
-    p.direct = fmin(p.direct, fmin(15.0 * r->direct, most - r->direct));
-    p.rays = fmin(p.rays, fmin(15.0 * r->rays, most - r->rays));
-    return p;
-}
-
-/// The cheapest way to an error: many ways to share it out, and those in which one has as much of
-/// it as it has already.
-static plan cheapest(const rounds *r, double aim)
-{
-    enum { WAYS = 32 };
-    const double b = r->bounced_error / aim, d = r->direct_error / aim;
-    const double as_they_are[2] = {b * b, 1.0 - d * d};
-    plan best = plan_for(r, aim, 0.5);
-    for (int i = 1; i < WAYS + 2; i++) {
-        const double share = i < WAYS ? (double)i / WAYS : as_they_are[i - WAYS];
-        if (share > 0.0 && share < 1.0) {
-            const plan p = plan_for(r, aim, share);
-            best = p.cost < best.cost ? p : best;
-        }
+    const double limit = ALPI_P99_LIMIT * (double)r->job->options.light.error;
+    *p = (alpi_light_plan){0};
+    ALP_TRY(look_at_map(r));
+    if (!(r->map.over_mean.p99 > limit)) { // also where it is dark
+        return ALP_OK;
     }
-    return best;
+    const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
+    const alpi_light_whole whole = {.values = r->fresh,
+                                    .bounced = r->task->values,
+                                    .direct = direct ? r->solution->direct : NULL,
+                                    .order = r->task->order,
+                                    .count = r->task->count};
+    alpi_light_noise noise;
+    const double solved = alpi_light_tail(&whole, &r->map, limit, &noise);
+    *p = cheapest(r, &noise, sqrt(fmax(limit * limit - solved * solved, 0.25 * limit * limit)));
+    return ALP_OK;
+}
+
+/// @param p out: nothing, where there is nothing to do, or nothing helps
+static alp_result plan_round(rounds *r, alpi_light_plan *p)
+{
+    const double aim = aim_of(r);
+    if (hypot(r->direct_error, r->bounced_error) > aim) {
+        const double noisy = 0.2; // of direct light, about a fifth of the map
+        const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
+        *p = cheapest(r, &noise, aim);
+        return ALP_OK;
+    }
+    *p = (alpi_light_plan){0};
+    return r->job->options.light.error > 0.0f ? plan_for_worst(r, p) : ALP_OK;
 }
 
 /// One more round of what is too noisy.
 /// @param done out: nothing is, or nothing helps, or the time is over
 static alp_result improve(rounds *r, bool *done)
 {
-    const double aim = aim_of(r);
-    *done = hypot(r->direct_error, r->bounced_error) <= aim;
-    plan p = {0};
-    if (!*done) {
-        p = cheapest(r, aim);
-    }
+    alpi_light_plan p;
+    ALP_TRY(plan_round(r, &p));
     double direct = p.direct, rays = p.rays;
     if (direct <= 0.0 && rays <= 0.0) {
         *done = true;
@@ -511,21 +523,14 @@ static bool may_be_dropped(const rounds *r)
     return c->refused ? r->job->options.sampling.keep_partial : alpi_light_clock_is_late(c);
 }
 
-static void warn_of_error(const rounds *r)
+static alp_result warn_of_error(rounds *r)
 {
-    const double wanted = (double)r->job->options.light.error;
-    const double error = stated_error(r);
-    if (r->job->report.cut_off) {
-        alpi_warn(r->job->context, "cut-off", r->job->scene->name,
-                  "light ended before its time, after %u rays a texel and %u samples of each "
-                  "light; the stated error is %.2g %%, and another run gives other bits",
-                  r->rays, r->direct, 100.0 * error);
-    } else if (wanted > 0.0 && error > wanted) {
-        alpi_warn(r->job->context, "error-not-reached", r->job->scene->name,
-                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
-                  "of each light, wanted %.2g %%",
-                  100.0 * error, r->rays, r->direct, 100.0 * wanted);
+    const bool wanted = r->job->options.light.error > 0.0f;
+    if (r->job->report.cut_off || (wanted && isnan(r->map.over_mean.p99))) {
+        ALP_TRY(look_at_map(r));
     }
+    alpi_light_warn(r->job, &r->map.over_mean, r->rays, r->direct);
+    return ALP_OK;
 }
 
 static alp_result run_rounds(rounds *r)
@@ -540,10 +545,7 @@ static alp_result run_rounds(rounds *r)
         r->task->clock->ended = true; // asked again it would cancel what it wanted kept
         result = measure(r);
     }
-    if (result == ALP_OK) {
-        warn_of_error(r);
-    }
-    return result;
+    return result == ALP_OK ? warn_of_error(r) : result;
 }
 
 // --- the end -------------------------------------------------------------------------------------
@@ -579,9 +581,7 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        alpi_light_state_solved(task, (const float(*)[3])r.skies,
-                                r.bounced_rms > 0.0 ? r.solved_error * r.mean / r.bounced_rms
-                                                    : 0.0);
+        alpi_light_state_solved(task, (const float(*)[3])r.skies, solved_share(&r));
         result = alpi_light_sum(job, task, solution, r.skies);
     }
     alpi_release(job->context, r.skies);

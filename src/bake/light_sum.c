@@ -28,16 +28,45 @@ double alpi_light_solved_error(const alpi_radiosity *solution, double mean, doub
     return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced / mean) / sqrt(rays);
 }
 
+static void state_solved(alpi_reference_value *value, const float *sky, double share)
+{
+    for (int k = 0; k < 3; k++) {
+        const double error = share * (double)(value->mean[k] - (sky != NULL ? sky[k] : 0.0f));
+        value->variance[k] += (float)(error * error);
+    }
+}
+
 void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share)
 {
     for (uint32_t i = 0; i < task->count; i++) {
         const uint32_t texel = task->order[i];
-        alpi_reference_value *value = &task->values[texel];
-        for (int k = 0; k < 3; k++) {
-            const float sky = skies != NULL ? skies[texel][k] : 0.0f;
-            const double error = share * (double)(value->mean[k] - sky);
-            value->variance[k] += (float)(error * error);
-        }
+        state_solved(&task->values[texel], skies != NULL ? skies[texel] : NULL, share);
+    }
+}
+
+/// Makes of bounced light, and the sky's that came with it, what a map holds.
+/// @param direct NULL: it holds neither that nor the sky's
+static void add_direct(alpi_reference_value *value, const float *sky,
+                       const alpi_reference_value *direct)
+{
+    for (int k = 0; k < 3; k++) {
+        const float of_sky = sky != NULL ? sky[k] : 0.0f, bounced = value->mean[k] - of_sky;
+        value->mean[k] = bounced + (direct != NULL ? direct->mean[k] + of_sky : 0.0f);
+        value->variance[k] += direct != NULL ? direct->variance[k] : 0.0f;
+    }
+}
+
+void alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
+                     const alpi_radiosity *solution, const float (*skies)[3], double share,
+                     alpi_reference_value *whole)
+{
+    const bool on = job->options.light.direct != ALP_DIRECT_OFF;
+    for (uint32_t i = 0; i < task->count; i++) {
+        const uint32_t texel = task->order[i];
+        const float *sky = skies != NULL ? skies[texel] : NULL;
+        whole[texel] = task->values[texel];
+        state_solved(&whole[texel], sky, share);
+        add_direct(&whole[texel], sky, on ? &solution->direct[texel] : NULL);
     }
 }
 
@@ -52,18 +81,15 @@ alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
     for (uint32_t i = 0; i < task->count; i++) {
         const uint32_t texel = task->order[i];
+        const float *sky = skies != NULL ? skies[texel] : NULL;
         const alpi_reference_value *direct = &solution->direct[texel];
         alpi_reference_value *value = &task->values[texel];
-        for (int k = 0; k < 3; k++) {
-            const float sky = skies != NULL ? skies[texel][k] : 0.0f;
-            const float bounced = value->mean[k] - sky;
-            if (job->direct != NULL) {
-                job->direct[texel][k] = direct->mean[k] + sky;
-                job->bounced[texel][k] = bounced;
-            }
-            value->mean[k] = bounced + (on ? direct->mean[k] + sky : 0.0f);
-            value->variance[k] += on ? direct->variance[k] : 0.0f;
+        for (int k = 0; k < 3 && job->direct != NULL; k++) {
+            const float of_sky = sky != NULL ? sky[k] : 0.0f;
+            job->direct[texel][k] = direct->mean[k] + of_sky;
+            job->bounced[texel][k] = value->mean[k] - of_sky;
         }
+        add_direct(value, sky, on ? direct : NULL);
         if (on && task->directional != NULL) {
             alpi_directional_mix(&task->directional[texel], 1.0f, &solution->directional[texel],
                                  1.0f);

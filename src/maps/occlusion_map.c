@@ -26,8 +26,6 @@ enum {
 // the bend a tenth fewer texels are traced and what is interpolated grows three times darker, with
 // twice the others small shadows get lost (docs/accuracy.md).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
-// A 99th percentile of the error above this multiple of the wanted error asks for more too.
-static const double P99_LIMIT = 4.0;
 
 typedef struct map_job {
     const alpi_occlusion_setup *setup;
@@ -424,7 +422,7 @@ static uint32_t next_factor(const map_job *job)
 {
     const double wanted = (double)job->options->error;
     const double over =
-        fmax(job->report->relative / wanted, job->report->p99 / (P99_LIMIT * wanted));
+        fmax(job->report->relative / wanted, job->report->p99 / (ALPI_P99_LIMIT * wanted));
     const double needed = pow(1.05 * over, 1.0 / 0.7);
     uint32_t factor = 2;
     while (factor < needed && factor < 64) {
@@ -443,7 +441,8 @@ static alp_result run_rounds(map_job *job)
         ALP_TRY(run_round(job));
         job->report->samples = job->samples;
         ALP_TRY(state_errors(job));
-        const bool good = job->report->relative <= wanted && job->report->p99 <= P99_LIMIT * wanted;
+        const bool good =
+            job->report->relative <= wanted && job->report->p99 <= ALPI_P99_LIMIT * wanted;
         if (!rounds || good || job->samples == most) {
             return ALP_OK;
         }

@@ -18,6 +18,10 @@
 #include "maps/lattice.h"
 #include "transport/occlusion.h"
 
+/// Of a wanted error: a 99th percentile of texels' errors above so many times it asks for more rays
+/// too.
+#define ALPI_P99_LIMIT 4.0
+
 /// Held-out texels with their two independent estimates.
 typedef struct alpi_probes {
     alp_context *context;

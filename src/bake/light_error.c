@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The stated error of light in two numbers, what the texels that err most are made of, and what is
+// said where they are too large.
+#include "bake/light_error.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static double sum_variances(const alpi_reference_value *v)
+{
+    return (double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2];
+}
+
+alp_result alpi_light_find_error(alp_context *context, const alpi_reference_value *values,
+                                 uint32_t texels, const uint32_t *order, uint32_t count,
+                                 alpi_light_error *error)
+{
+    double mean = 0.0, squares = 0.0, p99 = 0.0;
+    float *errors = ALPI_NEW(context, float, texels);
+    if (errors == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_reference_value *v = &values[order[i]];
+        const double square = sum_variances(v);
+        for (int k = 0; k < 3; k++) {
+            mean += (double)v->mean[k];
+        }
+        errors[order[i]] = (float)sqrt(square / 3.0); // of its channels
+        squares += square;
+    }
+    const alp_result result = alpi_percentile(context, errors, order, count, 0.99, &p99);
+    alpi_release(context, errors);
+    const double all = 3.0 * fmax((double)count, 1.0);
+    *error = (alpi_light_error){.mean = mean / all, .over_mean = {(double)NAN, (double)NAN}};
+    if (mean > 0.0) {
+        error->over_mean.rms = sqrt(squares / all) / error->mean;
+        error->over_mean.p99 = p99 / error->mean;
+    }
+    return result;
+}
+
+double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *error, double limit,
+                       alpi_light_noise *noise)
+{
+    const double above = 3.0 * pow(limit * error->mean, 2.0);
+    double all = 0.0, direct = 0.0, bounced = 0.0;
+    uint32_t noisy = 0;
+    for (uint32_t i = 0; i < whole->count; i++) {
+        const uint32_t t = whole->order[i];
+        const double square = sum_variances(&whole->values[t]);
+        noisy += square > 0.25 * above ? 1u : 0u;
+        if (square > above) {
+            all += square;
+            direct += whole->direct != NULL ? sum_variances(&whole->direct[t]) : 0.0;
+            bounced += sum_variances(&whole->bounced[t]);
+        }
+    }
+    *noise = (alpi_light_noise){.noisy = (double)noisy / fmax((double)whole->count, 1.0)};
+    if (!(all > 0.0)) {
+        return 0.0;
+    }
+    noise->direct = error->over_mean.p99 * sqrt(direct / all);
+    noise->bounced = error->over_mean.p99 * sqrt(bounced / all);
+    return error->over_mean.p99 * sqrt(fmax(all - direct - bounced, 0.0) / all);
+}
+
+void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, uint32_t rays,
+                     uint32_t direct)
+{
+    const double wanted = (double)job->options.light.error;
+    if (job->report.cut_off) {
+        alpi_warn(job->context, "cut-off", job->scene->name,
+                  "light ended before its time, after %u rays a texel and %u samples of each "
+                  "light; the stated error is %.2g %%, and another run gives other bits",
+                  rays, direct, 100.0 * error->rms);
+    } else if (wanted > 0.0 && error->rms > wanted) {
+        alpi_warn(job->context, "error-not-reached", job->scene->name,
+                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
+                  "of each light, wanted %.2g %%",
+                  100.0 * error->rms, rays, direct, 100.0 * wanted);
+    } else if (wanted > 0.0 && error->p99 > ALPI_P99_LIMIT * wanted) {
+        alpi_warn(job->context, "error-not-reached", job->scene->name,
+                  "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred "
+                  "has more than %.2g %% after %u rays a texel and %u samples of each light, "
+                  "wanted at most %.2g %%",
+                  100.0 * error->rms, 100.0 * error->p99, rays, direct,
+                  100.0 * ALPI_P99_LIMIT * wanted);
+    }
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// The 99th percentile of the errors of light: rounds go on until it is small enough too.
+#include "bake/light_error.h"
+#include "maps/lightmap.h"
+#include "test_scenes.h"
+
+#include <math.h>
+
+enum { SIZE = 64 };
+static const float PI = 3.14159265f;
+
+static alp_context *context;
+
+static int setup(void **state)
+{
+    (void)state;
+    context = test_context(2);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    alp_context_destroy(context);
+    return 0;
+}
+
+static alp_bake_report bake(const char *name, alp_light_options light)
+{
+    alp_scene *scene = NULL;
+    alp_lightmap *map = NULL;
+    alp_bake_report report;
+    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.size = SIZE;
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.maps = ALP_MAP_LIGHT;
+    options.light = light;
+    ASSERT_OK(context, alp_bake(scene, &options, &map, &report));
+    alp_lightmap_destroy(map);
+    alp_scene_destroy(scene);
+    return report;
+}
+
+/// @param name a scene whose map is good enough by twice, and its worst texels by once
+static void reaches(const char *name, alp_light_options light, float error)
+{
+    light.error = 2.0f * error;
+    const alp_bake_report first = bake(name, light);
+    light.error = error;
+    const alp_bake_report then = bake(name, light);
+    print_message("%s: %.2f %% and %.2f %%, then %.2f %% and %.2f %%; %.2f times the rays\n", name,
+                  100.0 * first.light_relative_error, 100.0 * first.light_p99_error,
+                  100.0 * then.light_relative_error, 100.0 * then.light_p99_error,
+                  (double)then.rays / (double)first.rays);
+    const double wanted = (double)error;
+    // The first map as a whole would do.
+    assert_true(first.light_relative_error < wanted && first.light_p99_error > 4.0 * wanted);
+    assert_true(then.light_relative_error < wanted && then.light_p99_error <= 4.0 * wanted);
+    // Few texels are so noisy, and others get none.
+    assert_true(then.rays < 2 * first.rays && then.light_samples == first.light_samples);
+}
+
+/// A soft shadow on a floor that is even everywhere else, by a sun and by a lamp.
+static void small_shadows_come_down(void **state)
+{
+    (void)state;
+    alp_light_options light = alp_bake_options_default().light;
+    light.lighting.sun = (alp_sun_options){.azimuth = 40.0f * PI / 180.0f,
+                                           .elevation = 30.0f * PI / 180.0f,
+                                           .illuminance = 1000.0f,
+                                           .color = {1.0f, 1.0f, 1.0f},
+                                           .size = 2.0f * PI / 180.0f};
+    reaches("builtin:sphere-plane", light, 0.04f);
+    reaches("builtin:torus-plane", light, 0.04f);
+}
+
+/// A map of bounced light alone is as good as it was asked to be over its own mean.
+static void bounced_light_alone_errs_over_its_own_mean(void **state)
+{
+    (void)state;
+    alp_light_options light = alp_bake_options_default().light;
+    light.direct = ALP_DIRECT_OFF;
+    light.error = 0.03f;
+    const alp_bake_report r = bake("builtin:cornell", light);
+    print_message("bounced light alone: %.2f %% and %.2f %%\n", 100.0 * r.light_relative_error,
+                  100.0 * r.light_p99_error);
+    assert_true(r.light_relative_error <= 0.03 && r.light_p99_error <= 0.12);
+}
+
+// --- its parts -----------------------------------------------------------------------------------
+
+/// What is above the limit is shared out as it is made of: here of direct light, of bounced light
+/// and of the solution, 9 to 4 to 3; the texel below it has no say.
+static void worst_texels_tell_what_they_are_made_of(void **state)
+{
+    (void)state;
+    enum { TEXELS = 4 };
+    const alpi_reference_value whole[TEXELS] = {
+        {{0}, {16, 16, 16}}, {{0}, {0, 0, 0}}, {{0}, {4, 4, 3.9f}}, {{0}, {99, 99, 99}}};
+    const alpi_reference_value direct[TEXELS] = {
+        {{0}, {9, 9, 9}}, {{0}, {0}}, {{0}, {0}}, {{0}, {0}}};
+    const alpi_reference_value bounced[TEXELS] = {
+        {{0}, {4, 4, 4}}, {{0}, {0}}, {{0}, {4, 4, 3.9f}}};
+    const uint32_t order[3] = {0, 1, 2};
+    const alpi_light_error error = {.mean = 10.0, .over_mean = {.rms = 0.1, .p99 = 0.8}};
+    alpi_light_whole w = {
+        .values = whole, .bounced = bounced, .direct = direct, .order = order, .count = 3};
+    alpi_light_noise noise;
+    ASSERT_NEAR(alpi_light_tail(&w, &error, 0.2, &noise), 0.8 * sqrt(3.0 / 16.0), 1e-9);
+    ASSERT_NEAR(noise.direct, 0.8 * 0.75, 1e-9);
+    ASSERT_NEAR(noise.bounced, 0.8 * 0.5, 1e-9);
+    ASSERT_NEAR(noise.noisy, 2.0 / 3.0, 1e-9); // above half of the limit
+    w.direct = NULL;
+    ASSERT_NEAR(alpi_light_tail(&w, &error, 0.2, &noise), 0.8 * sqrt(12.0 / 16.0), 1e-9);
+    assert_true(noise.direct == 0.0);
+    assert_true(alpi_light_tail(&w, &error, 0.5, &noise) == 0.0); // nothing is above
+    assert_true(noise.direct == 0.0 && noise.bounced == 0.0 && noise.noisy > 0.3);
+}
+
+/// Only what is too noisy gets more: as much as brings it there, 15 times what there is at most.
+static void plans_leave_alone_what_is_good(void **state)
+{
+    (void)state;
+    const alpi_light_effort effort = {
+        .direct = 8, .rays = 64, .most = 65536, .texels = 1e5, .traced = 2e4};
+    alpi_light_plan p = alpi_light_cheapest(&effort, &(alpi_light_noise){0.3, 0.05, 0.02}, 0.16);
+    assert_true(p.rays == 0.0);
+    ASSERT_NEAR(p.for_direct, sqrt(0.16 * 0.16 - 0.05 * 0.05), 1e-9);
+    ASSERT_NEAR(p.direct, 8.0 * (1.1 * 0.09 / (p.for_direct * p.for_direct) - 1.0), 1e-9);
+    p = alpi_light_cheapest(&effort, &(alpi_light_noise){0.01, 0.3, 0.02}, 0.16);
+    assert_true(p.direct == 0.0 && p.rays > 2.0 * 64.0 && p.rays < 4.0 * 64.0);
+    p = alpi_light_cheapest(&effort, &(alpi_light_noise){9.0, 9.0, 0.02}, 0.01);
+    assert_true(p.direct == 15.0 * 8.0 && p.rays == 15.0 * 64.0);
+}
+
+/// Which of the two is too large is said.
+static void what_fell_short_is_told(void **state)
+{
+    (void)state;
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alpi_bake_job job = {.context = context, .scene = scene};
+    job.options.light.error = 0.01f;
+    test_log_clear();
+    alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.009, .p99 = 0.039}, 64, 8);
+    alpi_light_warn(&job, &(alpi_relative_error){.rms = (double)NAN, .p99 = (double)NAN}, 64, 8);
+    assert_false(test_log_has("error-not-reached"));
+    alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.009, .p99 = 0.051}, 64, 8);
+    assert_non_null(strstr(
+        test_log_text(), "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
+                         "after 64 rays a texel and 8 samples of each light, wanted at most 4 %"));
+    test_log_clear();
+    alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.02, .p99 = 0.05}, 64, 8);
+    assert_non_null(strstr(test_log_text(), "the light is 2 % after"));
+    assert_null(strstr(test_log_text(), "one texel"));
+    test_log_clear();
+    alp_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_shadows_come_down),
+        cmocka_unit_test(bounced_light_alone_errs_over_its_own_mean),
+        cmocka_unit_test(worst_texels_tell_what_they_are_made_of),
+        cmocka_unit_test(plans_leave_alone_what_is_good),
+        cmocka_unit_test(what_fell_short_is_told),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
