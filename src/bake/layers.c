@@ -228,7 +228,7 @@ static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution
     const float b = (float)share;
     for (uint32_t layer = 0; layer < job->layers.light.count; layer++) {
         float(*bounced)[3] = job->layers.light.bounced[layer];
-        ALP_TRY(alpi_radiosity_show(solution, layer, progress));
+        ALP_TRY(alpi_radiosity_show(solution, layer, NULL, progress));
         ALP_TRY(alpi_bounced_again_gather(again, progress));
         for (uint32_t i = 0; i < o->count; i++) {
             const uint32_t t = o->order[i];
@@ -238,7 +238,7 @@ static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution
         }
     }
     job->report.rays += again->rays;
-    return alpi_radiosity_show(solution, ALPI_NONE, progress);
+    return alpi_radiosity_show(solution, ALPI_NONE, NULL, progress);
 }
 
 alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,

@@ -77,10 +77,23 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
 void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
                      const alpi_radiosity *solution, alpi_gather_scene *from, alpi_reference *near);
 
+/// Shows the rays of a round what is known by now. The few samples of direct light of the first
+/// round make noise in corners, where a texel sees few others, that no number of rays takes off.
+/// What texels gathered is finer than what blocks did, and there are more rays in it; with a last
+/// bounce, or layers, it is more than what may be met. Where only some surfaces are baked, rays
+/// meet other texels.
+/// @param rays  of a texel, so far: task->values are theirs
+/// @param noise out: 1 / √ rays that a block's light is known by from now on
+/// @return ALP_OK; CANCELLED
+alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
+                           const alpi_radiosity *solution, uint32_t rays, double *noise);
+
 /// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
 /// them, that no number of rays tells. Root mean square over texels, as measured.
 /// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart
-double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced);
+/// @param noise 1 / √ rays that a block's light is known by
+double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
+                               double noise);
 /// Adds it to the variances of task->values, as a share of the bounced light of each texel.
 /// @param skies as of alpi_light_sum
 void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share);

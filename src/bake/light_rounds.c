@@ -59,7 +59,8 @@ typedef struct rounds {
     double direct_error, bounced_error;  // root mean squares over a mean
     double bounced_rms;                  // of bounced light, a soft sky's apart
     double solved_error;                 // of the solution that rays meet, over a mean too
-    alpi_light_error map;                // as the map would be stated; see look_at_map()
+    double solved_noise;  // 1 / √ rays that a block of it is known by, mean of rays
+    alpi_light_error map; // as the map would be stated; see look_at_map()
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -200,6 +201,8 @@ static void merge_held_out(const rounds *r, uint32_t rays)
 
 static alp_result add_bounced(rounds *r, uint32_t rays)
 {
+    double noise;
+    ALP_TRY(alpi_light_show(r->job, r->task, r->solution, r->rays, &noise));
     ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
     const float b = (float)((double)rays / ((double)r->rays + rays));
     for (uint32_t i = 0; i < r->task->count; i++) {
@@ -211,6 +214,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
         }
     }
     merge_held_out(r, rays);
+    r->solved_noise += (double)b * (noise - r->solved_noise);
     r->rays += rays;
     r->job->report.light_samples = r->rays;
     return ALP_OK;
@@ -269,16 +273,6 @@ static void release_list(rounds *r)
     r->noisy = NULL;
 }
 
-/// What rays meet from now on reflects the direct light that is known now: the few samples of the
-/// first round make noise in corners, where a texel sees few others, that no number of rays takes
-/// off. What blocks gathered stays. Where only some surfaces are baked, rays meet other texels.
-static alp_result show_direct(const rounds *r)
-{
-    return r->solution->texels != NULL
-               ? ALP_OK
-               : alpi_radiosity_show(r->solution, ALPI_NONE, &r->task->progress);
-}
-
 /// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
 /// root mean square that would do.
 static alp_result add_direct(rounds *r, double more, double wanted)
@@ -306,7 +300,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
     }
     release_list(r);
     r->direct += samples;
-    return show_direct(r);
+    return ALP_OK;
 }
 
 // --- errors --------------------------------------------------------------------------------------
@@ -343,7 +337,9 @@ static alp_result measure(rounds *r)
     r->bounced_error = r->map_mean > 0.0 ? sqrt(sums[2] / count) / r->map_mean : 0.0;
     r->bounced_rms = sqrt(sums[3] / count);
     const double solved =
-        r->fixed == NULL ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms) : 0.0;
+        r->fixed == NULL
+            ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms, r->solved_noise)
+            : 0.0;
     r->solved_error = r->map_mean > 0.0 ? solved * r->mean / r->map_mean : 0.0;
     r->map = (alpi_light_error){.over_mean = {(double)NAN, (double)NAN}};
     return ALP_OK;
@@ -484,6 +480,7 @@ static alp_result begin(rounds *r)
     r->rays = more ? FIRST_RAYS : most;
     r->job->report.light_samples =
         r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
+    r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
     r->direct = r->solution->options.direct_samples;
     r->direct_seconds = r->solution->direct_seconds / r->direct;
     return measure(r);

@@ -55,10 +55,11 @@ enum {
     SIDE_BLOCK_BYTES = 64,
     BLOCK_BYTES = 13, // first texel 4, area 8, seen 1
     // Of those, what later rounds show again with better direct light: reflectances 12 and blocks
-    // 4, which two-sided scenes have anyway; of each side of a block before 12 and skies 12.
+    // 4, which two-sided scenes have anyway; of each side of a block before 12, skies 12 and
+    // lost 8.
     SHOWN_BYTES_PER_TEXEL = 12,
     SHOWN_BLOCK_BYTES_PER_TEXEL = 4,
-    SHOWN_SIDE_BLOCK_BYTES = 24,
+    SHOWN_SIDE_BLOCK_BYTES = 32,
     GATHER_BYTES = 26, // values, states 1, marks 1
     LEVEL_BYTES = 4,   // where those of occlusion may not be written over
     SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds

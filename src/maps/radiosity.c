@@ -241,7 +241,8 @@ static alp_result find_receivers(solver *s)
 /// Light that cells are lit by.
 typedef struct shown_light {
     const alpi_radiosity *radiosity;
-    uint32_t layer; // ALPI_NONE: all
+    uint32_t layer;                       // ALPI_NONE: all
+    const alpi_reference_value *gathered; // [texels] by fronts, or NULL: as blocks did
 } shown_light;
 
 static void light_cell(const shown_light *s, uint32_t texel, alpi_side side)
@@ -257,10 +258,16 @@ static void light_cell(const shown_light *s, uint32_t texel, alpi_side side)
     const float *bounced = all ? r->before[block] : layers->before[s->layer][block];
     const float *sky = all || s->layer == layers->sky ? r->skies[block] : none;
     const float *direct = all ? r->direct[place].mean : layers->direct[s->layer][place];
+    const bool hidden = (p->texels->flags[texel] & ALPI_TEXEL_HIDDEN) != 0; // gathers nothing
+    if (s->gathered != NULL && side == ALPI_FRONT && !hidden) {
+        sky = none;
+        bounced = s->gathered[texel].mean;
+    }
     float *cell = p->cells[alpi_patches_cell(p, texel, side)];
+    const float scale = (float)(1.0 / ALPI_PI) *
+                        (back == 0 ? alpi_radiosity_brighter(r, texel, p->blocks[texel]) : 1.0f);
     for (int k = 0; k < 3; k++) {
-        cell[k] =
-            p->reflectances[texel][k] * (float)(1.0 / ALPI_PI) * (direct[k] + sky[k] + bounced[k]);
+        cell[k] = p->reflectances[texel][k] * scale * (direct[k] + sky[k] + bounced[k]);
     }
 }
 
@@ -285,9 +292,10 @@ static alp_result light_cells(void *user, uint32_t begin, uint32_t end, uint32_t
 }
 
 alp_result alpi_radiosity_show(const alpi_radiosity *radiosity, uint32_t layer,
+                               const alpi_reference_value *gathered,
                                const alpi_task_progress *progress)
 {
-    shown_light shown = {radiosity, layer};
+    shown_light shown = {radiosity, layer, gathered};
     return alpi_parallel_for(radiosity->options.context, radiosity->patches.texels->count,
                              TEXELS_PER_RANGE, light_cells, &shown, progress);
 }
@@ -365,7 +373,7 @@ static alp_result pass(solver *s, double *change)
     alpi_radiosity *r = s->r;
     double sums[ALPI_SUM_LIMIT] = {0.0};
     keep_means(r, r->bounced, r->before);
-    ALP_TRY(alpi_radiosity_show(r, ALPI_NONE, &s->progress));
+    ALP_TRY(alpi_radiosity_show(r, ALPI_NONE, NULL, &s->progress));
     ALP_TRY(gather_pass(s, r->bounced));
     ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_changes, r, &s->progress,
                               sums));
@@ -416,58 +424,12 @@ static alp_result run_layers(solver *s)
                  sides_of(&r->patches) * r->patches.block_count);
     for (uint32_t layer = 0; layer < layers->count; layer++) {
         for (uint32_t passes = 1; passes < r->passes; passes++) {
-            ALP_TRY(alpi_radiosity_show(r, layer, &s->progress));
+            ALP_TRY(alpi_radiosity_show(r, layer, NULL, &s->progress));
             ALP_TRY(gather_pass(s, s->layer_bounced));
             keep_means(r, s->layer_bounced, layers->before[layer]);
         }
     }
-    return alpi_radiosity_show(r, ALPI_NONE, &s->progress);
-}
-
-// --- energy --------------------------------------------------------------------------------------
-
-static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
-                             double surface_emitted[3], alpi_energy *e)
-{
-    const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
-                                                                 r->patches.texels->triangles[t]);
-    const alpi_patches *p = &r->patches;
-    const double area = (double)alpi_texels_area(p->texels, t);
-    const float *direct = r->direct[back * p->texels->count + t].mean;
-    const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
-    const double escaped = (double)r->lost[receiver][0], behind = (double)r->lost[receiver][1];
-    const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
-        const double first = (double)direct[k] + (double)r->skies[receiver][k];
-        const double shot = albedo * (first + (double)before[k]) + emitted;
-        e->received += share * first;
-        e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
-        e->escaped += share * escaped * shot;
-        e->lost_behind += share * behind * shot;
-        e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
-        surface_emitted[0] += share * emitted;
-        surface_emitted[1] += share * emitted * (1.0 - escaped - behind);
-    }
-}
-
-/// Adds up in the order of the receivers, on one thread: some nanoseconds a texel.
-static void find_energy(alpi_radiosity *r)
-{
-    const alpi_patches *p = &r->patches;
-    alpi_energy *e = &r->energy;
-    double surface_emitted[3] = {0.0}; // all, and what reaches other surfaces
-    for (uint32_t i = 0; i < r->receiver_count; i++) {
-        size_t back;
-        const uint32_t b = block_of(p, r->receivers[i], &back);
-        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], surface_emitted, e);
-        }
-    }
-    const alpi_lighting *l = r->options.lighting;
-    const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
-    e->emitted = surface_emitted[0] + (others ? e->received - surface_emitted[1] : 0.0);
-    e->known = !alpi_tracer_has_panes(r->options.tracer);
+    return alpi_radiosity_show(r, ALPI_NONE, NULL, &s->progress);
 }
 
 // --- all of it -----------------------------------------------------------------------------------
@@ -520,7 +482,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
     ALP_TRY(find_receivers(s));
     ALP_TRY(run_passes(s));
-    find_energy(s->r);
+    alpi_radiosity_find_energy(s->r);
     return run_layers(s);
 }
 
@@ -552,15 +514,15 @@ void alpi_radiosity_settle(alpi_radiosity *radiosity, bool shown_again)
     }
     alpi_patches_settle(&radiosity->patches, shown_again);
     alpi_release(context, radiosity->bounced);
-    alpi_release(context, radiosity->lost);
     alpi_release(context, radiosity->receivers);
     radiosity->bounced = NULL;
-    radiosity->lost = NULL;
     radiosity->receivers = NULL;
     if (!shown_again) {
         alpi_release(context, radiosity->before);
         alpi_release(context, radiosity->skies);
+        alpi_release(context, radiosity->lost);
         radiosity->before = radiosity->skies = NULL;
+        radiosity->lost = NULL;
     }
 }
 

@@ -59,9 +59,13 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
             g->aim(g->user, job->receivers, receiver, first, count, packets);
             alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
-            for (uint32_t p = 0; p < count && job->from->sky; p++) {
-                alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
-                                    &sums);
+            for (uint32_t p = 0; p < count; p++) {
+                alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells,
+                                      &sums);
+                if (job->from->sky) {
+                    alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
+                                        &sums);
+                }
             }
             if (!alpi_loop_goes_on(job->context)) {
                 return ALP_ERROR_CANCELLED;
@@ -69,6 +73,9 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
         }
         for (int c = 0; c < 3 && job->skies != NULL; c++) {
             job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
+        }
+        for (int c = 0; c < 2 && job->lost != NULL; c++) {
+            job->lost[receiver][c] = (float)sums.lost[c];
         }
     }
     return ALP_OK;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Where the light of a solution goes, and what of it other geometry keeps from being met.
+#include "maps/radiosity.h"
+
+#include <math.h>
+
+float alpi_radiosity_brighter(const alpi_radiosity *r, uint32_t texel, uint32_t block)
+{
+    enum { WHOLE = 0xffff };
+    const float most = 4.0f; // so that few rays do not make a light of a corner
+    const alpi_texels *texels = r->patches.texels;
+    const uint32_t valid = texels->valid != NULL ? texels->valid[texel] : 0;
+    const bool covered = valid != 0 && valid != WHOLE;
+    return covered ? 1.0f / fmaxf(1.0f - r->lost[block][1], 1.0f / most) : 1.0f;
+}
+
+static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
+                             double surface_emitted[3], alpi_energy *e)
+{
+    const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
+                                                                 r->patches.texels->triangles[t]);
+    const alpi_patches *p = &r->patches;
+    const double area = (double)alpi_texels_area(p->texels, t);
+    const float *direct = r->direct[back * p->texels->count + t].mean;
+    const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
+    const double brighter = back == 0 ? (double)alpi_radiosity_brighter(r, t, receiver) : 1.0;
+    const double escaped = brighter * (double)r->lost[receiver][0]; // of the light of its open part
+    const double behind = 1.0 - brighter * (1.0 - (double)r->lost[receiver][1]);
+    const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
+        const double first = (double)direct[k] + (double)r->skies[receiver][k];
+        const double shot = albedo * (first + (double)before[k]) + emitted;
+        e->received += share * first;
+        e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
+        e->escaped += share * escaped * shot;
+        e->lost_behind += share * behind * shot;
+        e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
+        surface_emitted[0] += share * emitted;
+        surface_emitted[1] += share * emitted * (1.0 - escaped - behind);
+    }
+}
+
+/// Adds up in the order of the receivers, on one thread: some nanoseconds a texel.
+void alpi_radiosity_find_energy(alpi_radiosity *r)
+{
+    const alpi_patches *p = &r->patches;
+    alpi_energy *e = &r->energy;
+    double surface_emitted[3] = {0.0}; // all, and what reaches other surfaces
+    for (uint32_t i = 0; i < r->receiver_count; i++) {
+        const size_t back = r->receivers[i] >= p->block_count ? 1 : 0;
+        const uint32_t b = back != 0 ? r->receivers[i] - p->block_count : r->receivers[i];
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], surface_emitted, e);
+        }
+    }
+    const alpi_lighting *l = r->options.lighting;
+    const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
+    e->emitted = surface_emitted[0] + (others ? e->received - surface_emitted[1] : 0.0);
+    e->known = !alpi_tracer_has_panes(r->options.tracer);
+}
