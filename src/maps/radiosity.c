@@ -146,12 +146,13 @@ static alpi_gather_job job_of(const solver *s, const uint32_t *list, uint32_t co
                              .lost = s->r->lost};
 }
 
-/// The first look around of the listed receivers: what the sky brings, which backs are seen, and
-/// the rays themselves where they are kept.
+/// The first look around of the listed receivers: what the sky brings, which backs are seen, what
+/// lies in solids, and the rays themselves where they are kept.
 static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
 {
     const alpi_gather_job job = job_of(s, list, count);
-    if (!s->r->kept && !s->r->patches.two_sided && !s->from.sky) {
+    const alpi_patches *p = &s->r->patches;
+    if (!s->r->kept && !p->two_sided && !s->from.sky && p->texels->valid == NULL) {
         return ALP_OK;
     }
     s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;

@@ -5,6 +5,8 @@
 
 enum { TEXELS = 3, RAYS = 64 };
 
+static const double NOISE = 0.125; // of RAYS: 1 / √64
+
 typedef struct solved {
     alpi_gatherer gatherer;
     alpi_radiosity solution;
@@ -23,18 +25,18 @@ static void of_all_light(void **state)
     (void)state;
     solved s;
     solve(&s, UINT32_MAX);
-    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
-    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 0.05), 0.0002, 1e-9);
-    assert_true(alpi_light_solved_error(&s.solution, 5.0, 0.0) == 0.0);
-    assert_true(alpi_light_solved_error(&s.solution, 0.0, 0.0) == 0.0);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0, NOISE), 0.002, 1e-9);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 0.05, NOISE), 0.0002, 1e-9);
+    assert_true(alpi_light_solved_error(&s.solution, 5.0, 0.0, NOISE) == 0.0);
+    assert_true(alpi_light_solved_error(&s.solution, 0.0, 0.0, NOISE) == 0.0);
     solve(&s, 1);
-    assert_true(alpi_light_solved_error(&s.solution, 5.0, 2.0) == 0.0);
+    assert_true(alpi_light_solved_error(&s.solution, 5.0, 2.0, NOISE) == 0.0);
     solve(&s, 2);
-    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0, NOISE), 0.002, 1e-9);
     alpi_lighting *sky = (alpi_lighting *)&s; // another than what is looked for directly
     solve(&s, 1);
     s.solution.options.lighting = sky;
-    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0), 0.002, 1e-9);
+    ASSERT_NEAR(alpi_light_solved_error(&s.solution, 5.0, 2.0, NOISE), 0.002, 1e-9);
 }
 
 /// Each texel gets its part by what is bounced of its light, a sky's left out: what gets none is
