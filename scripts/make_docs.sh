@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Writes docs/speed.md, docs/accuracy.md and the tables of docs/atlas.md anew from measurements, in
-# an hour.
+# an hour or more.
 #
 #   scripts/make_docs.sh [COMMAND [TESTS]]
 #

@@ -40,7 +40,8 @@ static const command_entry commands[COMMAND_COUNT] = {
          "(the innermost loop), atlas, maps (error per second), accuracy (stated against true "
          "errors), truth (each technique against the reference), denoise, bounced (ways to gather "
          "bounced light), light (its rays against the ray tracer, its bakes by workers and size) "
-         "or formats (reading); without it all are run, which takes an hour. Other work on the "
+         "or formats (reading); without it all are run, which takes more than half an hour. Other "
+         "work on the "
          "machine makes the figures worse and the "
          "ratios little."},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
