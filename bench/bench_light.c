@@ -57,10 +57,9 @@ static alp_result run_raw_range(void *user, uint32_t begin, uint32_t end, uint32
     gather_case *c = user;
     const uint32_t first = begin * BLOCK, most = (end - begin) * BLOCK;
     const uint32_t left = c->packet_count - first;
-    c->traced[worker] +=
-        raw_embree_time_nearest(c->raw, c->packets + first, left < most ? left : most,
-                                c->gatherer.coherent,
-                                c->workers == 1 ? bench_thread_seconds : alpi_seconds);
+    c->traced[worker] += raw_embree_time_nearest(
+        c->raw, c->packets + first, left < most ? left : most, c->gatherer.coherent,
+        c->workers == 1 ? bench_thread_seconds : alpi_seconds);
     return ALP_OK;
 }
 
@@ -138,7 +137,8 @@ static bool run_hemicubes(const lit_scene *lit, const raw_embree *raw, const ben
     if (!bench_good(&lit->scene, alpi_hemicube_create(lit->scene.context, CUBE, &cube))) {
         return false;
     }
-    const alpi_hemicube_options cubes = {.context = lit->scene.context, .cube = cube, .turned = true};
+    const alpi_hemicube_options cubes = {
+        .context = lit->scene.context, .cube = cube, .turned = true};
     gather_case c = {
         .lit = lit, .raw = raw, .name = "hemicube", .gatherer = alpi_hemicube_gatherer(&cubes)};
     c.list_count = bench_pick_texels(lit->order, lit->count, options->quick ? QUICK_CUBES : CUBES,
@@ -151,15 +151,12 @@ static bool run_hemicubes(const lit_scene *lit, const raw_embree *raw, const ben
 static bool run_cosine_rays(const lit_scene *lit, const raw_embree *raw,
                             const bench_options *options, bench_table *table)
 {
-    const alpi_cosine_rays rays = {.context = lit->scene.context,
-                                   .samples = RAYS,
-                                   .replicates = REPLICATES,
-                                   .joined = true};
+    const alpi_cosine_rays rays = {
+        .context = lit->scene.context, .samples = RAYS, .replicates = REPLICATES, .joined = true};
     gather_case c = {
         .lit = lit, .raw = raw, .name = "cosine", .gatherer = alpi_cosine_rays_gatherer(&rays)};
-    c.list_count = bench_pick_texels(lit->order, lit->count,
-                                     options->quick ? QUICK_TEXELS : TEXELS, TEXELS_PER_RUN,
-                                     &c.list);
+    c.list_count = bench_pick_texels(lit->order, lit->count, options->quick ? QUICK_TEXELS : TEXELS,
+                                     TEXELS_PER_RUN, &c.list);
     return run_gatherer(&c, options, table);
 }
 
@@ -205,9 +202,9 @@ int bench_light(const bench_options *options)
     bool good = true;
     const size_t count = options->quick || options->scene != NULL ? 1 : SCENES;
     for (size_t i = 0; i < count && good; i++) {
-        good = options->scene != NULL ? run_scene(options->scene, 1024, true, options, &table)
-                                      : run_scene(scenes[i].name, scenes[i].size, scenes[i].sky,
-                                                  options, &table);
+        good = options->scene != NULL
+                   ? run_scene(options->scene, 1024, true, options, &table)
+                   : run_scene(scenes[i].name, scenes[i].size, scenes[i].sky, options, &table);
     }
     if (good) {
         bench_table_print(&table, options);

@@ -162,9 +162,9 @@ static alp_result replay_range(void *user, uint32_t begin, uint32_t end, uint32_
 {
     sent_rays *s = user;
     const uint32_t last = end * REPLAY_BLOCK;
-    s->replayed[worker] += raw_embree_time_calls(
-        s->raw, &s->record, begin * REPLAY_BLOCK,
-        last < s->record.count ? last : s->record.count, alpi_seconds);
+    s->replayed[worker] +=
+        raw_embree_time_calls(s->raw, &s->record, begin * REPLAY_BLOCK,
+                              last < s->record.count ? last : s->record.count, alpi_seconds);
     return ALP_OK;
 }
 

@@ -10,10 +10,10 @@
 typedef struct lit_scene {
     bench_scene scene;
     bench_map map;
-    alpi_receivers receivers;              // texels of the map
-    uint32_t *order, count;         // those that have light of their own
-    alpi_lighting *lighting;               // all light
-    alpi_lighting *soft, *direct;          // it in two, where the sky is gathered with what bounces
+    alpi_receivers receivers;     // texels of the map
+    uint32_t *order, count;       // those that have light of their own
+    alpi_lighting *lighting;      // all light
+    alpi_lighting *soft, *direct; // it in two, where the sky is gathered with what bounces
     alpi_radiosity solution;
 } lit_scene;
 

@@ -219,8 +219,8 @@ void bench_map_close(const bench_scene *scene, bench_map *map)
 uint32_t bench_pick_texels(const uint32_t *order, uint32_t count, uint32_t wanted, uint32_t run,
                            uint32_t **list)
 {
-    const uint32_t run_count = wanted < count ? wanted / run : 1;
-    const uint32_t each = wanted < count ? run : count;
+    const uint32_t run_count = wanted < count && wanted > run ? wanted / run : 1;
+    const uint32_t each = wanted < count ? (run < wanted ? run : wanted) : count;
     uint32_t picked = 0;
     *list = bench_allocate((size_t)run_count * each, sizeof **list);
     for (uint32_t r = 0; r < run_count; r++) {

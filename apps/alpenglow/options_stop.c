@@ -23,9 +23,9 @@ static const option rows[] = {
      .help = "Bake in rounds of more and more rays until the stated error (root mean square of the "
              "standard errors, over the mean of the map) is at most this, and its 99th percentile "
              "at most four times this. --ao-samples is then the most rays a texel may get, 65536 "
-             "when it is not given. Half the error takes about 2.7 times the rays. Light goes for "
-             "both too: for 1 percent without --samples and without this; half the error takes "
-             "four times the rays."},
+             "when it is not given. Half the error takes about 2.7 times the rays. Light that "
+             "bounces, gathered by rays, is held to both too, and goes for 1 percent with neither "
+             "this nor --samples; half the error takes four times the rays."},
     {.id = OPTION_TIME_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

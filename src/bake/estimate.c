@@ -200,7 +200,8 @@ static alp_result run_pilot(const alpi_bake_job *job, double area, pilot *p, uin
 
 // --- rays ----------------------------------------------------------------------------------------
 
-/// Samples of direct light for each texel, as light_rounds.c would go on with texels like these.
+/// Samples of direct light for each texel, as light_rounds.c would go on with texels like these;
+/// what it adds for the worst of a hundred is little, and left out.
 static double count_direct(const alp_light_options *o, pilot *p, uint32_t count)
 {
     enum { ROUNDS = 12, MOST = 65536 };

@@ -79,10 +79,10 @@ void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
 
 /// Shows the rays of a round what is known by now. The few samples of direct light of the first
 /// round make noise in corners, where a texel sees few others, that no number of rays takes off.
-/// What texels gathered is finer than what blocks did, and there are more rays in it; with a last
-/// bounce, or layers, it is more than what may be met. Where only some surfaces are baked, rays
-/// meet other texels.
-/// @param rays  of a texel, so far: task->values are theirs
+/// What texels gathered by as many rays is finer than what blocks did. With a number of bounces it
+/// has one too many, and layers need it apart: there, blocks' light is shown. Where only some
+/// surfaces are baked, rays meet other texels, and nothing is shown anew.
+/// @param rays  of a texel, so far: task->values are what they brought
 /// @param noise out: 1 / √ rays that a block's light is known by from now on
 /// @return ALP_OK; CANCELLED
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,

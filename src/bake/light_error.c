@@ -66,15 +66,16 @@ double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *er
     return error->over_mean.p99 * sqrt(fmax(all - direct - bounced, 0.0) / all);
 }
 
-void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, uint32_t rays,
-                     uint32_t direct)
+void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, bool cut_off,
+                     uint32_t rays, uint32_t direct)
 {
     const double wanted = (double)job->options.light.error;
-    if (job->report.cut_off) {
+    const double stated = isfinite(error->rms) ? error->rms : 0.0; // in the dark there is none
+    if (cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
                   "light ended before its time, after %u rays a texel and %u samples of each "
                   "light; the stated error is %.2g %%, and another run gives other bits",
-                  rays, direct, 100.0 * error->rms);
+                  rays, direct, 100.0 * stated);
     } else if (wanted > 0.0 && error->rms > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
                   "the stated error of the light is %.2g %% after %u rays a texel and %u samples "

@@ -37,8 +37,8 @@ double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *er
                        alpi_light_noise *noise);
 
 /// Warns of light that was cut off, or whose error is larger than wanted.
-/// @param rays, direct samples of a texel
-void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, uint32_t rays,
-                     uint32_t direct);
+/// @param cut_off whether the light was   @param rays, direct samples of a texel
+void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, bool cut_off,
+                     uint32_t rays, uint32_t direct);
 
 #endif

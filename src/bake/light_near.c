@@ -31,14 +31,14 @@ alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task
                            const alpi_radiosity *solution, uint32_t rays, double *noise)
 {
     const alpi_radiosity_options *o = &solution->options;
-    const bool finer = o->layers == NULL && o->bounces > ALPI_RADIOSITY_PASS_LIMIT;
     const double by_block = (double)o->gatherer->packet_count * ALPI_PACKET;
     const double by_texels = (double)rays * (double)job->report.light_traced /
                              fmax((double)solution->patches.block_count, 1.0);
-    *noise = 1.0 / sqrt(by_block);
+    const bool finer = solution->texels == NULL && o->layers == NULL &&
+                       o->bounces > ALPI_RADIOSITY_PASS_LIMIT && by_texels >= by_block;
+    *noise = 1.0 / sqrt(finer ? by_texels : by_block);
     if (solution->texels != NULL) {
         return ALP_OK;
     }
-    *noise = finer ? 1.0 / sqrt(fmax(by_texels, by_block)) : *noise;
     return alpi_radiosity_show(solution, ALPI_NONE, finer ? task->values : NULL, &task->progress);
 }

@@ -18,7 +18,7 @@ static alpi_light_plan plan_for(const alpi_light_effort *e, const alpi_light_noi
     // root of its samples; that of rays, which are one sequence, faster (measured, .6 to .7).
     const double dear = 2.5;
     const double falls[2] = {0.5, 0.62};
-    alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim};
+    alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim, .noisy = noise->noisy};
     p.direct = more_samples(noise->direct, p.for_direct, falls[0]) * e->direct;
     p.rays = more_samples(noise->bounced, sqrt(share) * aim, falls[1]) * e->rays;
     p.cost = noise->noisy * e->texels * p.direct + dear * e->traced * p.rays;

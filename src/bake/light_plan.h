@@ -13,11 +13,11 @@ typedef struct alpi_light_effort {
     double traced;       // that send rays
 } alpi_light_effort;
 
-/// Errors of the two kinds of light, over the mean of all: those of the whole map, or of the texels
-/// that err most.
+/// Errors of the two kinds of light, over a mean: those of the whole map, or of the texels that err
+/// most.
 typedef struct alpi_light_noise {
     double direct, bounced;
-    double noisy; // share of the texels that more samples of direct light would go to
+    double noisy; // share of the texels that more samples of direct light would go to, about
 } alpi_light_noise;
 
 /// What a round adds: samples of direct light, and rays.
@@ -25,6 +25,7 @@ typedef struct alpi_light_plan {
     double direct, rays; // 0: none
     double for_direct;   // error that direct light would have then
     double cost;
+    double noisy; // share of the texels that more direct light is for, about
 } alpi_light_plan;
 
 /// The cheapest way to an error.

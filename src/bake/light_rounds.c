@@ -54,13 +54,15 @@ typedef struct rounds {
     uint32_t *list;                      // [texels] while direct light is gathered
     uint8_t *noisy;                      // [texels] the same
     uint32_t number;                     // of the round
-    double ray_seconds, direct_seconds;  // that a ray more of each texel took, and a direct sample
+    double ray_seconds;                  // of a ray more of each texel
+    double direct_seconds;               // of a sample more of a texel
     double mean, map_mean;               // of all light, and of that of the map: see measure()
     double direct_error, bounced_error;  // root mean squares over a mean
     double bounced_rms;                  // of bounced light, a soft sky's apart
     double solved_error;                 // of the solution that rays meet, over a mean too
-    double solved_noise;  // 1 / √ rays that a block of it is known by, mean of rays
-    alpi_light_error map; // as the map would be stated; see look_at_map()
+    double solved_noise;                 // 1 / √ rays that a block of it is known by, on average
+    alpi_light_error map;                // as the map would be stated; see look_at_map()
+    bool cut_off;                        // by the clock, or by who watches
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -291,7 +293,7 @@ static alp_result add_direct(rounds *r, double more, double wanted)
         alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
     scale_layers(r, count, samples, true);
     r->job->report.rays += output.rays;
-    r->direct_seconds = (alpi_seconds() - began) / samples;
+    r->direct_seconds = (alpi_seconds() - began) / ((double)samples * fmax(count, 1.0));
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t texel = r->list[i];
         merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
@@ -440,7 +442,9 @@ static alp_result improve(rounds *r, bool *done)
     }
     r->number++;
     const double direct_asked = direct, rays_asked = rays;
-    direct = affordable(r, direct, r->direct_seconds * (rays > 0.0 ? 2.0 : 1.0), r->direct);
+    const double listed = fmax(p.noisy * (double)r->task->count, 1.0); // texels, about
+    direct =
+        affordable(r, direct, listed * r->direct_seconds * (rays > 0.0 ? 2.0 : 1.0), r->direct);
     if (direct > 0.0) {
         alpi_light_clock_part(r->task->clock, true, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(add_direct(r, direct, p.for_direct * r->mean));
@@ -451,10 +455,10 @@ static alp_result improve(rounds *r, bool *done)
         ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), REPLICATES)));
     }
     if (direct < direct_asked || rays < rays_asked) { // the clock had a say
-        r->job->report.cut_off = true;
+        r->cut_off = true;
     }
     if (direct <= 0.0 && rays <= 0.0) { // no time for more
-        *done = r->job->report.cut_off = true;
+        *done = r->cut_off = true;
     }
     return measure(r);
 }
@@ -482,7 +486,8 @@ static alp_result begin(rounds *r)
         r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
     r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
     r->direct = r->solution->options.direct_samples;
-    r->direct_seconds = r->solution->direct_seconds / r->direct;
+    r->direct_seconds =
+        r->solution->direct_seconds / ((double)r->direct * fmax(r->task->count, 1.0));
     return measure(r);
 }
 
@@ -523,10 +528,11 @@ static bool may_be_dropped(const rounds *r)
 static alp_result warn_of_error(rounds *r)
 {
     const bool wanted = r->job->options.light.error > 0.0f;
-    if (r->job->report.cut_off || (wanted && isnan(r->map.over_mean.p99))) {
+    if (r->cut_off || (wanted && isnan(r->map.over_mean.p99))) {
         ALP_TRY(look_at_map(r));
     }
-    alpi_light_warn(r->job, &r->map.over_mean, r->rays, r->direct);
+    r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
+    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->rays, r->direct);
     return ALP_OK;
 }
 
@@ -538,11 +544,17 @@ static alp_result run_rounds(rounds *r)
     }
     alp_result result = go_on(r);
     if (result == ALP_ERROR_CANCELLED && may_be_dropped(r)) {
-        r->job->report.cut_off = true;
+        r->cut_off = true;
         r->task->clock->ended = true; // asked again it would cancel what it wanted kept
         result = measure(r);
     }
-    return result == ALP_OK ? warn_of_error(r) : result;
+    if (result == ALP_OK) {
+        const bool ended = r->task->clock->ended;
+        r->task->clock->ended = true; // there are whole rounds, too late to lose them
+        result = warn_of_error(r);
+        r->task->clock->ended = ended;
+    }
+    return result;
 }
 
 // --- the end -------------------------------------------------------------------------------------

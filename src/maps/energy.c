@@ -4,14 +4,36 @@
 
 #include <math.h>
 
+/// Share of the rays of the texels beside one, of its chart and not covered, that do not end on the
+/// back of a surface; the rest is what single-sided surfaces hide. 1 where there is no such texel.
+static float open_share_beside(const alpi_radiosity *r, uint32_t texel)
+{
+    const alpi_patches *p = &r->patches;
+    const alpi_texels *t = p->texels;
+    const uint16_t *pixel = t->pixels[texel];
+    float sum = 0.0f;
+    uint32_t count = 0;
+    for (int k = 0; k < 9; k++) {
+        const uint32_t n = alpi_lattice_texel(p->lattice, t->pages[texel], pixel[0] + k % 3 - 1,
+                                              pixel[1] + k / 3 - 1);
+        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && p->blocks[n] != ALPI_NONE &&
+            t->valid[n] == 0 && (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
+            sum += 1.0f - r->lost[p->blocks[n]][1];
+            count++;
+        }
+    }
+    return count > 0 ? sum / (float)count : 1.0f;
+}
+
 float alpi_radiosity_brighter(const alpi_radiosity *r, uint32_t texel, uint32_t block)
 {
-    enum { WHOLE = 0xffff };
     const float most = 4.0f; // so that few rays do not make a light of a corner
     const alpi_texels *texels = r->patches.texels;
-    const uint32_t valid = texels->valid != NULL ? texels->valid[texel] : 0;
-    const bool covered = valid != 0 && valid != WHOLE;
-    return covered ? 1.0f / fmaxf(1.0f - r->lost[block][1], 1.0f / most) : 1.0f;
+    if (texels->valid == NULL || texels->valid[texel] == 0) {
+        return 1.0f;
+    }
+    const float beside = open_share_beside(r, texel), own = 1.0f - r->lost[block][1];
+    return fminf(fmaxf(beside / fmaxf(own, 1.0f / most), 1.0f), most);
 }
 
 static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
@@ -24,20 +46,21 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     const float *direct = r->direct[back * p->texels->count + t].mean;
     const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
     const double brighter = back == 0 ? (double)alpi_radiosity_brighter(r, t, receiver) : 1.0;
-    const double escaped = brighter * (double)r->lost[receiver][0]; // of the light of its open part
-    const double behind = 1.0 - brighter * (1.0 - (double)r->lost[receiver][1]);
+    // Of what is emitted, and of what is reflected, which leaves the open part alone.
+    const double lost[2] = {(double)r->lost[receiver][0], (double)r->lost[receiver][1]};
+    const double escaped = brighter * lost[0], behind = 1.0 - brighter * (1.0 - lost[1]);
     const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
-        const double shot = albedo * (first + (double)before[k]) + emitted;
+        const double reflected = albedo * (first + (double)before[k]);
         e->received += share * first;
         e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
-        e->escaped += share * escaped * shot;
-        e->lost_behind += share * behind * shot;
+        e->escaped += share * (escaped * reflected + lost[0] * emitted);
+        e->lost_behind += share * (behind * reflected + lost[1] * emitted);
         e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
         surface_emitted[0] += share * emitted;
-        surface_emitted[1] += share * emitted * (1.0 - escaped - behind);
+        surface_emitted[1] += share * emitted * (1.0 - lost[0] - lost[1]);
     }
 }
 

@@ -309,7 +309,10 @@ static uint8_t nearest_in(const alpi_patches *p, const page_square *s)
 {
     uint8_t nearest = ALPI_FAR;
     for (uint32_t i = 0; i < s->count && p->near != NULL; i++) {
-        nearest = p->near[s->texels[i]] > nearest ? p->near[s->texels[i]] : nearest;
+        const uint32_t t = s->texels[i];
+        const bool covered = p->texels->valid != NULL && p->texels->valid[t] != 0; // in part
+        const uint8_t near = covered ? ALPI_TOUCHING : p->near[t];
+        nearest = near > nearest ? near : nearest;
     }
     return nearest;
 }

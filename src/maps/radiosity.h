@@ -83,9 +83,10 @@ typedef struct alpi_radiosity {
     alpi_energy energy;
 } alpi_radiosity;
 
-/// Light of what rays can meet of a texel's front, over that of all its points. Where other
-/// geometry covers a part of it, finer than validity tells, some points lie in that: they are dark,
-/// see its back faces, and are met by nobody.
+/// Light of what rays can meet of a texel's front, over that of all its points; 1 to 4. Where other
+/// geometry covers a part of it, finer than validity tells, some points lie in that: they are dark
+/// and nothing meets them. How many is told by the rays that end on backs of surfaces, more than
+/// those of the texels beside do.
 /// @param block of the texel
 float alpi_radiosity_brighter(const alpi_radiosity *radiosity, uint32_t texel, uint32_t block);
 /// Fills radiosity->energy, by what blocks gathered last.
@@ -106,9 +107,8 @@ void alpi_radiosity_settle(alpi_radiosity *radiosity, bool shown_again);
 /// Puts the light of one layer into the cells, as it goes into the last bounce; ALPI_NONE: of all
 /// of them, which is there after solving, by the direct light of then.
 /// @param gathered NULL, or [texels] what fronts have gathered by rays of their own, the soft sky's
-///                 included, in the place of what blocks did, which are of one light all over: what
-///                 their open part reflects is seen by more than what a corner does, so that rays
-///                 that meet blocks find too little (.2 % of the mean in builtin:atrium)
+///                 included, in the place of what blocks did, which have one value for all of their
+///                 texels
 /// @return ALP_OK; CANCELLED
 alp_result alpi_radiosity_show(const alpi_radiosity *radiosity, uint32_t layer,
                                const alpi_reference_value *gathered,

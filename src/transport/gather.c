@@ -152,7 +152,7 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
     double *sum = sums->light[packet % gatherer->replicates];
     const bool even = gatherer->weights == NULL;
     const float *weights = even ? ones : gatherer->weights[packet];
-    float parts[4] = {0.0f}; // the last, of sides, is nothing: four make a vector
+    float parts[4] = {0.0f}; // the last, of sides, is not used: four floats make a vector
     bool none = false;       // of the cells is one of those that are none
     for (int i = 0; i < ALPI_PACKET; i++) {
         const float *l = light[cells[i]];
