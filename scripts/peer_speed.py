@@ -23,7 +23,7 @@ difference of two seeds over root two, and ours has the same options in all scen
 falling until the error it has, over seeds too, is no larger. Scenes are asked for by light:NAME
 (light: all of them): the Cornell box, the sphere on a plane under an even sky, the teapot room with
 its own lamp, and living_room under a picture of the sky. Where the means of both are more than 3
-percent apart no ratio is given. "Apart" is what is left of the difference between both when their
+percent apart, or ours does not reach the error, no ratio is given. "Apart" is what is left of the difference between both when their
 noise is taken off, over the mean: ours is the mean over a texel's area, Cycles' that at its middle,
 which may lie under a rug; surfaces seen from behind are black in ours and reflect in Cycles; and
 what interpolation misses is in it too. Materials are Lambert's in both, no denoiser on either side.
@@ -304,6 +304,9 @@ def main():
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.2f} before\n")
     lights = [n[6:] for n in names if n.startswith("light:")]
     scenes = [n for n in names if not n.startswith("light:")]
+    unknown = [n for n in lights if n and n not in LIGHTS]
+    if unknown:
+        sys.exit(f"no light:{unknown[0]}; there are {', '.join('light:' + n for n in LIGHTS)}")
     if scenes:
         print("| scene | Cycles' error | its seconds | our rays | our error | largest | "
               "our seconds | times |")
