@@ -23,13 +23,13 @@ difference of two seeds over root two, and ours has the same options in all scen
 falling until the error it has, over seeds too, is no larger. Scenes are asked for by light:NAME
 (light: all of them): the Cornell box, the sphere on a plane under an even sky, the teapot room with
 its own lamp, and living_room under a picture of the sky. Where the means of both are more than 3
-percent apart, or ours does not reach the error, no ratio is given. "Apart" is what is left of the difference between both when their
-noise is taken off, over the mean: ours is the mean over a texel's area, Cycles' that at its middle,
-which may lie under a rug; surfaces seen from behind are black in ours and reflect in Cycles; and
-what interpolation misses is in it too. Materials are Lambert's in both, no denoiser on either side.
-Triangles without area are dropped before: with them Blender's normals are wrong (living_room).
-Processor seconds, which tell more on a busy machine, are of Cycles the bake alone and of ours the
-whole command, with reading and writing.
+percent apart, or ours does not reach the error, no ratio is given. "Apart" is what is left of the
+difference between both when their noise is taken off, over the mean: ours is the mean over a
+texel's area, Cycles' that at its middle, which may lie under a rug; surfaces seen from behind are
+black in ours and reflect in Cycles; and what interpolation misses is in it too. Materials are
+Lambert's in both, no denoiser on either side. Triangles without area are dropped before: with them
+Blender's normals are wrong (living_room). Processor seconds, which tell more on a busy machine, are
+of Cycles the bake alone and of ours the whole command, with reading and writing.
 """
 import json
 import math
