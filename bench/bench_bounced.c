@@ -229,11 +229,16 @@ static bool measure_ways(const bounced_case *c, const bench_options *options, be
 
 // --- where the time goes -------------------------------------------------------------------------
 
-static uint32_t find_no_cell(const void *user, const alpi_surface_point *point)
+static void find_no_cells(const void *user, const alpi_hits *hits, const uint32_t *met,
+                          uint32_t count, uint32_t (*cells)[ALPI_PACKET])
 {
     (void)user;
-    (void)point;
-    return ALPI_CELL_FIRST;
+    (void)hits;
+    for (uint32_t k = 0; k < count; k++) {
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            cells[k][i] = (met[k] >> i & 1u) != 0 ? ALPI_CELL_FIRST : cells[k][i];
+        }
+    }
 }
 
 /// Processor seconds of the rays of all texels. @param look whether what they meet is looked up
@@ -244,8 +249,7 @@ static bool time_rays(const bounced_case *c, bool look, double *seconds)
         .context = c->lit.scene.context, .samples = TIMED_RAYS, .replicates = REPLICATES, .seed = 1};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
     if (!look) {
-        from.light.cell = find_no_cell;
-        from.light.fetch = NULL;
+        from.light.find = find_no_cells;
     }
     const alpi_gather_job job = {.context = c->lit.scene.context,
                                  .from = &from,

@@ -43,7 +43,7 @@ static bool record_packets(gather_case *c)
             alpi_gather_packet batch[ALPI_GATHER_BATCH];
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
-            g->aim(g->user, &c->lit->receivers, c->list[i], first, count, batch);
+            g->aim(g->user, &c->lit->receivers, c->list[i], first, count, batch, NULL);
             for (uint32_t k = 0; k < count; k++) {
                 c->packets[c->packet_count++] = batch[k].rays;
             }

@@ -204,8 +204,9 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alpi_tracer *tracer = NULL, *owned = NULL;
     ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
                                &tracer, &owned));
+    const bool wanted = alpi_bake_wants_occlusion(job);
     bool quick = false;
-    if (alpi_bake_wants_occlusion(job)) {
+    if (wanted) {
         const double rays = (double)object->texel_count * job->options.occlusion.samples;
         const alp_result quickened =
             alpi_tracer_quicken(tracer, rays, options->progress, options->progress_user, &quick);
@@ -217,6 +218,7 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     job->report.seconds_build += alpi_seconds() - started;
     alp_occlusion_options occlusion = job->options.occlusion;
     occlusion.distance = object->distance;
+    occlusion.samples = wanted ? occlusion.samples : 1; // else a sequence that nobody reads
     alpi_occlusion_setup setup;
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
     if (result == ALP_OK) {

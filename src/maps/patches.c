@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/patch_lookup.h"
 #include "scene/lighting.h"
 
 #include <math.h>
@@ -12,16 +13,22 @@ enum { ALBEDO_STRATA = 4, SPACING_LIMIT = 16, BLOCK_LIMIT = SPACING_LIMIT * SPAC
 
 // --- what a texel reflects -----------------------------------------------------------------------
 
-/// Whether all points of a texel are alike: of one triangle, without textures or vertex colours.
+static uint32_t material_of(const alp_scene *scene, uint32_t triangle)
+{
+    return scene->surfaces[scene->triangle_surface[triangle]].material;
+}
+
+/// Whether all points of a texel are alike: of one material, without textures or vertex colours.
 static bool is_even(const alpi_patches *p, uint32_t texel)
 {
     const alp_scene *scene = p->scene;
     const alpi_texels *t = p->texels;
-    if (t->piece_first[texel] != t->piece_first[texel + 1]) {
-        return false;
+    const uint32_t material = material_of(scene, t->triangles[texel]);
+    for (uint32_t k = t->piece_first[texel]; k < t->piece_first[texel + 1]; k++) {
+        if (material_of(scene, alpi_atlas_triangle(t->atlas, t->piece_triangles[k])) != material) {
+            return false;
+        }
     }
-    const uint32_t material =
-        scene->surfaces[scene->triangle_surface[t->triangles[texel]]].material;
     if (scene->colors != NULL || material == ALPI_NONE) {
         return scene->colors == NULL;
     }
@@ -39,7 +46,7 @@ static vec3 outward(const alp_scene *scene, uint32_t triangle)
 
 static bool is_masked_out(const alp_scene *scene, const alpi_texel_spot *s)
 {
-    const uint32_t material = scene->surfaces[scene->triangle_surface[s->triangle]].material;
+    const uint32_t material = material_of(scene, s->triangle);
     return material != ALPI_NONE && scene->materials[material].alpha_mode == ALPI_ALPHA_MASK &&
            alpi_surface_is_cut(scene, s->triangle, s->b1, s->b2);
 }
@@ -90,11 +97,13 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
 {
     (void)worker;
     const alpi_patches *p = user;
-    uint32_t known = ALPI_NONE; // an even texel, whose triangle is mostly that of the next one too
+    uint32_t known = ALPI_NONE; // an even texel, whose material is mostly that of the next one too
     for (uint32_t t = begin; t < end; t++) {
         note_side(p, t);
         const bool even = is_even(p, t);
-        if (even && known != ALPI_NONE && p->texels->triangles[known] == p->texels->triangles[t]) {
+        if (even && known != ALPI_NONE &&
+            material_of(p->scene, p->texels->triangles[known]) ==
+                material_of(p->scene, p->texels->triangles[t])) {
             memcpy(p->reflectances[t], p->reflectances[known], sizeof *p->reflectances);
             p->emissions[t] = p->emissions[known];
             continue;
@@ -103,156 +112,6 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
         known = even ? t : known;
     }
     return ALP_OK;
-}
-
-// --- where light is looked up --------------------------------------------------------------------
-
-static alpi_patch_place *place_of(const alpi_patches *p, uint32_t texel)
-{
-    const uint16_t *pixel = p->texels->pixels[texel];
-    return &p->places[alpi_lattice_pixel(p->lattice, p->texels->pages[texel], pixel[0], pixel[1])];
-}
-
-/// Whether a texel is of a chart and shows itself.
-static bool has_own_light(const alpi_patches *p, uint32_t texel, uint32_t chart)
-{
-    const alpi_patch_place *place = place_of(p, texel);
-    return place->chart == chart && place->texel == texel;
-}
-
-/// The nearest texel of a chart, with light of its own, about a pixel: in rings of up to `rings`.
-static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64_t y,
-                          uint32_t chart, int rings)
-{
-    uint32_t best = ALPI_NONE;
-    int best_distance = INT32_MAX;
-    for (int dy = -rings; dy <= rings; dy++) {
-        for (int dx = -rings; dx <= rings; dx++) {
-            const uint32_t t = alpi_lattice_texel(p->lattice, page, x + dx, y + dy);
-            const int distance = dx * dx + dy * dy;
-            if (t != ALPI_NONE && distance < best_distance && has_own_light(p, t, chart)) {
-                best = t;
-                best_distance = distance;
-            }
-        }
-    }
-    return best;
-}
-
-/// A texel of each chart, and what is found at each pixel: its texel, or the nearest with light of
-/// its own.
-static void find_places(alpi_patches *p)
-{
-    enum { RINGS = 3 };
-    const alpi_texels *texels = p->texels;
-    for (uint32_t t = 0; t < texels->count; t++) {
-        const uint32_t chart = texels->charts[t];
-        const bool lit = p->blocks[t] != ALPI_NONE;
-        *place_of(p, t) = (alpi_patch_place){chart, lit ? t : ALPI_NONE};
-        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE && lit) {
-            p->chart_texels[chart] = t;
-        }
-    }
-    for (uint32_t t = 0; t < texels->count; t++) {
-        const uint16_t *pixel = texels->pixels[t];
-        const uint32_t chart = texels->charts[t];
-        alpi_patch_place *place = place_of(p, t);
-        if (p->blocks[t] == ALPI_NONE) {
-            place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
-        }
-        if (place->texel == ALPI_NONE && chart != ALPI_NONE) {
-            place->texel = p->chart_texels[chart];
-        }
-    }
-}
-
-/// The pixel of a point of a triangle, which may be off the page.
-static void find_pixel(const alpi_patches *p, uint32_t triangle, float b1, float b2, int32_t at[2])
-{
-    const float(*uv)[2] = (const float(*)[2])p->atlas->corner_uvs[triangle];
-    const float u = uv[0][0] + b1 * (uv[1][0] - uv[0][0]) + b2 * (uv[2][0] - uv[0][0]);
-    const float v = uv[0][1] + b1 * (uv[1][1] - uv[0][1]) + b2 * (uv[2][1] - uv[0][1]);
-    at[0] = (int32_t)(u * (float)p->lattice->width);
-    at[1] = (int32_t)(v * (float)p->lattice->height);
-}
-
-/// NULL: off the page.
-static const alpi_patch_place *place_at(const alpi_patches *p, uint32_t page, const int32_t at[2])
-{
-    const alpi_lattice *l = p->lattice;
-    const bool on =
-        at[0] >= 0 && at[1] >= 0 && at[0] < (int32_t)l->width && at[1] < (int32_t)l->height;
-    return on ? &p->places[alpi_lattice_pixel(l, page, (uint32_t)at[0], (uint32_t)at[1])] : NULL;
-}
-
-static void fetch_place(const void *user, const alpi_surface_point *point)
-{
-    const alpi_patches *p = user;
-    const uint32_t page = p->atlas->triangle_pages[point->triangle];
-    int32_t at[2];
-    if (page == ALPI_NONE) {
-        return;
-    }
-    find_pixel(p, point->triangle, point->b1, point->b2, at);
-    const alpi_patch_place *place = place_at(p, page, at);
-    if (place != NULL) {
-        __builtin_prefetch(place);
-    }
-}
-
-uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2)
-{
-    const alp_atlas *atlas = patches->atlas;
-    const uint32_t page = atlas->triangle_pages[triangle], chart = atlas->triangle_charts[triangle];
-    if (page == ALPI_NONE || chart == ALPI_NONE) {
-        return ALPI_NONE;
-    }
-    int32_t at[2];
-    find_pixel(patches, triangle, b1, b2, at);
-    const alpi_patch_place *place = place_at(patches, page, at);
-    if (place != NULL && place->chart == chart) {
-        return place->texel;
-    }
-    const uint32_t near = find_near(patches, page, at[0], at[1], chart, 1);
-    return near != ALPI_NONE ? near : patches->chart_texels[chart];
-}
-
-static uint32_t find_cell(const void *user, const alpi_surface_point *point)
-{
-    const alpi_patches *p = user;
-    const uint32_t texel = alpi_patches_find(p, point->triangle, point->b1, point->b2);
-    if (texel == ALPI_NONE) {
-        return ALPI_CELL_BLACK;
-    }
-    if (point->from_behind) {
-        if (!p->two_sided) {
-            return ALPI_CELL_BLACK;
-        }
-        uint8_t *seen = &p->seen_backs[p->blocks[texel]];
-        if (__atomic_load_n(seen, __ATOMIC_RELAXED) == ALPI_BACK_UNSEEN) {
-            __atomic_store_n(seen, ALPI_BACK_SEEN, __ATOMIC_RELAXED);
-        }
-        return alpi_patches_cell(p, texel, ALPI_BACK);
-    }
-    return alpi_patches_cell(p, texel, ALPI_FRONT);
-}
-
-static void look_up(const void *user, const alpi_surface_point *points, uint32_t count,
-                    vec3 *radiance)
-{
-    const alpi_patches *p = user;
-    for (uint32_t i = 0; i < count; i++) {
-        radiance[i] = vec3_load(p->cells[find_cell(user, &points[i])]);
-    }
-}
-
-alpi_surface_light alpi_patches_light(const alpi_patches *patches)
-{
-    return (alpi_surface_light){.reflected = look_up,
-                                .user = patches,
-                                .cell = find_cell,
-                                .fetch = fetch_place,
-                                .cells = (const float(*)[4])patches->cells};
 }
 
 // --- blocks --------------------------------------------------------------------------------------
@@ -533,7 +392,7 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
     }
     ALP_TRY(make_blocks(p, spacing));
     ALP_TRY(make_rest(p));
-    find_places(p);
+    ALP_TRY(alpi_patch_places_create(p));
     const alpi_task_progress told = {.stage = "light"};
     return alpi_parallel_for(p->context, texels, 1024, find_materials, p, &told);
 }
@@ -584,6 +443,7 @@ void alpi_patches_destroy(alpi_patches *patches)
     if (context == NULL) {
         return;
     }
+    alpi_release(context, patches->triangles);
     alpi_release(context, patches->places);
     alpi_release(context, patches->chart_texels);
     alpi_release(context, patches->reflectances);

@@ -19,6 +19,14 @@ typedef enum alpi_side { ALPI_FRONT = 0, ALPI_BACK = 1 } alpi_side;
 /// Whether the backs of a block are seen, and so need light.
 typedef enum alpi_back { ALPI_BACK_UNSEEN = 0, ALPI_BACK_SEEN, ALPI_BACK_LIT } alpi_back;
 
+/// Where the points of a triangle are: in pixels at + b1 along + b2 across of its page. All that a
+/// look needs of a triangle is here, side by side: most of them miss every cache.
+typedef struct alpi_patch_triangle {
+    float at[2], along[2], across[2];
+    uint32_t chart;
+    uint32_t page; // ALPI_NONE: it shows no light, as it has no chart
+} alpi_patch_triangle;
+
 /// What a ray finds at a pixel: one look instead of three, for most of them miss every cache.
 typedef struct alpi_patch_place {
     uint32_t chart; // ALPI_NONE: no texel is there
@@ -31,11 +39,12 @@ typedef struct alpi_patches {
     const alp_atlas *atlas;
     const alpi_texels *texels;
     const alpi_lattice *lattice;
-    const uint8_t *near;      // of the block rule, while blocks are made
-    alpi_patch_place *places; // [pages][height][width]
-    uint32_t *chart_texels;   // [charts] a texel of each, ALPI_NONE where it has none
-    float (*reflectances)[3]; // [texels] albedo, mean over the texel
-    float *emissions;         // [texels] radiance of the front, mean over the texel and channels
+    const uint8_t *near;            // of the block rule, while blocks are made
+    alpi_patch_triangle *triangles; // [faces of the atlas]
+    alpi_patch_place *places;       // [pages][height][width]
+    uint32_t *chart_texels;         // [charts] a texel of each, ALPI_NONE where it has none
+    float (*reflectances)[3];       // [texels] albedo, mean over the texel
+    float *emissions; // [texels] radiance of the front, mean over the texel and channels
     uint32_t block_count;
     uint32_t *blocks;                     // [texels] block of each; ALPI_NONE: no light of its own
     uint32_t *block_first, *block_texels; // texels of each block, one after the other

@@ -79,6 +79,7 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
         hits->distance[i] = INFINITY;
         hits->triangle[i] = ALPI_NONE;
         hits->b1[i] = hits->b2[i] = 0.0f;
+        hits->behind &= ~(1u << i);
         for (uint32_t t = 0; t < scene->triangle_count; t++) {
             hit h;
             if (scene->triangle_usable[t] && intersect(scene, t, origin, direction, &h) &&
@@ -89,6 +90,7 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
                 hits->triangle[i] = t;
                 hits->b1[i] = (float)h.b1;
                 hits->b2[i] = (float)h.b2;
+                hits->behind = (hits->behind & ~(1u << i)) | (h.from_behind ? 1u << i : 0u);
             }
         }
     }

@@ -36,6 +36,8 @@ struct alpi_tracer {
     RTCScene quick_scene;                // the same geometries without care for edges, or NULL
     uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
     uint32_t count[GEOMETRY_COUNT];
+    uint32_t in_row[GEOMETRY_COUNT];   // of the first so many, triangle i is triangle 0 plus i: to
+                                       // read it would mostly be a miss
     uint32_t first_vertex, end_vertex; // of the scene: all that the triangles use are between
 };
 
@@ -67,11 +69,17 @@ static uint32_t lane_uint(const void *fields, unsigned n, unsigned field, unsign
     return value;
 }
 
+static uint32_t find_triangle(const alpi_tracer *tracer, uint32_t geometry, uint32_t primitive)
+{
+    return primitive < tracer->in_row[geometry] ? tracer->triangles[geometry][0] + primitive
+                                                : tracer->triangles[geometry][primitive];
+}
+
 static uint32_t lane_triangle(const struct RTCFilterFunctionNArguments *a, unsigned lane)
 {
     const trace_context *context = (const void *)a->context;
     uint32_t geometry = lane_uint(a->hit, a->N, HIT_GEOMETRY, lane);
-    return context->tracer->triangles[geometry][lane_uint(a->hit, a->N, HIT_PRIMITIVE, lane)];
+    return find_triangle(context->tracer, geometry, lane_uint(a->hit, a->N, HIT_PRIMITIVE, lane));
 }
 
 /// Lets rays through where alpha cuts the surface.
@@ -199,7 +207,11 @@ static geometry_kind kind_of(const alp_scene *scene, const bool *surfaces, uint3
 
 static void add_triangle(alpi_tracer *tracer, geometry_kind kind, uint32_t triangle)
 {
-    tracer->triangles[kind][tracer->count[kind]++] = triangle;
+    const uint32_t place = tracer->count[kind]++;
+    tracer->triangles[kind][place] = triangle;
+    if (tracer->in_row[kind] == place && triangle == tracer->triangles[kind][0] + place) {
+        tracer->in_row[kind]++;
+    }
     for (int k = 0; k < 3; k++) {
         const uint32_t vertex = tracer->scene->triangles[triangle][k];
         tracer->first_vertex = vertex < tracer->first_vertex ? vertex : tracer->first_vertex;
@@ -461,24 +473,82 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
     }
 }
 
-static void take_hits(const alpi_tracer *tracer, const struct RTCRayHit8 *found, const int *valid,
+static const _Alignas(32) uint32_t LANE_BITS[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
+
+/// Lanes whose ray goes along Embree's normal, (v1−v0)×(v2−v0).
+static uint32_t find_behind(const struct RTCRayHit8 *found)
+{
+    uint32_t behind = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float along = found->ray.dir_x[i] * found->hit.Ng_x[i] +
+                            found->ray.dir_y[i] * found->hit.Ng_y[i] +
+                            found->ray.dir_z[i] * found->hit.Ng_z[i];
+        behind |= along > 0.0f ? LANE_BITS[i] : 0u;
+    }
+    return behind;
+}
+
+/// Hits of the lanes that take part.
+static void take_some(const alpi_tracer *tracer, const struct RTCRayHit8 *found, uint32_t active,
                       alpi_hits *hits)
 {
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const bool hit = found->hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-        const float distance = hit ? found->ray.tfar[i] : INFINITY;
-        const float b1 = hit ? found->hit.u[i] : 0.0f, b2 = hit ? found->hit.v[i] : 0.0f;
-        hits->distance[i] = valid[i] != 0 ? distance : hits->distance[i];
-        hits->b1[i] = valid[i] != 0 ? b1 : hits->b1[i];
-        hits->b2[i] = valid[i] != 0 ? b2 : hits->b2[i];
-    }
+    uint32_t hit_lanes = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         const uint32_t geometry = found->hit.geomID[i];
-        if (valid[i] != 0) {
-            hits->triangle[i] = geometry != RTC_INVALID_GEOMETRY_ID
-                                    ? tracer->triangles[geometry][found->hit.primID[i]]
-                                    : ALPI_NONE;
+        if ((active >> i & 1u) == 0) {
+            continue;
         }
+        const bool hit = geometry != RTC_INVALID_GEOMETRY_ID;
+        hits->distance[i] = hit ? found->ray.tfar[i] : INFINITY;
+        hits->b1[i] = hit ? found->hit.u[i] : 0.0f;
+        hits->b2[i] = hit ? found->hit.v[i] : 0.0f;
+        hits->triangle[i] = hit ? find_triangle(tracer, geometry, found->hit.primID[i]) : ALPI_NONE;
+        hit_lanes |= hit ? 1u << i : 0u;
+    }
+    hits->behind = (hits->behind & ~active) | (find_behind(found) & hit_lanes);
+}
+
+/// The same of all lanes, where triangle i is that of primitive i, but for `first`: without a
+/// branch.
+static void take_all(uint32_t first, const struct RTCRayHit8 *found, alpi_hits *hits)
+{
+    _Alignas(32) uint32_t hit[ALPI_PACKET];
+    uint32_t hit_lanes = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        hit[i] = found->hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? UINT32_MAX : 0;
+        hit_lanes |= hit[i] & LANE_BITS[i];
+        hits->triangle[i] = (first + found->hit.primID[i]) | ~hit[i]; // ALPI_NONE is all ones
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        hits->distance[i] = hit[i] != 0 ? found->ray.tfar[i] : INFINITY;
+        hits->b1[i] = hit[i] != 0 ? found->hit.u[i] : 0.0f;
+        hits->b2[i] = hit[i] != 0 ? found->hit.v[i] : 0.0f;
+    }
+    hits->behind = find_behind(found) & hit_lanes;
+}
+
+/// Whether all its triangles are solid, and one after the other in the scene too.
+static bool is_in_row(const alpi_tracer *tracer)
+{
+    const uint32_t count = tracer->in_row[GEOMETRY_SOLID];
+    return count > 0 && count == alpi_tracer_triangle_count(tracer);
+}
+
+/// Field by field: see alpi_rays_clear.
+static void copy_rays(const alpi_rays *rays, struct RTCRay8 *to)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        to->org_x[i] = rays->origin_x[i];
+        to->org_y[i] = rays->origin_y[i];
+        to->org_z[i] = rays->origin_z[i];
+        to->tnear[i] = rays->minimum[i];
+        to->dir_x[i] = rays->direction_x[i];
+        to->dir_y[i] = rays->direction_y[i];
+        to->dir_z[i] = rays->direction_z[i];
+        to->time[i] = rays->time[i];
+        to->tfar[i] = rays->maximum[i];
+        to->mask[i] = UINT32_MAX; // this build of Embree has ray masks on
+        to->id[i] = to->flags[i] = 0;
     }
 }
 
@@ -488,12 +558,15 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     struct RTCRayHit8 found;
     _Alignas(32) int some[ALPI_PACKET];
     const int *valid = spread_bits(active, some);
-    memcpy(&found.ray, rays, sizeof found.ray);
-    memset(found.ray.mask, 0xff, sizeof found.ray.mask); // this build of Embree has ray masks on
+    copy_rays(rays, &found.ray);
     memset(found.hit.geomID, 0xff, sizeof found.hit.geomID); // RTC_INVALID_GEOMETRY_ID
     memset(found.hit.instID, 0xff, sizeof found.hit.instID);
     rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
-    take_hits(tracer, &found, valid, hits);
+    if (valid == ALL_VALID && is_in_row(tracer)) {
+        take_all(tracer->triangles[GEOMETRY_SOLID][0], &found, hits);
+    } else {
+        take_some(tracer, &found, active, hits);
+    }
 }
 
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,

@@ -20,12 +20,16 @@ typedef struct alpi_rays {
     uint32_t id[ALPI_PACKET], flags[ALPI_PACKET]; // the tracer's
 } alpi_rays;
 
-/// Rays of no length in no direction, which the tracer may be given.
+/// Rays of no length in no direction, which the tracer may be given. Field by field: compilers make
+/// an instruction of a whole struct of zeros that takes as long as the rest of aiming.
 static inline void alpi_rays_clear(alpi_rays *rays)
 {
-    *rays = (alpi_rays){.time = {0.0f}};
     for (int i = 0; i < ALPI_PACKET; i++) {
+        rays->origin_x[i] = rays->origin_y[i] = rays->origin_z[i] = rays->minimum[i] = 0.0f;
+        rays->direction_x[i] = rays->direction_y[i] = rays->direction_z[i] = 0.0f;
+        rays->time[i] = rays->maximum[i] = 0.0f;
         rays->mask[i] = UINT32_MAX;
+        rays->id[i] = rays->flags[i] = 0;
     }
 }
 
@@ -47,6 +51,7 @@ typedef struct alpi_hits {
     _Alignas(32) float distance[ALPI_PACKET]; // INFINITY where nothing was hit
     uint32_t triangle[ALPI_PACKET];           // ALPI_NONE where nothing was hit
     float b1[ALPI_PACKET], b2[ALPI_PACKET];   // barycentric weights of corners 1 and 2
+    uint32_t behind; // bit i: lane i met the back of its triangle, by the tracer's rounding
 } alpi_hits;
 
 typedef struct alpi_tracer alpi_tracer;

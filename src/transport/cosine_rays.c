@@ -59,15 +59,21 @@ static void fill_packet(const alpi_path_wave *w, uint32_t first, alpi_gather_pac
     memcpy(rays->direction_z, w->direction.z + first, size);
     for (int i = 0; i < ALPI_PACKET; i++) {
         rays->maximum[i] = INFINITY;
-        const uint32_t k = first + (uint32_t)i;
-        packet->normals[i] = (vec3){w->normal.x[k], w->normal.y[k], w->normal.z[k]};
-        packet->cosines[i] = (float)ALPI_PI * w->density[k];
     }
     packet->active = 0xffu;
 }
 
+static void fill_ways(const alpi_path_wave *w, uint32_t first, alpi_gather_ways *ways)
+{
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t k = first + i;
+        ways->normals[i] = (vec3){w->normal.x[k], w->normal.y[k], w->normal.z[k]};
+        ways->cosines[i] = (float)ALPI_PI * w->density[k];
+    }
+}
+
 static void aim(const void *user, const alpi_receivers *receivers, uint32_t receiver,
-                uint32_t first, uint32_t count, alpi_gather_packet *packets)
+                uint32_t first, uint32_t count, alpi_gather_packet *packets, alpi_gather_ways *ways)
 {
     const alpi_cosine_rays *r = user;
     const alpi_wave_loops *loops = alpi_wave_loops_for(r->context);
@@ -80,6 +86,9 @@ static void aim(const void *user, const alpi_receivers *receivers, uint32_t rece
     loops->aim(&w);
     for (uint32_t k = 0; k < count; k++) {
         fill_packet(&w, k * ALPI_PACKET, &packets[k]);
+    }
+    for (uint32_t k = 0; k < count && ways != NULL; k++) {
+        fill_ways(&w, k * ALPI_PACKET, &ways[k]);
     }
 }
 

@@ -2,7 +2,6 @@
 #include "transport/gather.h"
 
 #include "base/tasks.h"
-#include "scene/double3.h"
 #include "transport/near_rays.h"
 #include "transport/panes.h"
 
@@ -13,14 +12,6 @@ typedef struct met_points {
     int lanes[ALPI_PACKET];
     alpi_surface_point points[ALPI_PACKET];
 } met_points;
-
-static bool is_behind(const alp_scene *scene, uint32_t triangle, vec3 direction)
-{
-    vec3 c[3];
-    alpi_triangle_corners(scene, triangle, c);
-    const double3 outside = double3_cross(double3_between(c[0], c[1]), double3_between(c[0], c[2]));
-    return double3_dot(outside, double3_from(direction)) > 0.0;
-}
 
 static void add_light(vec3 *sum, vec3 light, vec3 left)
 {
@@ -52,7 +43,7 @@ static void sort_hits(const alpi_gather_scene *from, const alpi_rays *rays, cons
             add_light(&radiance[i], sky_radiance(from, direction), left[i]);
             continue;
         }
-        const bool behind = is_behind(from->scene, triangle, direction);
+        const bool behind = (hits->behind >> i & 1u) != 0;
         if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
             met->lanes[met->count] = i;
             met->points[met->count++] = (alpi_surface_point){triangle, hits->b1[i], hits->b2[i],
@@ -159,7 +150,7 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
         for (int k = 0; k < 4; k++) {
             parts[k] += weights[i] * l[k];
         }
-        none = none || cells[i] < ALPI_CELL_FIRST;
+        none |= cells[i] < ALPI_CELL_FIRST;
     }
     const double scale = even ? weight_of(gatherer, packet, 0) : 1.0;
     for (int k = 0; k < 3; k++) {
@@ -192,18 +183,18 @@ void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gat
 }
 
 void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
-                                 const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
-                                 alpi_gather_sums *sums)
+                                 const alpi_gather_packet *aimed, const alpi_gather_ways *ways,
+                                 const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums)
 {
     for (int i = 0; i < ALPI_PACKET; i++) {
         const double weight = ALPI_PI * weight_of(gatherer, packet, i);
         const alpi_directional_way way = {
             .direction = {aimed->rays.direction_x[i], aimed->rays.direction_y[i],
                           aimed->rays.direction_z[i]},
-            .normal = aimed->normals[i],
-            .cosine = aimed->cosines[i],
+            .normal = ways->normals[i],
+            .cosine = ways->cosines[i],
             .horizon =
-                gatherer->weights == NULL && (double)aimed->cosines[i] < sums->directional.width,
+                gatherer->weights == NULL && (double)ways->cosines[i] < sums->directional.width,
         };
         if ((aimed->active >> i & 1u) == 0 || !(way.cosine > 0.0f)) {
             continue;
@@ -241,49 +232,34 @@ void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *s
 
 bool alpi_gather_meets_cells(const alpi_gather_scene *from)
 {
-    return from->light.cell != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
+    return from->light.find != NULL && !from->emitters && !alpi_tracer_has_panes(from->tracer);
 }
 
-/// What the rays of a batch met that is not black, bit i of `met` for lane i, and the cells of the
-/// others.
-typedef struct met_surfaces {
-    uint32_t met[ALPI_GATHER_BATCH];
-    alpi_surface_point points[ALPI_GATHER_BATCH][ALPI_PACKET];
-} met_surfaces;
-
-static void list_surfaces(const alpi_gather_scene *from, const alpi_gather_packet *packet,
-                          const alpi_hits *hits, uint32_t *met,
-                          alpi_surface_point points[ALPI_PACKET], uint32_t cells[ALPI_PACKET])
+/// Lanes of a packet that met what is not black of itself, and the cells of the others.
+static uint32_t list_surfaces(const alpi_gather_scene *from, uint32_t active, const alpi_hits *hits,
+                              uint32_t cells[ALPI_PACKET])
 {
-    const alpi_rays *rays = &packet->rays;
-    *met = 0;
+    uint32_t met = 0, behind = active & hits->behind;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const uint32_t triangle = hits->triangle[i];
-        cells[i] = triangle == ALPI_NONE && (packet->active >> i & 1u) != 0 ? ALPI_CELL_ESCAPED
-                                                                            : ALPI_CELL_BLACK;
-        if ((packet->active >> i & 1u) == 0 || triangle == ALPI_NONE) {
-            continue;
-        }
-        const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
-        const bool behind = is_behind(from->scene, triangle, direction);
-        if (!behind || alpi_surface_is_double_sided(from->scene, triangle)) {
-            *met |= 1u << i;
-            points[i] = (alpi_surface_point){triangle, hits->b1[i], hits->b2[i],
-                                             vec3_scale(direction, -1.0f), behind};
-            if (from->light.fetch != NULL) {
-                from->light.fetch(from->light.user, &points[i]);
-            }
+        const bool escaped = hits->triangle[i] == ALPI_NONE && (active >> i & 1u) != 0;
+        met |= hits->triangle[i] != ALPI_NONE ? 1u << i : 0u;
+        cells[i] = escaped ? ALPI_CELL_ESCAPED : ALPI_CELL_BLACK;
+    }
+    for (; behind != 0; behind &= behind - 1) {
+        const int i = __builtin_ctz(behind);
+        if (!alpi_surface_is_double_sided(from->scene, hits->triangle[i])) {
+            met &= ~(1u << i);
         }
     }
+    return met & active;
 }
 
-/// Cells that the rays of a batch meet. One step for all of them after the other: what a step reads
-/// was asked for by the step before, so that memory brings it for many rays at once.
+/// Cells that the rays of a batch meet.
 static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *packets,
                        uint32_t count, bool coherent, alpi_hits *hits,
                        uint32_t (*cells)[ALPI_PACKET])
 {
-    met_surfaces m;
+    uint32_t met[ALPI_GATHER_BATCH];
     for (uint32_t k = 0; k < count; k++) {
         if (coherent) {
             alpi_trace_nearest_coherent(from->tracer, &packets[k].rays, packets[k].active,
@@ -292,18 +268,9 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
             alpi_trace_nearest(from->tracer, &packets[k].rays, packets[k].active, from->filter,
                                &hits[k]);
         }
+        met[k] = list_surfaces(from, packets[k].active, &hits[k], cells[k]);
     }
-    for (uint32_t k = 0; k < count; k++) {
-        list_surfaces(from, &packets[k], &hits[k], &m.met[k], m.points[k], cells[k]);
-    }
-    for (uint32_t k = 0; k < count; k++) {
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            if ((m.met[k] >> i & 1u) != 0) {
-                cells[k][i] = from->light.cell(from->light.user, &m.points[k][i]);
-                __builtin_prefetch(from->light.cells[cells[k][i]]);
-            }
-        }
-    }
+    from->light.find(from->light.user, hits, met, count, cells);
 }
 
 void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *packets,
@@ -332,7 +299,7 @@ void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_g
 /// Light of cells, of rays that went on, and of the sky, by its direction.
 /// @param near radiance of what went on; NULL: nothing did
 static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
-                                  const alpi_gather_packet *aimed,
+                                  const alpi_gather_packet *aimed, const alpi_gather_ways *ways,
                                   const uint32_t cells[ALPI_PACKET], const vec3 *near,
                                   alpi_gather_sums *sums)
 {
@@ -349,13 +316,13 @@ static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
             radiance[i] = vec3_add(radiance[i], near[i]);
         }
     }
-    alpi_gather_add_directional(job->gatherer, packet, aimed, radiance, sums);
+    alpi_gather_add_directional(job->gatherer, packet, aimed, ways, radiance, sums);
 }
 
 /// A batch of packets that meet cells.
 static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint32_t first,
                              uint32_t count, const alpi_gather_packet *packets,
-                             alpi_gather_sums *sums)
+                             const alpi_gather_ways *ways, alpi_gather_sums *sums)
 {
     const alpi_gatherer *g = job->gatherer;
     const bool goes_on = job->from->near != NULL;
@@ -377,7 +344,7 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
             alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met[k], sums);
         }
         if (job->directional != NULL) {
-            add_cells_directional(job, first + k, &packets[k], met[k],
+            add_cells_directional(job, first + k, &packets[k], &ways[k], met[k],
                                   goes_on ? near.radiance[k] : NULL, sums);
         }
     }
@@ -385,7 +352,8 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
 
 /// The same of packets that meet whatever there is.
 static void look_around(const alpi_gather_job *job, uint32_t first, uint32_t count,
-                        alpi_gather_packet *packets, alpi_gather_sums *sums)
+                        alpi_gather_packet *packets, const alpi_gather_ways *ways,
+                        alpi_gather_sums *sums)
 {
     const alpi_gatherer *g = job->gatherer;
     for (uint32_t k = 0; k < count; k++) {
@@ -394,7 +362,7 @@ static void look_around(const alpi_gather_job *job, uint32_t first, uint32_t cou
                          NULL);
         alpi_gather_add(g, first + k, radiance, sums);
         if (job->directional != NULL) { // panes move where rays start, not where they go
-            alpi_gather_add_directional(g, first + k, &packets[k], radiance, sums);
+            alpi_gather_add_directional(g, first + k, &packets[k], &ways[k], radiance, sums);
         }
     }
 }
@@ -405,11 +373,13 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
 {
     const alpi_gatherer *g = job->gatherer;
     alpi_gather_packet packets[ALPI_GATHER_BATCH];
-    g->aim(g->user, job->receivers, receiver, first, count, packets);
+    alpi_gather_ways ways[ALPI_GATHER_BATCH];
+    g->aim(g->user, job->receivers, receiver, first, count, packets,
+           job->directional != NULL ? ways : NULL);
     if (cells) {
-        gather_met_cells(job, receiver, first, count, packets, sums);
+        gather_met_cells(job, receiver, first, count, packets, ways, sums);
     } else {
-        look_around(job, first, count, packets, sums);
+        look_around(job, first, count, packets, ways, sums);
     }
 }
 

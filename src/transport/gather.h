@@ -42,15 +42,20 @@ void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t a
 typedef struct alpi_gather_packet {
     alpi_rays rays; // unit directions
     uint32_t active;
+} alpi_gather_packet;
+/// How the rays of a packet leave their surface.
+typedef struct alpi_gather_ways {
     vec3 normals[ALPI_PACKET];  // shading normals where they start
     float cosines[ALPI_PACKET]; // to them
-} alpi_gather_packet;
+} alpi_gather_ways;
 
 /// Aims packets [first, first + count) of a receiver, at most ALPI_GATHER_BATCH. Called by many
 /// threads. What is random in it is keyed by the receiver.
+/// @param packets, ways [count] out; ways: NULL if nobody wants them
 typedef void alpi_aim_fn(const void *user, const alpi_receivers *receivers, uint32_t receiver,
-                         uint32_t first, uint32_t count, alpi_gather_packet *packets);
-enum { ALPI_GATHER_BATCH = 32, ALPI_GATHER_REPLICATE_LIMIT = 8 };
+                         uint32_t first, uint32_t count, alpi_gather_packet *packets,
+                         alpi_gather_ways *ways);
+enum { ALPI_GATHER_BATCH = ALPI_LIGHT_BATCH, ALPI_GATHER_REPLICATE_LIMIT = 8 };
 
 /// A way to spread rays over what a receiver sees, hemicube or cosine rays: E = π Σ weight · L.
 typedef struct alpi_gatherer {
@@ -111,8 +116,8 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            alpi_gather_sums *sums);
 /// Adds light by its direction; pixels of a hemicube, whose weights differ, have no horizon apart.
 void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
-                                 const alpi_gather_packet *aimed, const vec3 radiance[ALPI_PACKET],
-                                 alpi_gather_sums *sums);
+                                 const alpi_gather_packet *aimed, const alpi_gather_ways *ways,
+                                 const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value);
 /// Writes what a receiver gathered to the job's outputs.

@@ -244,11 +244,18 @@ static uint32_t aim(const alpi_hemicube_packet *packet, const alpi_receiver_poin
                     const alpi_hemicube_frame *f, alpi_rays *rays)
 {
     const vec3 start = vec3_mad(p->position, p->offset, p->geometric_normal);
-    alpi_rays_clear(rays);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec3 across = vec3_mad(vec3_scale(f->right, packet->x[i]), packet->y[i], f->up);
-        const vec3 direction = vec3_mad(across, packet->z[i], f->forward);
-        alpi_rays_set(rays, i, start, direction, INFINITY);
+        const float x = packet->x[i], y = packet->y[i], z = packet->z[i];
+        rays->origin_x[i] = start.x;
+        rays->origin_y[i] = start.y;
+        rays->origin_z[i] = start.z;
+        rays->direction_x[i] = x * f->right.x + y * f->up.x + z * f->forward.x;
+        rays->direction_y[i] = x * f->right.y + y * f->up.y + z * f->forward.y;
+        rays->direction_z[i] = x * f->right.z + y * f->up.z + z * f->forward.z;
+        rays->minimum[i] = rays->time[i] = 0.0f;
+        rays->maximum[i] = INFINITY;
+        rays->mask[i] = UINT32_MAX;
+        rays->id[i] = rays->flags[i] = 0;
     }
     return packet->active;
 }
@@ -305,7 +312,8 @@ alp_result alpi_hemicube_gather(const alpi_hemicube_options *options,
 }
 
 static void aim_receiver(const void *user, const alpi_receivers *receivers, uint32_t receiver,
-                         uint32_t first, uint32_t count, alpi_gather_packet *packets)
+                         uint32_t first, uint32_t count, alpi_gather_packet *packets,
+                         alpi_gather_ways *ways)
 {
     const alpi_hemicube_options *o = user;
     const vec2 at = alpi_sample_2d(alpi_random_key(o->seed, receiver, STREAM_PLACE), 0);
@@ -317,9 +325,9 @@ static void aim_receiver(const void *user, const alpi_receivers *receivers, uint
     for (uint32_t k = 0; k < count; k++) {
         const alpi_hemicube_packet *pixels = &o->cube->packets[first + k];
         packets[k].active = aim(pixels, &point, &frame, &packets[k].rays);
-        memcpy(packets[k].cosines, pixels->z, sizeof pixels->z);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            packets[k].normals[i] = frame.forward;
+        for (int i = 0; i < ALPI_PACKET && ways != NULL; i++) {
+            ways[k].normals[i] = frame.forward;
+            ways[k].cosines[i] = pixels->z[i];
         }
     }
 }

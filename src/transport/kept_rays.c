@@ -57,7 +57,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
-            g->aim(g->user, job->receivers, receiver, first, count, packets);
+            g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
             alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
             for (uint32_t p = 0; p < count; p++) {
                 alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells,

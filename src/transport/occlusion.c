@@ -68,14 +68,20 @@ alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_opti
 
 /// Third Sobol' dimension: primitive polynomial x² + x + 1, m = 1, 3.
 /// S. Joe, F. Y. Kuo: Constructing Sobol Sequences with Better Two-Dimensional Projections. 2008.
-static uint32_t sobol_2(uint32_t index)
+static void sobol_2_directions(uint32_t v[32])
 {
-    uint32_t v[32] = {1u << 31, 3u << 30}, x = 0;
+    v[0] = 1u << 31;
+    v[1] = 3u << 30;
     for (int j = 2; j < 32; j++) {
         v[j] = v[j - 1] ^ v[j - 2] ^ (v[j - 2] >> 2);
     }
-    for (int j = 0; j < 32; j++) {
-        x ^= (index >> j & 1u) != 0 ? v[j] : 0u;
+}
+
+static uint32_t sobol_2(const uint32_t v[32], uint32_t index)
+{
+    uint32_t x = 0;
+    for (; index != 0; index &= index - 1) {
+        x ^= v[__builtin_ctz(index)];
     }
     return x;
 }
@@ -86,10 +92,12 @@ static void fill_samples(uint64_t seed, uint32_t count, uint32_t (*samples)[3])
     const uint32_t key = alpi_random_key(seed, 0, STREAM_SEQUENCE);
     const uint32_t keys[3] = {alpi_hash32(key ^ 0x02e5be93u), alpi_hash32(key ^ 0x967a889bu),
                               alpi_hash32(key ^ 0x368cc8b7u)};
+    uint32_t directions[32];
+    sobol_2_directions(directions);
     for (uint32_t s = 0; s < count; s++) {
         samples[s][0] = alpi_reverse_bits(alpi_owen_hash(s, keys[0]));
         samples[s][1] = alpi_reverse_bits(alpi_owen_hash(alpi_sobol_1_reversed(s), keys[1]));
-        samples[s][2] = alpi_owen_scramble(sobol_2(s), keys[2]);
+        samples[s][2] = alpi_owen_scramble(sobol_2(directions, s), keys[2]);
     }
 }
 

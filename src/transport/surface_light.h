@@ -4,10 +4,7 @@
 #ifndef ALPI_TRANSPORT_SURFACE_LIGHT_H
 #define ALPI_TRANSPORT_SURFACE_LIGHT_H
 
-#include "base/vec.h"
-
-#include <stdbool.h>
-#include <stdint.h>
+#include "trace/trace.h"
 
 /// A point of a surface, as it is looked at.
 typedef struct alpi_surface_point {
@@ -29,20 +26,23 @@ typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *point
 enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
 /// Where a cell tells the length of its sides on the surface, metres.
 enum { ALPI_CELL_SIDE = 3 };
-/// The cell that holds a point, CELL_FIRST or more, or CELL_BLACK. Asked like alpi_reflected_fn.
-typedef uint32_t alpi_light_cell_fn(const void *user, const alpi_surface_point *point);
-/// Has what tells the cell of a point brought near: asked for some points before the first cell,
-/// so that memory fetches for all of them at once.
-typedef void alpi_light_fetch_fn(const void *user, const alpi_surface_point *point);
+/// The cells of points that rays of some packets met, CELL_FIRST or more, or CELL_BLACK. Points of
+/// many rays at once, since memory is what it takes: what one step reads for all of them the step
+/// before has asked for. Called by many threads.
+/// @param hits  [count], count at most ALPI_LIGHT_BATCH
+/// @param met   [count] bit i: lane i met a surface on a side that is not black of itself
+/// @param cells [count] out, of those lanes; others are left alone
+typedef void alpi_light_cells_fn(const void *user, const alpi_hits *hits, const uint32_t *met,
+                                 uint32_t count, uint32_t (*cells)[ALPI_PACKET]);
+enum { ALPI_LIGHT_BATCH = 32 };
 
 typedef struct alpi_surface_light {
     alpi_reflected_fn *reflected; // NULL: surfaces reflect nothing
     const void *user;             // what it reads
     // Of light that is the same all over each of some cells, or NULL: then a ray that was traced
     // once need not be again when the light changes.
-    alpi_light_cell_fn *cell;
-    alpi_light_fetch_fn *fetch; // NULL: nothing to fetch
-    const float (*cells)[4];    // radiance in RGB, and CELL_SIDE; 0 in the first CELL_FIRST
+    alpi_light_cells_fn *find;
+    const float (*cells)[4]; // radiance in RGB, and CELL_SIDE; 0 in the first CELL_FIRST
 } alpi_surface_light;
 
 #endif

@@ -73,6 +73,31 @@ static alp_scene *make_ball(alp_context *context, int slices, int stacks)
     return test_mesh_scene(context, mesh, 0);
 }
 
+/// The cell of a point, as rays find it. Beside it lanes that met nothing, which are left alone.
+static uint32_t find_cell(const alpi_patches *patches, uint32_t triangle, float b1, float b2,
+                          bool behind)
+{
+    enum { LANE = 5, UNTOUCHED = 77 };
+    const alpi_surface_light light = alpi_patches_light(patches);
+    const uint32_t met[2] = {0, 1u << LANE};
+    uint32_t cells[2][ALPI_PACKET];
+    alpi_hits hits[2];
+    memset(hits, 0xff, sizeof hits); // no triangle
+    hits[1].triangle[LANE] = triangle;
+    hits[1].b1[LANE] = b1;
+    hits[1].b2[LANE] = b2;
+    hits[1].behind = behind ? 1u << LANE : 0;
+    for (int i = 0; i < 2 * ALPI_PACKET; i++) {
+        cells[i / ALPI_PACKET][i % ALPI_PACKET] = UNTOUCHED;
+    }
+    light.find(light.user, hits, met, 2, cells);
+    for (int i = 0; i < 2 * ALPI_PACKET; i++) {
+        assert_true(i == ALPI_PACKET + LANE ||
+                    cells[i / ALPI_PACKET][i % ALPI_PACKET] == UNTOUCHED);
+    }
+    return cells[1][LANE];
+}
+
 /// Points all over every triangle, its corners and edges too: what is found is a texel of the
 /// triangle's chart with light of its own, and near: `reach` texels at most.
 static double hold_lookups(const setting *s, double reach, uint32_t *black)
@@ -94,6 +119,7 @@ static double hold_lookups(const setting *s, double reach, uint32_t *black)
                 ++*black;
                 continue;
             }
+            assert_int_equal(find_cell(&s->patches, t, b1, b2, false), ALPI_CELL_FIRST + found);
             assert_int_equal(s->texels.charts[found], s->atlas->triangle_charts[t]);
             assert_true(s->patches.blocks[found] != ALPI_NONE);
             const float *b = s->texels.barycentrics[found];
@@ -191,9 +217,7 @@ static void texels_without_light_have_stand_ins(void **state)
                                              &(alpi_block_rule){.spacing = 4}, &none));
     for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
         assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
-        const alpi_surface_point point = {t, 0.3f, 0.3f, {0, 1, 0}, false};
-        const alpi_surface_light light = alpi_patches_light(&none);
-        assert_int_equal(light.cell(light.user, &point), ALPI_CELL_BLACK);
+        assert_int_equal(find_cell(&none, t, 0.3f, 0.3f, false), ALPI_CELL_BLACK);
     }
     alpi_patches_destroy(&none);
     alpi_patches_destroy(&none);
@@ -336,7 +360,6 @@ static void backs_are_other_cells(void **state)
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
     open_setting(&s, test_mesh_scene(test_context(2), mesh, 1), 8, 0.5f, 4, 1);
-    const alpi_surface_light light = alpi_patches_light(&s.patches);
     const alpi_receivers blocks = alpi_patches_block_receivers(&s.patches);
     const alpi_receivers texels = alpi_patches_texel_receivers(&s.patches);
     const float middle[1][2] = {{0.5f, 0.5f}};
@@ -344,11 +367,10 @@ static void backs_are_other_cells(void **state)
     assert_int_equal(blocks.count, 2 * s.patches.block_count);
     assert_int_equal(texels.count, 2 * s.texels.count);
     for (int behind = 0; behind < 2; behind++) {
-        const alpi_surface_point point = {1, 0.3f, 0.4f, {0, behind ? -1 : 1, 0}, behind != 0};
         const uint32_t texel = alpi_patches_find(&s.patches, 1, 0.3f, 0.4f);
         const uint8_t *seen = &s.patches.seen_backs[s.patches.blocks[texel]];
         assert_int_equal(*seen, ALPI_BACK_UNSEEN);
-        assert_int_equal(light.cell(light.user, &point),
+        assert_int_equal(find_cell(&s.patches, 1, 0.3f, 0.4f, behind != 0),
                          ALPI_CELL_FIRST + texel + (behind ? s.texels.count : 0));
         assert_int_equal(*seen, behind ? ALPI_BACK_SEEN : ALPI_BACK_UNSEEN);
         for (int kind = 0; kind < 2; kind++) {

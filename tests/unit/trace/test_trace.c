@@ -85,6 +85,7 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
                 ASSERT_NEAR(fast.distance[i], slow.distance[i], 2e-5);
                 ASSERT_NEAR(fast.b1[i], slow.b1[i], 2e-3);
                 ASSERT_NEAR(fast.b2[i], slow.b2[i], 2e-3);
+                assert_int_equal(fast.behind >> i & 1u, slow.behind >> i & 1u);
             } else {
                 assert_true(isinf(fast.distance[i]));
             }

@@ -47,7 +47,7 @@ static void aim_all(const alpi_gatherer *g, const alpi_receivers *receivers, uin
 {
     for (uint32_t first = 0; first < g->packet_count; first += batch) {
         const uint32_t left = g->packet_count - first;
-        g->aim(g->user, receivers, 1, first, left < batch ? left : batch, packets + first);
+        g->aim(g->user, receivers, 1, first, left < batch ? left : batch, packets + first, NULL);
     }
 }
 

@@ -30,11 +30,18 @@ static alp_scene *make_stage(alp_context *context)
 }
 
 /// A cell for each surface.
-static uint32_t cell_at(const void *user, const alpi_surface_point *point)
+static void find_cells(const void *user, const alpi_hits *hits, const uint32_t *met, uint32_t count,
+                       uint32_t (*cells)[ALPI_PACKET])
 {
     const alp_scene *scene = user;
-    assert_false(point->from_behind);
-    return ALPI_CELL_FIRST + scene->triangle_surface[point->triangle];
+    for (uint32_t k = 0; k < count; k++) {
+        assert_int_equal(hits[k].behind & met[k], 0);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            if ((met[k] >> i & 1u) != 0) {
+                cells[k][i] = ALPI_CELL_FIRST + scene->triangle_surface[hits[k].triangle[i]];
+            }
+        }
+    }
 }
 
 typedef struct setting {
@@ -69,10 +76,11 @@ static void open_setting(setting *s, uint32_t workers, bool hemicube)
     }
     s->all = (test_patches){.count = RECEIVERS, .patches = s->patches, .offset = 1e-6f};
     s->receivers = test_patches_receivers(&s->all);
-    s->from = (alpi_gather_scene){
-        .scene = s->stage.scene,
-        .tracer = s->stage.tracer,
-        .light = {.cell = cell_at, .user = s->stage.scene, .cells = (const float(*)[4])s->light}};
+    s->from = (alpi_gather_scene){.scene = s->stage.scene,
+                                  .tracer = s->stage.tracer,
+                                  .light = {.find = find_cells,
+                                            .user = s->stage.scene,
+                                            .cells = (const float(*)[4])s->light}};
 }
 
 static void close_setting(setting *s)
