@@ -81,8 +81,8 @@ bool bench_map_open(const bench_scene *scene, uint32_t size, bench_map *map);
 bool bench_map_open_with(const bench_scene *scene, const alp_atlas_options *options,
                          bench_map *map);
 void bench_map_close(const bench_scene *scene, bench_map *map);
-/// Runs of so many neighbours, spread evenly over an order of texels, `wanted` in all, or as many as
-/// there are; whole packets.
+/// Runs of so many neighbours, spread evenly over an order of texels, `wanted` in all, or as many
+/// as there are; whole packets.
 /// @param list out: for the caller to free   @return how many
 uint32_t bench_pick_texels(const uint32_t *order, uint32_t count, uint32_t wanted, uint32_t run,
                            uint32_t **list);

@@ -245,8 +245,10 @@ static void find_no_cells(const void *user, const alpi_hits *hits, const uint32_
 static bool time_rays(const bounced_case *c, bool look, double *seconds)
 {
     alpi_gather_scene from = alpi_radiosity_scene(&c->lit.solution);
-    const alpi_cosine_rays cosine = {
-        .context = c->lit.scene.context, .samples = TIMED_RAYS, .replicates = REPLICATES, .seed = 1};
+    const alpi_cosine_rays cosine = {.context = c->lit.scene.context,
+                                     .samples = TIMED_RAYS,
+                                     .replicates = REPLICATES,
+                                     .seed = 1};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
     if (!look) {
         from.light.find = find_no_cells;

@@ -162,8 +162,8 @@ static bool find_truth(denoise_case *c, bool quick)
             return false;
         }
         for (uint32_t i = 0; i < c->count; i++) {
-            sum += (double)c->truth[k][i][0] + (double)c->truth[k][i][1] +
-                   (double)c->truth[k][i][2];
+            sum +=
+                (double)c->truth[k][i][0] + (double)c->truth[k][i][1] + (double)c->truth[k][i][2];
         }
     }
     c->mean = fmax(sum / (6.0 * fmax(c->count, 1.0)), 1e-30);
@@ -260,10 +260,10 @@ static bool add_row(const denoise_case *c, const char *title, uint32_t bakes, be
         largest_after = fmax(largest_after, clean.largest);
     }
     bench_table_add(table, "%s, %u|%u|%.2f %%|%.2f %%|%.2f|%.1f %%|%.1f %%|%+.2f %%|%.2f|%.2f",
-                    title, bakes * BAKE_PATHS, c->count, 100.0 * sqrt(before),
-                    100.0 * sqrt(after), sqrt(before / fmax(after, 1e-30)),
-                    100.0 * largest_before, 100.0 * largest_after, 100.0 * bias,
-                    sqrt(stated / fmax(after, 1e-30)), seconds);
+                    title, bakes * BAKE_PATHS, c->count, 100.0 * sqrt(before), 100.0 * sqrt(after),
+                    sqrt(before / fmax(after, 1e-30)), 100.0 * largest_before,
+                    100.0 * largest_after, 100.0 * bias, sqrt(stated / fmax(after, 1e-30)),
+                    seconds);
     free(variances);
     free(means);
     return good;

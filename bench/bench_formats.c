@@ -189,18 +189,19 @@ static int bench_texts(const bench_options *options)
     if (alp_context_create(NULL, &context) != ALP_OK) {
         return 1;
     }
-    bench_table_start(&table, "Reading scenes",
-                      "From memory to a scene that is ready to trace, in seconds of all threads, so "
-                      "by core. Limit: for OBJ a loop that looks at every byte, for COLLADA one "
-                      "that reads its numbers.",
-                      "text|MB|limit MB/s|ours MB/s|ratio");
+    bench_table_start(
+        &table, "Reading scenes",
+        "From memory to a scene that is ready to trace, in seconds of all threads, so "
+        "by core. Limit: for OBJ a loop that looks at every byte, for COLLADA one "
+        "that reads its numbers.",
+        "text|MB|limit MB/s|ours MB/s|ratio");
     int code = 0;
     for (size_t i = 0; code == 0 && i < sizeof kinds / sizeof *kinds; i++) {
         alpi_bytes text = alpi_bytes_create(context);
         double seconds[2];
         kinds[i].print(&text, options->quick ? 40 : 500, kinds[i].triangles, kinds[i].digits);
-        code =
-            text.failed || !measure(context, &kinds[i], &text, options->quick ? 1 : ROUNDS, seconds);
+        code = text.failed ||
+               !measure(context, &kinds[i], &text, options->quick ? 1 : ROUNDS, seconds);
         if (code == 0) {
             const double size = (double)text.size * 1e-6;
             bench_table_add(&table, "%s|%.1f|%.0f|%.0f|%.2f", kinds[i].name, size,

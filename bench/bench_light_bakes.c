@@ -265,7 +265,7 @@ static bool run_texels(const bench_options *options)
                                  .size = options->quick ? sizes[i] / 16 : sizes[i],
                                  .rays = FIXED_RAYS};
         double seconds[ROUNDS];
-        alp_bake_report report;
+        alp_bake_report report = {0};
         const int rounds = options->quick ? 1 : ROUNDS;
         for (int r = 0; r < rounds; r++) {
             if (!bake(&what, 0, &report)) {

@@ -31,7 +31,7 @@ static bool measure(const bench_scene *scene, bench_map *map, const alp_occlusio
 {
     enum { ROUNDS = 5 };
     double seconds[ROUNDS];
-    bench_result r;
+    bench_result r = {.seconds = 0.0};
     const int rounds = options->quick ? 1 : ROUNDS;
     for (int i = 0; i < rounds; i++) {
         if (!bench_bake(scene, map, o, accuracy, truth, &r)) {
@@ -40,8 +40,8 @@ static bool measure(const bench_scene *scene, bench_map *map, const alp_occlusio
         seconds[i] = r.seconds;
     }
     const double sampling = bench_median(seconds, rounds);
-    const double before = map->atlas_seconds + map->texel_seconds + scene->build_seconds +
-                          map->validity_seconds;
+    const double before =
+        map->atlas_seconds + map->texel_seconds + scene->build_seconds + map->validity_seconds;
     const uint32_t count = map->texels.count;
     bench_table_add(table, "%s|%u|%u|%s|%.0f %%|%.4f|%.4f|%.3f|%.3f|%.3f", short_name(scene->name),
                     count, o->samples, accuracy == ALP_ADAPTIVE_OFF ? "off" : "auto",
@@ -90,7 +90,7 @@ static bool measure_size(const bench_scene *scene, uint32_t size, const bench_op
     enum { ROUNDS = 3 };
     double seconds[ROUNDS];
     bench_map map;
-    bench_result r;
+    bench_result r = {.seconds = 0.0};
     const int rounds = options->quick ? 1 : ROUNDS;
     alp_occlusion_options o = alp_occlusion_options_default();
     o.samples = options->quick ? 16 : 256;
@@ -140,12 +140,13 @@ int bench_maps(const bench_options *options)
     enum { SCENES = sizeof scenes / sizeof *scenes };
     const int count = options->scene != NULL || options->quick ? 1 : SCENES;
     bench_table table;
-    bench_table_start(&table, "Error per second, all workers",
-                      "Root mean square and largest error against a converged bake of the same "
-                      "texels. Before: seconds for atlas, texels, acceleration structure and the look "
-                      "around the texels; then "
-                      "sampling, stated errors included.",
-                      "scene|texels|rays|adaptive|traced|rmse|largest|before s|sampling s|all s");
+    bench_table_start(
+        &table, "Error per second, all workers",
+        "Root mean square and largest error against a converged bake of the same "
+        "texels. Before: seconds for atlas, texels, acceleration structure and the look "
+        "around the texels; then "
+        "sampling, stated errors included.",
+        "scene|texels|rays|adaptive|traced|rmse|largest|before s|sampling s|all s");
     bool good = true;
     for (int i = 0; i < count && good; i++) {
         good = run_scene(&scenes[i], options, &table);

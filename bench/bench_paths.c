@@ -58,8 +58,7 @@ static bool run_camera(const bench_scene *scene, const bench_options *options, b
 {
     const uint32_t pixels = options->quick ? 1024 : PIXELS, count = pixels * PACKETS_PER_PIXEL;
     alpi_view view;
-    raw_embree *raw =
-        view_of(scene, WIDTH, HEIGHT, &view) ? raw_embree_create(scene->scene) : NULL;
+    raw_embree *raw = view_of(scene, WIDTH, HEIGHT, &view) ? raw_embree_create(scene->scene) : NULL;
     if (raw == NULL) {
         return false;
     }
@@ -96,8 +95,8 @@ static bool time_paths(const bench_scene *scene, const alpi_reference *r, const 
     float *covered = bench_allocate(pixels, sizeof *covered);
     embree_clock_start();
     const double started = alpi_seconds();
-    const bool good =
-        bench_good(scene, alpi_reference_pixels(r, alpi_view_rays, view, 0, pixels, values, covered));
+    const bool good = bench_good(
+        scene, alpi_reference_pixels(r, alpi_view_rays, view, 0, pixels, values, covered));
     *seconds = alpi_seconds() - started;
     uint64_t calls = 0;
     const double inside = embree_clock_stop(&calls);

@@ -90,7 +90,7 @@ void bench_table_print(const bench_table *table, const bench_options *options)
     }
     for (int r = 0; r < table->rows; r++) {
         for (int c = 0; c < table->columns; c++) {
-            printf("%s", options->markdown ? "| " : c > 0 ? "  " : "  ");
+            printf("%s", options->markdown ? "| " : "  ");
             print_cell(table->cells[r][c], widths[c], c == 0);
             printf("%s", options->markdown ? " " : "");
         }

@@ -8,9 +8,10 @@ static const struct {
     const char *name;
     bench_fn *run;
 } benches[] = {
-    {"trace", bench_trace}, {"transport", bench_transport}, {"atlas", bench_atlas},
-    {"maps", bench_maps},   {"accuracy", bench_accuracy},   {"truth", bench_against_truth}, {"denoise", bench_denoise},
-    {"bounced", bench_bounced}, {"light", bench_light}, {"formats", bench_formats},
+    {"trace", bench_trace},     {"transport", bench_transport}, {"atlas", bench_atlas},
+    {"maps", bench_maps},       {"accuracy", bench_accuracy},   {"truth", bench_against_truth},
+    {"denoise", bench_denoise}, {"bounced", bench_bounced},     {"light", bench_light},
+    {"formats", bench_formats},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
@@ -45,7 +46,8 @@ int main(int count, char **words)
         } else {
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
-                    "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, formats, --quick, "
+                    "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
+                    "formats, --quick, "
                     "--markdown\n",
                     words[i]);
             return EXIT_USAGE;

@@ -91,9 +91,8 @@ static bool run_bake(const bench_question *question, uint32_t paths, alpi_refere
     uint32_t *list = bench_allocate(receivers.count, sizeof *list);
     alpi_reference_value *all = bench_allocate(receivers.count, sizeof *all);
     const uint32_t count = list_blocks(question, list);
-    const bool good =
-        bench_good(question->scene,
-                   alpi_reference_irradiance(&reference, &receivers, list, count, NULL, all));
+    const bool good = bench_good(
+        question->scene, alpi_reference_irradiance(&reference, &receivers, list, count, NULL, all));
     for (uint32_t i = 0; i < question->count && good; i++) {
         values[i] = all[question->list[i]];
     }

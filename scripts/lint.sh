@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 sources() {
-    find src include apps examples tests -path '*/node_modules' -prune -o \( -name '*.[ch]' -o -name '*.cpp' \) -print0
+    find src include apps bench examples tests -path '*/node_modules' -prune -o \( -name '*.[ch]' -o -name '*.cpp' \) -print0
 }
 
 check_format() {
@@ -27,7 +27,7 @@ check_cppcheck() {
     cppcheck --quiet --error-exitcode=1 -j "$jobs" --std=c11 --library=posix --inline-suppr \
         --enable=warning,performance,portability,style --suppress=missingIncludeSystem \
         --suppressions-list=scripts/cppcheck.suppressions -D__GNUC__ \
-        -I include -I build/dev/include -I src -I tests/support src apps examples tests
+        -I include -I build/dev/include -I src -I . -I tests/support src apps bench examples tests
 }
 
 check_clang_tidy() {
@@ -35,7 +35,7 @@ check_clang_tidy() {
     # many nodes: a third of its default takes a third of the time.
     local log=build/dev/clang-tidy.log analyser=-extra-arg=-Xclang
     run-clang-tidy -quiet -j "$jobs" -p build/dev $analyser -extra-arg=-analyzer-config \
-        $analyser -extra-arg=max-nodes=75000 "^$PWD/(src|apps|tests)/" >"$log" 2>&1 && return
+        $analyser -extra-arg=max-nodes=75000 "^$PWD/(src|apps|bench|tests)/" >"$log" 2>&1 && return
     # One finding in a header is told for every file that includes it: each is shown once.
     sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -E ': (error|warning): ' | sort -u
     echo "what led to each: $log"

@@ -49,8 +49,9 @@ enum {
     CELL_BYTES = 16,  // of each side
     // alpi_patches: reflectances 12, emissions 4, blocks 4 and their texels and ends 8
     PATCH_BYTES_PER_TEXEL = 28,
-    PLACE_BYTES = 8, // of each texel of a page
-    BACK_BYTES = 4,  // of two-sided scenes: a list, then blocks
+    PLACE_BYTES = 8,               // of each texel of a page
+    LIGHT_BYTES_PER_TRIANGLE = 32, // where its points are on its page
+    BACK_BYTES = 4,                // of two-sided scenes: a list, then blocks
     // Of each side of a block: bounced 24, before 12, skies 12, lost 8, lists 8.
     SIDE_BLOCK_BYTES = 64,
     BLOCK_BYTES = 13, // first texel 4, area 8, seen 1
@@ -119,11 +120,17 @@ static uint64_t find_round_bytes(const alp_bake_options *options)
                   apart ? APART_BYTES : 0u);
 }
 
-/// What stays of the solution in the rounds, but for texels' direct light.
+/// What rays look places up in.
+static uint64_t find_places(const alp_atlas_info *atlas, const alp_scene *scene)
+{
+    return PLACE_BYTES * (uint64_t)atlas->width * atlas->height * atlas->pages +
+           LIGHT_BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
+}
+
+/// What stays of the solution in the rounds, but for texels' direct light and places.
 static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options *options,
                              uint64_t sides)
 {
-    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
     uint64_t of_texel = LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides;
     of_texel += sides > 1 ? BACK_BYTES : 0u;
     uint64_t of_blocks = 0;
@@ -131,7 +138,7 @@ static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options
         of_texel += SHOWN_BYTES_PER_TEXEL + (sides > 1 ? 0u : SHOWN_BLOCK_BYTES_PER_TEXEL);
         of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas);
     }
-    return of_texel * atlas->texels + PLACE_BYTES * pages + of_blocks;
+    return of_texel * atlas->texels + of_blocks;
 }
 
 static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -146,11 +153,11 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
     const uint64_t blocks = count_blocks(atlas);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
-    const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
+    const uint64_t places = find_places(atlas, scene);
     const uint64_t of_texel =
         LIGHT_BYTES_PER_TEXEL + CELL_BYTES * sides + back + PATCH_BYTES_PER_TEXEL;
     const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
-    const uint64_t solution = of_texel * texels + PLACE_BYTES * pages + of_blocks;
+    const uint64_t solution = of_texel * texels + places + of_blocks;
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
@@ -158,7 +165,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
                                     HELD_OUT_BYTES +
                                     (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
-                                               : find_settled(atlas, options, sides)));
+                                               : places + find_settled(atlas, options, sides)));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts
         m.rounds = larger(m.rounds, m.solve + VALUE_BYTES * texels);
     }

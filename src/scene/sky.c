@@ -386,6 +386,18 @@ vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction)
     return direction.y >= 0.0f ? sky->up : sky->down;
 }
 
+void alpi_sky_radiances(const alpi_sky *sky, const vec3 *directions, uint32_t count,
+                        vec3 *radiances)
+{
+    if (sky->kind == ALP_SKY_IMAGE) {
+        alpi_sky_table_radiances(&sky->table, directions, count, radiances);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        radiances[i] = alpi_sky_radiance(sky, directions[i]);
+    }
+}
+
 float alpi_sky_density(const alpi_sky *sky, vec3 direction)
 {
     if (sky->kind != ALP_SKY_HEMISPHERE) {

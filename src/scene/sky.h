@@ -29,6 +29,9 @@ bool alpi_sky_is_spots(const alpi_sky *sky);
 /// Radiance from a unit direction. Images are bilinear between texel centres, wrapping around; what
 /// is sampled and what is looked up are the same function.
 vec3 alpi_sky_radiance(const alpi_sky *sky, vec3 direction);
+/// The same of [count] directions, faster.
+void alpi_sky_radiances(const alpi_sky *sky, const vec3 *directions, uint32_t count,
+                        vec3 *radiances);
 
 /// Draws a direction. @param u [0,1)²  @param density out, may be NULL: per steradian, > 0
 vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density);

@@ -13,7 +13,6 @@ typedef struct place {
     uint32_t x0, x1, y0, y1; // texels at the corners
     double across;           // [0, 1] from x0 to x1
     double down;             // [0, 1] from y0 to y1, in θ
-    double down_cosine;      // the same in cosθ
 } place;
 
 static uint32_t upper_texel(uint32_t row)
@@ -109,46 +108,91 @@ void alpi_sky_table_finish(alpi_sky_table *table)
 
 // --- looking up ----------------------------------------------------------------------------------
 
-static place locate(const alpi_sky_table *t, vec3 d)
+/// floor(x) of what an int32_t holds: where the processor has no instruction for it, a call.
+static inline double whole_below(double x)
+{
+    const double whole = (double)(int32_t)x;
+    return whole > x ? whole - 1.0 : whole;
+}
+
+/// @param row out: of cells
+static place locate(const alpi_sky_table *t, vec3 d, double radius, uint32_t *row)
 {
     double around = (double)atan2f(d.x, -d.z) / (2.0 * ALPI_PI) + 0.5 + t->turn;
-    double x = (around - floor(around)) * t->width - 0.5;
-    double radius = sqrt((double)d.x * (double)d.x + (double)d.z * (double)d.z);
+    double x = (around - whole_below(around)) * t->width - 0.5;
     double y = (double)atan2f((float)radius, d.y) / ALPI_PI * t->height - 0.5;
-    double left = floor(x), up = floor(y);
-    uint32_t row = up < 0.0 ? 0 : up >= t->height - 1.0 ? t->height : (uint32_t)up + 1;
-    place p = {.y0 = upper_texel(row), .y1 = lower_texel(t, row), .across = x - left};
+    double left = whole_below(x), up = whole_below(y);
+    *row = up < 0.0 ? 0 : up >= t->height - 1.0 ? t->height : (uint32_t)up + 1;
+    place p = {.y0 = upper_texel(*row), .y1 = lower_texel(t, *row), .across = x - left};
     p.x0 = left < 0.0 ? t->width - 1 : (uint32_t)left;
     p.x1 = p.x0 + 1 < t->width ? p.x0 + 1 : 0;
     p.down = clamp_unit(y - up);
+    return p;
+}
+
+static double radius_of(vec3 d)
+{
+    return sqrt((double)d.x * (double)d.x + (double)d.z * (double)d.z);
+}
+
+/// Where a direction lies in cosθ in its row of cells, [0, 1].
+static double find_down_cosine(const alpi_sky_table *t, vec3 d, double radius, uint32_t row)
+{
     // sin²(θ/2) and cos²(θ/2), each from what does not cancel near its pole.
     double small = radius * radius / (2.0 * (1.0 + fabs((double)d.y)));
     const double *h = t->haversines;
     uint32_t mirror = t->height - row;
-    p.down_cosine =
-        clamp_unit(d.y >= 0.0f ? (small - h[row]) / (h[row + 1] - h[row])
-                               : 1.0 - (small - h[mirror]) / (h[mirror + 1] - h[mirror]));
-    return p;
+    return clamp_unit(d.y >= 0.0f ? (small - h[row]) / (h[row + 1] - h[row])
+                                  : 1.0 - (small - h[mirror]) / (h[mirror + 1] - h[mirror]));
+}
+
+static vec3 radiance_at(const alpi_sky_table *table, const place *p)
+{
+    float s = (float)p->across, t = (float)p->down;
+    vec3 top =
+        vec3_mad(vec3_scale(*texel(table, p->x0, p->y0), 1.0f - s), s, *texel(table, p->x1, p->y0));
+    vec3 bottom =
+        vec3_mad(vec3_scale(*texel(table, p->x0, p->y1), 1.0f - s), s, *texel(table, p->x1, p->y1));
+    return vec3_mad(vec3_scale(top, 1.0f - t), t, bottom);
 }
 
 vec3 alpi_sky_table_radiance(const alpi_sky_table *table, vec3 direction)
 {
-    place p = locate(table, direction);
-    float s = (float)p.across, t = (float)p.down;
-    vec3 top =
-        vec3_mad(vec3_scale(*texel(table, p.x0, p.y0), 1.0f - s), s, *texel(table, p.x1, p.y0));
-    vec3 bottom =
-        vec3_mad(vec3_scale(*texel(table, p.x0, p.y1), 1.0f - s), s, *texel(table, p.x1, p.y1));
-    return vec3_mad(vec3_scale(top, 1.0f - t), t, bottom);
+    uint32_t row;
+    place p = locate(table, direction, radius_of(direction), &row);
+    return radiance_at(table, &p);
+}
+
+void alpi_sky_table_radiances(const alpi_sky_table *table, const vec3 *directions, uint32_t count,
+                              vec3 *radiances)
+{
+    enum { BATCH = 32 };
+    place places[BATCH];
+    uint32_t row;
+    for (uint32_t first = 0; first < count; first += BATCH) {
+        const uint32_t few = count - first < BATCH ? count - first : BATCH;
+        for (uint32_t i = 0; i < few; i++) {
+            const vec3 d = directions[first + i];
+            places[i] = locate(table, d, radius_of(d), &row);
+            __builtin_prefetch(texel(table, places[i].x0, places[i].y0));
+            __builtin_prefetch(texel(table, places[i].x0, places[i].y1));
+        }
+        for (uint32_t i = 0; i < few; i++) {
+            radiances[first + i] = radiance_at(table, &places[i]);
+        }
+    }
 }
 
 float alpi_sky_table_density(const alpi_sky_table *table, vec3 direction)
 {
-    place p = locate(table, direction);
+    uint32_t row;
+    const double radius = radius_of(direction);
+    place p = locate(table, direction, radius, &row);
     double top = lerp(brightness_at(table, p.x0, p.y0), brightness_at(table, p.x1, p.y0), p.across);
     double bottom =
         lerp(brightness_at(table, p.x0, p.y1), brightness_at(table, p.x1, p.y1), p.across);
-    return (float)(lerp(top, bottom, p.down_cosine) / table->total);
+    return (float)(lerp(top, bottom, find_down_cosine(table, direction, radius, row)) /
+                   table->total);
 }
 
 // --- drawing -------------------------------------------------------------------------------------

@@ -31,6 +31,9 @@ void alpi_sky_table_release(alp_context *context, alpi_sky_table *table);
 /// Direction of a place: whole numbers are texel centres.
 vec3 alpi_sky_table_direction(const alpi_sky_table *table, double x, double y);
 vec3 alpi_sky_table_radiance(const alpi_sky_table *table, vec3 direction);
+/// The same of many, whose texels memory brings while others are located.
+void alpi_sky_table_radiances(const alpi_sky_table *table, const vec3 *directions, uint32_t count,
+                              vec3 *radiances);
 vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u);
 /// The same within one cell, and the share that it has of all that is drawn.
 vec3 alpi_sky_table_in_cell(const alpi_sky_table *table, uint32_t column, uint32_t row, vec2 u);

@@ -464,7 +464,8 @@ static void add_surfaces(gather *g)
     const alpi_direct *d = g->direct;
     const uint32_t count = g->count;
     alpi_emitter_view views[CHUNK];
-    met_packet met = {.count = 0};
+    met_packet met;
+    met.count = 0;
     if (d->emitters.all.count == 0 && !d->sky_met) {
         return;
     }
@@ -497,11 +498,6 @@ static void place_points(gather *g, uint32_t receiver)
     receivers->place(receivers->user, receiver, g->count, (const float(*)[2])square, g->points);
 }
 
-static bool has_other_light(const alpi_direct *d)
-{
-    return d->lamp_count > 0 || d->sun_count > 0 || d->emitters.all.count > 0 || d->sky != NULL;
-}
-
 static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
 {
     const alpi_direct *d = g->direct;
@@ -515,7 +511,7 @@ static alp_result gather_receiver(gather *g, uint32_t receiver, uint32_t lane)
         alpi_direct_add_polygons(&g->polygons, lane, g->sums,
                                  g->horizon_width > 0.0 ? &g->directional : NULL);
     }
-    for (g->first = 0; g->first < d->samples && has_other_light(d); g->first += CHUNK) {
+    for (g->first = 0; g->first < d->samples && alpi_direct_has_others(d); g->first += CHUNK) {
         const uint32_t left = d->samples - g->first;
         g->count = left < CHUNK ? left : CHUNK;
         place_points(g, receiver);

@@ -40,6 +40,12 @@ struct alpi_direct {
 /// block never takes more. @param extended see alpi_receivers
 double alpi_direct_most_rays(const alpi_direct *direct, bool extended, uint32_t receivers);
 
+/// Whether there is light besides that of polygons.
+static inline bool alpi_direct_has_others(const alpi_direct *d)
+{
+    return d->lamp_count > 0 || d->sun_count > 0 || d->emitters.all.count > 0 || d->sky != NULL;
+}
+
 /// Writes one part of a receiver to the parts and groups of an output.
 void alpi_direct_put_part(const alpi_direct_output *output, uint32_t part_count, uint32_t part,
                           uint32_t receiver, const alpi_reference_value *value);

@@ -20,27 +20,34 @@ static void add_light(vec3 *sum, vec3 light, vec3 left)
     sum->z += light.z * left.z;
 }
 
-static vec3 sky_radiance(const alpi_gather_scene *from, vec3 direction)
+/// NULL: it does not count.
+static const alpi_sky *sky_of(const alpi_gather_scene *from)
 {
-    const alpi_sky *sky =
-        from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL;
-    return sky != NULL ? alpi_sky_radiance(sky, direction) : (vec3){0.0f, 0.0f, 0.0f};
+    return from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL;
+}
+
+static vec3 direction_of(const alpi_rays *rays, int lane)
+{
+    return (vec3){rays->direction_x[lane], rays->direction_y[lane], rays->direction_z[lane]};
 }
 
 /// Lists what is not black, and adds sky to the rays that leave.
 static void sort_hits(const alpi_gather_scene *from, const alpi_rays *rays, const alpi_hits *hits,
                       uint32_t active, met_points *met, const vec3 *left, vec3 *radiance)
 {
+    const alpi_sky *sky = sky_of(from);
     met->count = met->left_scene = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         if ((active >> i & 1u) == 0) {
             continue;
         }
-        const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
+        const vec3 direction = direction_of(rays, i);
         const uint32_t triangle = hits->triangle[i];
         if (triangle == ALPI_NONE) {
             met->left_scene |= 1u << i;
-            add_light(&radiance[i], sky_radiance(from, direction), left[i]);
+            if (sky != NULL) {
+                add_light(&radiance[i], alpi_sky_radiance(sky, direction), left[i]);
+            }
             continue;
         }
         const bool behind = (hits->behind >> i & 1u) != 0;
@@ -162,18 +169,41 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
     }
 }
 
-void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
-                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+void alpi_gather_find_skies(const alpi_gather_scene *from, const alpi_gather_packet *packets,
+                            uint32_t count, const uint32_t (*cells)[ALPI_PACKET],
+                            vec3 (*skies)[ALPI_PACKET])
+{
+    vec3 directions[ALPI_GATHER_BATCH * ALPI_PACKET], radiances[ALPI_GATHER_BATCH * ALPI_PACKET];
+    uint32_t escaped = 0, next = 0;
+    const alpi_sky *sky = sky_of(from);
+    for (uint32_t k = 0; k < count && sky != NULL; k++) {
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            directions[escaped] = direction_of(&packets[k].rays, i);
+            escaped += cells[k][i] == ALPI_CELL_ESCAPED ? 1 : 0;
+        }
+    }
+    if (escaped > 0) {
+        alpi_sky_radiances(sky, directions, escaped, radiances);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            const bool seen = next < escaped && cells[k][i] == ALPI_CELL_ESCAPED;
+            skies[k][i] = seen ? radiances[next++] : (vec3){0.0f, 0.0f, 0.0f};
+        }
+    }
+}
+
+void alpi_gather_add_sky(const alpi_gatherer *gatherer, uint32_t packet,
+                         const uint32_t cells[ALPI_PACKET], const vec3 skies[ALPI_PACKET],
                          alpi_gather_sums *sums)
 {
     double *sum = sums->light[packet % gatherer->replicates];
+    const double even = weight_of(gatherer, packet, 0);
     for (int i = 0; i < ALPI_PACKET; i++) {
         if (cells[i] == ALPI_CELL_ESCAPED) {
-            const vec3 sky = sky_radiance(
-                from, (vec3){rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]});
-            const double weight = weight_of(gatherer, packet, i);
-            const double added[3] = {weight * (double)sky.x, weight * (double)sky.y,
-                                     weight * (double)sky.z};
+            const double weight = gatherer->weights != NULL ? weight_of(gatherer, packet, i) : even;
+            const double added[3] = {weight * (double)skies[i].x, weight * (double)skies[i].y,
+                                     weight * (double)skies[i].z};
             for (int k = 0; k < 3; k++) {
                 sum[k] += added[k];
                 sums->sky[k] += added[k];
@@ -297,22 +327,20 @@ void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_g
 // --- receivers -----------------------------------------------------------------------------------
 
 /// Light of cells, of rays that went on, and of the sky, by its direction.
-/// @param near radiance of what went on; NULL: nothing did
+/// @param skies, near radiance of the sky, and of what went on; NULL: there is none
 static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
                                   const alpi_gather_packet *aimed, const alpi_gather_ways *ways,
-                                  const uint32_t cells[ALPI_PACKET], const vec3 *near,
-                                  alpi_gather_sums *sums)
+                                  const uint32_t cells[ALPI_PACKET], const vec3 *skies,
+                                  const vec3 *near, alpi_gather_sums *sums)
 {
-    const alpi_rays *rays = &aimed->rays;
     vec3 radiance[ALPI_PACKET];
     for (int i = 0; i < ALPI_PACKET; i++) {
         const float *l = job->from->light.cells[cells[i]];
         radiance[i] = (vec3){l[0], l[1], l[2]};
-        if (cells[i] == ALPI_CELL_ESCAPED && !job->directional_without_sky) {
-            radiance[i] = sky_radiance(job->from, (vec3){rays->direction_x[i], rays->direction_y[i],
-                                                         rays->direction_z[i]});
+        if (skies != NULL) { // where the cell is none, as below
+            radiance[i] = vec3_add(radiance[i], skies[i]);
         }
-        if (near != NULL) { // where the cell is black
+        if (near != NULL) {
             radiance[i] = vec3_add(radiance[i], near[i]);
         }
     }
@@ -325,7 +353,8 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
                              const alpi_gather_ways *ways, alpi_gather_sums *sums)
 {
     const alpi_gatherer *g = job->gatherer;
-    const bool goes_on = job->from->near != NULL;
+    const bool goes_on = job->from->near != NULL, sky = job->from->sky;
+    vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     uint32_t met[ALPI_GATHER_BATCH][ALPI_PACKET];
     alpi_hits hits[ALPI_GATHER_BATCH];
     alpi_near_rays near;
@@ -335,16 +364,21 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
         alpi_near_rays_take(&near, k, &packets[k], &hits[k], met[k]);
     }
     alpi_near_rays_go_on(&near);
+    if (sky) {
+        alpi_gather_find_skies(job->from, packets, count, (const uint32_t(*)[ALPI_PACKET])met,
+                               skies);
+    }
     for (uint32_t k = 0; k < count; k++) {
         alpi_gather_add_cells(g, first + k, met[k], job->from->light.cells, sums);
         if (goes_on) {
             alpi_gather_add(g, first + k, near.radiance[k], sums);
         }
-        if (job->from->sky) {
-            alpi_gather_add_sky(job->from, g, first + k, &packets[k].rays, met[k], sums);
+        if (sky) {
+            alpi_gather_add_sky(g, first + k, met[k], skies[k], sums);
         }
         if (job->directional != NULL) {
             add_cells_directional(job, first + k, &packets[k], &ways[k], met[k],
+                                  sky && !job->directional_without_sky ? skies[k] : NULL,
                                   goes_on ? near.radiance[k] : NULL, sums);
         }
     }

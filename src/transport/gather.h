@@ -107,9 +107,13 @@ typedef struct alpi_gather_sums {
 } alpi_gather_sums;
 void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
                      const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
-/// Adds the sky along the rays that met nothing.
-void alpi_gather_add_sky(const alpi_gather_scene *from, const alpi_gatherer *gatherer,
-                         uint32_t packet, const alpi_rays *rays, const uint32_t cells[ALPI_PACKET],
+/// Radiance of the sky along the rays that met nothing; black of others.
+/// @param packets, cells [count], count at most ALPI_GATHER_BATCH   @param skies [count] out
+void alpi_gather_find_skies(const alpi_gather_scene *from, const alpi_gather_packet *packets,
+                            uint32_t count, const uint32_t (*cells)[ALPI_PACKET],
+                            vec3 (*skies)[ALPI_PACKET]);
+void alpi_gather_add_sky(const alpi_gatherer *gatherer, uint32_t packet,
+                         const uint32_t cells[ALPI_PACKET], const vec3 skies[ALPI_PACKET],
                          alpi_gather_sums *sums);
 void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            const uint32_t cells[ALPI_PACKET], const float (*light)[4],

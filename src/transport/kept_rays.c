@@ -49,6 +49,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     const alpi_gather_job *job = k->job;
     const alpi_gatherer *g = job->gatherer;
     alpi_gather_packet packets[ALPI_GATHER_BATCH];
+    vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
         uint32_t(*cells)[ALPI_PACKET] =
@@ -59,12 +60,15 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
             g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
             alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
+            if (job->from->sky) {
+                alpi_gather_find_skies(job->from, packets, count,
+                                       (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
+            }
             for (uint32_t p = 0; p < count; p++) {
                 alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells,
                                       &sums);
                 if (job->from->sky) {
-                    alpi_gather_add_sky(job->from, g, first + p, &packets[p].rays, cells[first + p],
-                                        &sums);
+                    alpi_gather_add_sky(g, first + p, cells[first + p], skies[p], &sums);
                 }
             }
             if (!alpi_loop_goes_on(job->context)) {
