@@ -65,7 +65,8 @@ static void print_collada(alpi_bytes *text, int side, bool triangles, int digits
         alpi_bytes_print(text, "<source id=\"%s\"><float_array id=\"%sa\" count=\"%d\">",
                          names[array], names[array], width * count);
         for (int i = 0; i < count; i++) {
-            const double x = i / (side + 1) / (double)side, z = i % (side + 1) / (double)side;
+            const int row = i / (side + 1), column = i % (side + 1);
+            const double x = (double)row / side, z = (double)column / side;
             if (array == 0) {
                 alpi_bytes_print(text, "%.*f %.*f %.*f ", digits, x, digits, sin(9.0 * x) * z,
                                  digits, z);

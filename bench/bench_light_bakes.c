@@ -138,7 +138,7 @@ static bool record_rays(const light_bake *what, sent_rays *sent)
     *sent = (sent_rays){.what = *what, .record = {.capacity = RECORD_LIMIT, .every = RECORD_EVERY}};
     const size_t size = sizeof *sent->record.packets * RECORD_LIMIT;
     bench_scene scene;
-    alp_bake_report report;
+    alp_bake_report report = {0};
     sent->record.packets = aligned_alloc(64, size);
     if (sent->record.packets == NULL || !bench_scene_load(what->name, 1, &scene)) {
         return false;
@@ -190,7 +190,7 @@ static bool measure_growth(sent_rays sent[2], uint32_t workers, growth *g)
     options.worker_count = workers;
     bool good = alp_context_create(&options, &context) == ALP_OK;
     for (int i = 0; i < 2 && good; i++) {
-        alp_bake_report report;
+        alp_bake_report report = {0};
         g->raw[i] = time_replay(&sent[i], context, workers);
         good = bake(&sent[i].what, workers, &report);
         g->ours[i] = 1e6 * report.seconds_bake / sent[i].texels;

@@ -84,6 +84,7 @@ static void write_down(embree_call_kind kind, const int *valid,
 // --- calls ---------------------------------------------------------------------------------------
 
 // Names that the linker makes: references to NAME become __wrap_NAME, the original is __real_NAME.
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c)
 void __real_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays);
 void __real_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
@@ -96,6 +97,7 @@ void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectCo
                          struct RTCRay8 *rays);
 void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
                           unsigned n, unsigned m, size_t stride);
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c)
 
 void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays)

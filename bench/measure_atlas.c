@@ -101,7 +101,8 @@ static uint32_t *write_vertices(const alp_scene *scene, FILE *file)
     qsort(spots, scene->vertex_count, sizeof *spots, compare_spots);
     for (uint32_t i = 0; i < scene->vertex_count; i++) {
         const float *p = spots[i].p;
-        if (i == 0 || memcmp(p, spots[i - 1].p, sizeof spots[i].p) != 0) {
+        const float *before = spots[i > 0 ? i - 1 : 0].p;
+        if (i == 0 || p[0] != before[0] || p[1] != before[1] || p[2] != before[2]) {
             fprintf(file, "v %.9g %.9g %.9g\n", (double)p[0], (double)p[1], (double)p[2]);
             number++;
         }

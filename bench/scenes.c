@@ -61,8 +61,9 @@ static alp_result make_pieces(alp_context *context, uint32_t count, alp_scene **
     const uint32_t side = (uint32_t)ceil(cbrt(count));
     for (uint32_t i = 0; i < count; i++) {
         const float thin = i % 3 == 0 ? 1.0f : 1.0f / (float)(1 + i % 1000);
-        const float at[3] = {0.1f * (float)(i % side), 0.1f * (float)(i / side % side),
-                             0.1f * (float)(i / side / side)};
+        const uint32_t row = i / side, layer = row / side;
+        const float at[3] = {0.1f * (float)(i % side), 0.1f * (float)(row % side),
+                             0.1f * (float)layer};
         for (int k = 0; k < 3; k++) {
             positions[i][k][0] = at[0] + (k == 1 ? 0.05f : 0.0f);
             positions[i][k][1] = at[1] + (k == 2 ? 0.05f * thin : 0.0f);
