@@ -9,6 +9,7 @@
 #include <math.h>
 
 enum { EDGES_PER_TICK = 1 << 12, LOOK_LIMIT = 4096 };
+enum { EDGES_PER_PART = 256, PARTS = 128 }; // of a search by many workers at once
 /// How far edges that meet may lie apart: so much of the finer texel, and what rounding does of a
 /// coordinate, but no more of a texel than the limit. Far from the origin rounding is as long as
 /// texels, and says nothing any more about who is whose neighbour.
@@ -149,10 +150,15 @@ typedef struct pair_search {
     uint32_t *sorted; // [edges] bucket by bucket
     uint8_t *settled; // [edges] 1: the surface goes on at an edge with the same ends
     uint32_t mask;
-    int lowest, highest; // octave
-    alpi_seam_pair_fn *each;
-    void *user;
+    int highest;       // octave
+    bool octaves[512]; // by octave + 256: whether there are edges of it; of floats there are 277
 } pair_search;
+
+/// Pairs in the order in which they were found.
+typedef struct found_pairs {
+    alpi_seam_pair *pairs;
+    size_t count, capacity;
+} found_pairs;
 
 static int octave_of(const alpi_seam_edge *edge)
 {
@@ -204,14 +210,13 @@ static cell cell_of(const pair_search *s, const alpi_seam_edge *edge)
 static alp_result sort_edges(pair_search *s, uint32_t *buckets)
 {
     const alpi_seam_edges *e = s->edges;
-    s->lowest = INT32_MAX;
     s->highest = INT32_MIN;
     for (uint32_t i = 0; i < e->count; i++) {
         const cell c = cell_of(s, &e->edges[i]);
         buckets[i] = hash_cell(s, &c);
         s->first[buckets[i]]++;
-        s->lowest = c.octave < s->lowest ? c.octave : s->lowest;
         s->highest = c.octave > s->highest ? c.octave : s->highest;
+        s->octaves[c.octave + 256] = true;
         if (i % EDGES_PER_TICK == 0) {
             ALP_TRY(alpi_tick(e->context, "seams", i, e->count));
         }
@@ -319,8 +324,17 @@ static bool meet(const pair_search *s, uint32_t own, uint32_t other, alpi_seam_p
     return !s->settled[own] && !s->settled[other] && meet_nearly(s->scene, a, b, pair);
 }
 
+static alp_result keep(const pair_search *s, const alpi_seam_pair *pair, found_pairs *found)
+{
+    ALP_TRY(alpi_grow(s->edges->context, (void **)&found->pairs, &found->capacity, found->count + 1,
+                      sizeof *pair));
+    found->pairs[found->count++] = *pair;
+    return ALP_OK;
+}
+
 /// Looks at the edges of one cell. @param left out: how many may still be looked at
-static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uint32_t *left)
+static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uint32_t *left,
+                          found_pairs *found)
 {
     const alpi_seam_edge *edges = s->edges->edges;
     const bool alike = octave_of(&edges[own]) == c->octave;
@@ -338,13 +352,13 @@ static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uin
         }
         const cell at = cell_of(s, b); // other cells may share the bucket
         if (at.x[0] == c->x[0] && at.x[1] == c->x[1] && at.x[2] == c->x[2]) {
-            ALP_TRY(s->each(s->user, &pair));
+            ALP_TRY(keep(s, &pair, found));
         }
     }
     return ALP_OK;
 }
 
-static alp_result look_around(const pair_search *s, uint32_t own, int octave)
+static alp_result look_around(const pair_search *s, uint32_t own, int octave, found_pairs *found)
 {
     const alpi_seam_edge *edge = &s->edges->edges[own];
     const double size = ldexp(1.0, octave);
@@ -364,7 +378,7 @@ static alp_result look_around(const pair_search *s, uint32_t own, int octave)
     for (c.x[2] = begin[2]; c.x[2] <= end[2]; c.x[2]++) {
         for (c.x[1] = begin[1]; c.x[1] <= end[1]; c.x[1]++) {
             for (c.x[0] = begin[0]; c.x[0] <= end[0]; c.x[0]++) {
-                ALP_TRY(look_in(s, own, &c, &left));
+                ALP_TRY(look_in(s, own, &c, &left, found));
             }
         }
     }
@@ -372,11 +386,12 @@ static alp_result look_around(const pair_search *s, uint32_t own, int octave)
 }
 
 /// Marks the edges across which the surface goes on at another with the same ends.
-static alp_result settle(pair_search *s)
+static alp_result settle_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
+    (void)worker;
+    const pair_search *s = user;
     const alpi_seam_edges *e = s->edges;
-    for (uint32_t own = 0; own < e->count; own++) {
-        ALP_TRY(own % EDGES_PER_TICK == 0 ? alpi_tick(e->context, "seams", own, e->count) : ALP_OK);
+    for (uint32_t own = begin; own < end; own++) {
         const alpi_seam_edge *a = &e->edges[own];
         const cell c = cell_of(s, a);
         const uint32_t bucket = hash_cell(s, &c);
@@ -394,36 +409,74 @@ static alp_result settle(pair_search *s)
 }
 
 /// Looks for all partners of an edge.
-/// @param octaves by octave + 256: whether there are edges of it
-static alp_result look_for_partners(const pair_search *s, uint32_t own, const bool *octaves)
+static alp_result look_for_partners(const pair_search *s, uint32_t own, found_pairs *found)
 {
     if (s->settled[own]) {
         const cell c = cell_of(s, &s->edges->edges[own]);
         uint32_t left = LOOK_LIMIT;
-        return look_in(s, own, &c, &left);
+        return look_in(s, own, &c, &left, found);
     }
     for (int octave = octave_of(&s->edges->edges[own]); octave <= s->highest; octave++) {
-        if (octaves[octave + 256]) {
-            ALP_TRY(look_around(s, own, octave));
+        if (s->octaves[octave + 256]) {
+            ALP_TRY(look_around(s, own, octave, found));
         }
     }
     return ALP_OK;
 }
 
-static alp_result search_all(pair_search *s)
+/// Some edges, part by part, of which each has a list of its own: what is found first depends on no
+/// worker.
+typedef struct search_band {
+    const pair_search *search;
+    uint32_t first; // edge
+    found_pairs found[PARTS];
+} search_band;
+
+static alp_result search_parts(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    const alpi_seam_edges *e = s->edges;
-    bool octaves[512] = {false}; // of floats there are 277
-    for (uint32_t i = 0; i < e->count; i++) {
-        octaves[octave_of(&e->edges[i]) + 256] = true;
-    }
-    for (uint32_t i = 0; i < e->count; i++) {
-        if (i % EDGES_PER_TICK == 0) {
-            ALP_TRY(alpi_tick(e->context, "seams", i, e->count));
+    (void)worker;
+    search_band *band = user;
+    const uint32_t count = band->search->edges->count;
+    for (uint32_t part = begin; part < end; part++) {
+        const uint32_t first = band->first + part * EDGES_PER_PART;
+        for (uint32_t i = first; i < first + EDGES_PER_PART && i < count; i++) {
+            ALP_TRY(look_for_partners(band->search, i, &band->found[part]));
         }
-        ALP_TRY(look_for_partners(s, i, octaves));
     }
     return ALP_OK;
+}
+
+static alp_result visit_found(search_band *band, alpi_seam_pair_fn *each, void *user)
+{
+    for (uint32_t part = 0; part < PARTS; part++) {
+        found_pairs *found = &band->found[part];
+        for (size_t i = 0; i < found->count; i++) {
+            ALP_TRY(each(user, &found->pairs[i]));
+        }
+        found->count = 0;
+    }
+    return ALP_OK;
+}
+
+static alp_result search_all(const pair_search *s, alpi_seam_pair_fn *each, void *user)
+{
+    const alpi_task_progress told = {.stage = "seams"};
+    search_band band = {.search = s};
+    alp_result result = ALP_OK;
+    while (band.first < s->edges->count && result == ALP_OK) {
+        result = alpi_tick(s->edges->context, "seams", band.first, s->edges->count);
+        if (result == ALP_OK) {
+            result = alpi_parallel_for(s->edges->context, PARTS, 1, search_parts, &band, &told);
+        }
+        if (result == ALP_OK) {
+            result = visit_found(&band, each, user);
+        }
+        band.first += PARTS * EDGES_PER_PART;
+    }
+    for (uint32_t part = 0; part < PARTS; part++) {
+        alpi_release(s->edges->context, band.found[part].pairs);
+    }
+    return result;
 }
 
 alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *edges,
@@ -433,7 +486,7 @@ alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *
     while (size < edges->count && size < 1u << 30) {
         size *= 2;
     }
-    pair_search s = {.scene = scene, .edges = edges, .mask = size - 1, .each = each, .user = user};
+    pair_search s = {.scene = scene, .edges = edges, .mask = size - 1};
     s.first = ALPI_NEW(edges->context, uint32_t, (size_t)size + 1);
     s.sorted = ALPI_NEW(edges->context, uint32_t, edges->count);
     s.settled = ALPI_NEW(edges->context, uint8_t, edges->count);
@@ -443,8 +496,12 @@ alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *
         result = sort_edges(&s, buckets);
     }
     alpi_release(edges->context, buckets);
-    result = result == ALP_OK ? settle(&s) : result;
-    result = result == ALP_OK ? search_all(&s) : result;
+    if (result == ALP_OK) {
+        const alpi_task_progress told = {.stage = "seams"};
+        result = alpi_parallel_for(edges->context, edges->count, EDGES_PER_TICK, settle_range, &s,
+                                   &told);
+    }
+    result = result == ALP_OK ? search_all(&s, each, user) : result;
     alpi_release(edges->context, s.first);
     alpi_release(edges->context, s.sorted);
     alpi_release(edges->context, s.settled);

@@ -11,6 +11,9 @@ enum { SOME = 23 };
 
 /// Reading and writing, where the kinds differ, lie in these many first and last allocations.
 enum { FIRST = 200, LAST = 150 };
+#ifndef TWO_WORKERS_ONLY
+#define TWO_WORKERS_ONLY 0
+#endif
 #ifndef MIDDLE_STEP // sanitizers are slow: a fifth of what lies between does for them
 #define MIDDLE_STEP 1
 #endif
@@ -134,9 +137,11 @@ static void report(void **state)
 
 int main(void)
 {
+    const struct CMUnitTest threaded[] = {cmocka_unit_test(two_workers)};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gltf),          cmocka_unit_test(collada),     cmocka_unit_test(obj),
         cmocka_unit_test(other_outputs), cmocka_unit_test(two_workers), cmocka_unit_test(report),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return TWO_WORKERS_ONLY ? cmocka_run_group_tests(threaded, NULL, NULL)
+                            : cmocka_run_group_tests(tests, NULL, NULL);
 }
