@@ -397,12 +397,13 @@ static double left_over(double change, double former)
 static alp_result run_passes(solver *s)
 {
     const alpi_radiosity_options *o = &s->r->options;
-    const uint32_t limit =
-        o->bounces < ALPI_RADIOSITY_PASS_LIMIT ? o->bounces : ALPI_RADIOSITY_PASS_LIMIT;
+    const bool converge = o->bounces > ALPI_RADIOSITY_PASS_LIMIT;
+    const uint32_t limit = converge ? ALPI_RADIOSITY_PASS_LIMIT : o->bounces;
     double change = 0.0, former = 0.0;
     while (s->r->passes < limit) {
         ALP_TRY(pass(s, &change));
-        const bool settled = s->r->passes > 1 && left_over(change, former) < o->tolerance;
+        const bool settled =
+            converge && s->r->passes > 1 && left_over(change, former) < o->tolerance;
         if (change == 0.0 || settled) {
             break;
         }

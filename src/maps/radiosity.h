@@ -31,9 +31,8 @@ typedef struct alpi_radiosity_options {
                                    // NULL: there are none
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
-    uint32_t bounces; // ≥ 1, the most there are: fewer where nothing is left; above PASS_LIMIT as
-                      // many as it takes
-    double tolerance; // light that is not yet gathered, over all, that is called nothing
+    uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left
+    double tolerance; // then: light that is not yet gathered, over all, that is called nothing
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     bool directional;        // direct light is wanted by its direction

