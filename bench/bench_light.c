@@ -197,7 +197,8 @@ int bench_light(const bench_options *options)
                       "Hemicubes of 64 × 64 pixels, 12,288 rays, at 256 texels, and 256 cosine "
                       "rays at each of 12,288 texels, which look up the light of a solution. "
                       "Limit: `rtcIntersect8`, of hemicubes with the coherent flag, on the packets "
-                      "that the gatherer sends, recorded. Ratio: limit's seconds over ours.",
+                      "that the gatherer sends, recorded. Ratio: limit's seconds over ours, median "
+                      "of the rounds'.",
                       "scene|triangles|rays|workers|limit|ours|ratio");
     bool good = true;
     const size_t count = options->quick || options->scene != NULL ? 1 : SCENES;

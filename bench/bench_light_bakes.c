@@ -235,7 +235,8 @@ static bool run_triangles(const bench_options *options)
                       "Wall time of sampling at 512², 64 rays of a texel, a clear sky and a sun, "
                       "with few triangles and with many, and the growth. Limit: the calls of the "
                       "ray tracer that these bakes make, recorded (an eighth of them), by "
-                      "themselves. Ratio: our growth over that of the limit.",
+                      "themselves. Ratio: our growth over that of the limit. Growth and ratio: "
+                      "medians of the rounds'.",
                       "scenes|workers|few|many|growth|limit, few|limit, many|growth|ratio");
     sent_rays sent[2] = {0};
     bool good = record_rays(&bakes[0], &sent[0]) && record_rays(&bakes[1], &sent[1]);

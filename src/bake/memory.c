@@ -281,8 +281,9 @@ static uint64_t find_memory(const alp_atlas_info *atlas, const alp_scene *scene,
     const bool vectors = (options->maps & (ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
     of_texel += vectors ? RAY_BYTES_OF_VECTORS : 0u;
     of_texel += options->ao_self ? OBJECT_BYTES_PER_TEXEL : 0u;
-    uint64_t most = of_texel * atlas->texels + BYTES_OF_PROBES +
-                    (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples;
+    uint64_t most =
+        of_texel * atlas->texels + BYTES_OF_PROBES +
+        (has_occlusion(options) ? (uint64_t)BYTES_PER_SAMPLE * options->occlusion.samples : 0);
     if ((options->maps & ALP_MAP_LIGHT) != 0) {
         const light_memory m = find_light_memory(atlas, scene, options);
         const uint64_t solve = m.solve + (m.kept < kept_rays ? m.kept : kept_rays);

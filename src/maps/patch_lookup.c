@@ -88,7 +88,7 @@ alp_result alpi_patch_places_create(alpi_patches *patches)
 {
     enum { TRIANGLES_PER_RANGE = 4096 };
     const alpi_task_progress told = {.stage = "light"};
-    const uint32_t triangles = alpi_atlas_face_count(patches->atlas);
+    const uint32_t triangles = patches->scene->triangle_count; // faces begin with those
     ALPI_TRY_NEW(patches->context, patches->triangles, triangles);
     find_places(patches);
     return alpi_parallel_for(patches->context, triangles, TRIANGLES_PER_RANGE, find_triangles,

@@ -6,9 +6,9 @@
 
 #include "maps/patches.h"
 
-/// Fills `triangles`, `places`, all ones before, and `chart_texels`, ALPI_NONE before, of patches
-/// whose `blocks` say which texels have light of their own.
-/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+/// Makes `triangles`, and fills `places` (all ones before) and `chart_texels` (ALPI_NONE before),
+/// of patches whose `blocks` say which texels have light of their own.
+/// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_patch_places_create(alpi_patches *patches);
 
 #endif

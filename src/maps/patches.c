@@ -24,17 +24,16 @@ static bool is_even(const alpi_patches *p, uint32_t texel)
     const alp_scene *scene = p->scene;
     const alpi_texels *t = p->texels;
     const uint32_t material = material_of(scene, t->triangles[texel]);
-    for (uint32_t k = t->piece_first[texel]; k < t->piece_first[texel + 1]; k++) {
-        if (material_of(scene, alpi_atlas_triangle(t->atlas, t->piece_triangles[k])) != material) {
-            return false;
-        }
+    const alpi_material *m = material != ALPI_NONE ? &scene->materials[material] : NULL;
+    const bool textured =
+        m != NULL &&
+        (m->base_color_texture.image != ALPI_NONE || m->metallic_texture.image != ALPI_NONE ||
+         m->emission_texture.image != ALPI_NONE || m->transmission_texture.image != ALPI_NONE);
+    bool even = scene->colors == NULL && !textured;
+    for (uint32_t k = t->piece_first[texel]; k < t->piece_first[texel + 1] && even; k++) {
+        even = material_of(scene, alpi_atlas_triangle(t->atlas, t->piece_triangles[k])) == material;
     }
-    if (scene->colors != NULL || material == ALPI_NONE) {
-        return scene->colors == NULL;
-    }
-    const alpi_material *m = &scene->materials[material];
-    return m->base_color_texture.image == ALPI_NONE && m->metallic_texture.image == ALPI_NONE &&
-           m->emission_texture.image == ALPI_NONE && m->transmission_texture.image == ALPI_NONE;
+    return even;
 }
 
 static vec3 outward(const alp_scene *scene, uint32_t triangle)

@@ -40,7 +40,7 @@ typedef struct alpi_patches {
     const alpi_texels *texels;
     const alpi_lattice *lattice;
     const uint8_t *near;            // of the block rule, while blocks are made
-    alpi_patch_triangle *triangles; // [faces of the atlas]
+    alpi_patch_triangle *triangles; // [triangles of the scene]
     alpi_patch_place *places;       // [pages][height][width]
     uint32_t *chart_texels;         // [charts] a texel of each, ALPI_NONE where it has none
     float (*reflectances)[3];       // [texels] albedo, mean over the texel

@@ -9,7 +9,9 @@
 #include <math.h>
 
 enum { EDGES_PER_TICK = 1 << 12, LOOK_LIMIT = 4096 };
-enum { EDGES_PER_PART = 256, PARTS = 128 }; // of a search by many workers at once
+enum { EDGES_PER_PART = 64, PARTS = EDGES_PER_TICK / EDGES_PER_PART }; // searched side by side
+/// Found in a part, at which it stops: where everything meets everything, pairs would fill memory.
+enum { PAIR_LIMIT = 256 };
 /// How far edges that meet may lie apart: so much of the finer texel, and what rounding does of a
 /// coordinate, but no more of a texel than the limit. Far from the origin rounding is as long as
 /// texels, and says nothing any more about who is whose neighbour.
@@ -154,10 +156,11 @@ typedef struct pair_search {
     bool octaves[512]; // by octave + 256: whether there are edges of it; of floats there are 277
 } pair_search;
 
-/// Pairs in the order in which they were found.
+/// Pairs of a part of the edges, in the order in which they were found.
 typedef struct found_pairs {
     alpi_seam_pair *pairs;
     size_t count, capacity;
+    uint32_t next, end; // edges that are left
 } found_pairs;
 
 static int octave_of(const alpi_seam_edge *edge)
@@ -424,54 +427,69 @@ static alp_result look_for_partners(const pair_search *s, uint32_t own, found_pa
     return ALP_OK;
 }
 
-/// Some edges, part by part, of which each has a list of its own: what is found first depends on no
-/// worker.
+/// Some edges, part by part, each of which has a list of its own, so that the order of what is
+/// found does not depend on workers.
 typedef struct search_band {
     const pair_search *search;
-    uint32_t first; // edge
     found_pairs found[PARTS];
 } search_band;
+
+/// Looks for the partners of some edges that are left of a part.
+static alp_result search_part(const pair_search *s, found_pairs *found)
+{
+    while (found->next < found->end && found->count < PAIR_LIMIT) {
+        ALP_TRY(look_for_partners(s, found->next++, found));
+    }
+    return ALP_OK;
+}
 
 static alp_result search_parts(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     search_band *band = user;
-    const uint32_t count = band->search->edges->count;
     for (uint32_t part = begin; part < end; part++) {
-        const uint32_t first = band->first + part * EDGES_PER_PART;
-        for (uint32_t i = first; i < first + EDGES_PER_PART && i < count; i++) {
-            ALP_TRY(look_for_partners(band->search, i, &band->found[part]));
-        }
+        ALP_TRY(search_part(band->search, &band->found[part]));
     }
     return ALP_OK;
 }
 
+/// Visits what was found, and what is found in parts that stopped.
 static alp_result visit_found(search_band *band, alpi_seam_pair_fn *each, void *user)
 {
     for (uint32_t part = 0; part < PARTS; part++) {
         found_pairs *found = &band->found[part];
-        for (size_t i = 0; i < found->count; i++) {
-            ALP_TRY(each(user, &found->pairs[i]));
+        while (found->count > 0) {
+            for (size_t i = 0; i < found->count; i++) {
+                ALP_TRY(each(user, &found->pairs[i]));
+            }
+            found->count = 0;
+            ALP_TRY(search_part(band->search, found));
         }
-        found->count = 0;
     }
     return ALP_OK;
 }
 
-static alp_result search_all(const pair_search *s, alpi_seam_pair_fn *each, void *user)
+static alp_result search_all(const pair_search *s, const alpi_task_progress *told,
+                             alpi_seam_pair_fn *each, void *user)
 {
-    const alpi_task_progress told = {.stage = "seams"};
+    const uint32_t count = s->edges->count;
     search_band band = {.search = s};
+    alpi_task_progress progress = *told;
     alp_result result = ALP_OK;
-    while (band.first < s->edges->count && result == ALP_OK) {
-        result = alpi_tick(s->edges->context, "seams", band.first, s->edges->count);
-        if (result == ALP_OK) {
-            result = alpi_parallel_for(s->edges->context, PARTS, 1, search_parts, &band, &told);
+    progress.units_total = count;
+    progress.units_per_item = EDGES_PER_PART;
+    for (uint32_t first = 0; first < count && result == ALP_OK;) {
+        progress.units_before = first;
+        for (uint32_t part = 0; part < PARTS; part++) {
+            const uint32_t left = count - first;
+            band.found[part].next = first;
+            first += left < EDGES_PER_PART ? left : EDGES_PER_PART;
+            band.found[part].end = first;
         }
+        result = alpi_parallel_for(s->edges->context, PARTS, 1, search_parts, &band, &progress);
         if (result == ALP_OK) {
             result = visit_found(&band, each, user);
         }
-        band.first += PARTS * EDGES_PER_PART;
     }
     for (uint32_t part = 0; part < PARTS; part++) {
         alpi_release(s->edges->context, band.found[part].pairs);
@@ -496,12 +514,14 @@ alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *
         result = sort_edges(&s, buckets);
     }
     alpi_release(edges->context, buckets);
+    const alpi_watch *watch = alpi_context_watch(edges->context);
+    const alpi_task_progress told = {
+        .callback = watch->callback, .user = watch->user, .stage = "seams"};
     if (result == ALP_OK) {
-        const alpi_task_progress told = {.stage = "seams"};
-        result = alpi_parallel_for(edges->context, edges->count, EDGES_PER_TICK, settle_range, &s,
+        result = alpi_parallel_for(edges->context, edges->count, EDGES_PER_PART, settle_range, &s,
                                    &told);
     }
-    result = result == ALP_OK ? search_all(&s, each, user) : result;
+    result = result == ALP_OK ? search_all(&s, &told, each, user) : result;
     alpi_release(edges->context, s.first);
     alpi_release(edges->context, s.sorted);
     alpi_release(edges->context, s.settled);

@@ -8,7 +8,8 @@
 
 enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 64 };
 
-/// Eight rays, structure of arrays, laid out as the ray tracer wants them: nothing is copied.
+/// Eight rays, structure of arrays, laid out as the ray tracer wants them: it is copied only where
+/// the nearest hit is asked for, which the tracer writes into its rays.
 typedef struct alpi_rays {
     _Alignas(32) float origin_x[ALPI_PACKET];
     float origin_y[ALPI_PACKET], origin_z[ALPI_PACKET];
@@ -28,6 +29,20 @@ static inline void alpi_rays_clear(alpi_rays *rays)
         rays->origin_x[i] = rays->origin_y[i] = rays->origin_z[i] = rays->minimum[i] = 0.0f;
         rays->direction_x[i] = rays->direction_y[i] = rays->direction_z[i] = 0.0f;
         rays->time[i] = rays->maximum[i] = 0.0f;
+        rays->mask[i] = UINT32_MAX;
+        rays->id[i] = rays->flags[i] = 0;
+    }
+}
+
+/// Rays from one place that reach any distance; their directions are the caller's to set.
+static inline void alpi_rays_start(alpi_rays *rays, vec3 origin)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays->origin_x[i] = origin.x;
+        rays->origin_y[i] = origin.y;
+        rays->origin_z[i] = origin.z;
+        rays->minimum[i] = rays->time[i] = 0.0f;
+        rays->maximum[i] = INFINITY;
         rays->mask[i] = UINT32_MAX;
         rays->id[i] = rays->flags[i] = 0;
     }

@@ -337,7 +337,7 @@ static void add_cells_directional(const alpi_gather_job *job, uint32_t packet,
     for (int i = 0; i < ALPI_PACKET; i++) {
         const float *l = job->from->light.cells[cells[i]];
         radiance[i] = (vec3){l[0], l[1], l[2]};
-        if (skies != NULL) { // where the cell is none, as below
+        if (skies != NULL) { // 0 but where the ray left; near: but where its cell was made black
             radiance[i] = vec3_add(radiance[i], skies[i]);
         }
         if (near != NULL) {

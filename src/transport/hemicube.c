@@ -244,18 +244,12 @@ static uint32_t aim(const alpi_hemicube_packet *packet, const alpi_receiver_poin
                     const alpi_hemicube_frame *f, alpi_rays *rays)
 {
     const vec3 start = vec3_mad(p->position, p->offset, p->geometric_normal);
+    alpi_rays_start(rays, start);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const float x = packet->x[i], y = packet->y[i], z = packet->z[i];
-        rays->origin_x[i] = start.x;
-        rays->origin_y[i] = start.y;
-        rays->origin_z[i] = start.z;
         rays->direction_x[i] = x * f->right.x + y * f->up.x + z * f->forward.x;
         rays->direction_y[i] = x * f->right.y + y * f->up.y + z * f->forward.y;
         rays->direction_z[i] = x * f->right.z + y * f->up.z + z * f->forward.z;
-        rays->minimum[i] = rays->time[i] = 0.0f;
-        rays->maximum[i] = INFINITY;
-        rays->mask[i] = UINT32_MAX;
-        rays->id[i] = rays->flags[i] = 0;
     }
     return packet->active;
 }

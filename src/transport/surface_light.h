@@ -27,8 +27,8 @@ enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
 /// Where a cell tells the length of its sides on the surface, metres.
 enum { ALPI_CELL_SIDE = 3 };
 /// The cells of points that rays of some packets met, CELL_FIRST or more, or CELL_BLACK. Points of
-/// many rays at once, since memory is what it takes: what one step reads for all of them the step
-/// before has asked for. Called by many threads.
+/// many rays at once, since waiting for memory is what takes the time: what one step reads for all
+/// of them the step before has asked for. Called by many threads.
 /// @param hits  [count], count at most ALPI_LIGHT_BATCH
 /// @param met   [count] bit i: lane i met a surface on a side that is not black of itself
 /// @param cells [count] out, of those lanes; others are left alone

@@ -98,6 +98,47 @@ static uint32_t find_cell(const alpi_patches *patches, uint32_t triangle, float 
     return cells[1][LANE];
 }
 
+/// A point of a triangle, `number` of them: its corners, its edges, then inside.
+static void pick_point(uint32_t triangle, uint32_t number, float *b1, float *b2)
+{
+    const vec2 u = alpi_sample_2d(triangle, number);
+    *b1 = u.x + u.y > 1.0f ? 1.0f - u.x : u.x;
+    *b2 = u.x + u.y > 1.0f ? 1.0f - u.y : u.y;
+    *b1 = number == 0 ? 0.0f : number == 1 ? 1.0f : number == 2 ? 0.0f : *b1;
+    *b2 = number == 0 ? 0.0f : number == 1 ? 0.0f : number == 2 ? 1.0f : *b2;
+    *b1 = number == 3 ? 0.0f : number == 4 ? 1.0f - *b2 : *b1;
+    *b2 = number == 5 ? 0.0f : *b2;
+}
+
+/// Whole packets, of one triangle and of two by turns, find what each of their points finds alone.
+static void hold_packets(const setting *s)
+{
+    const alpi_surface_light light = alpi_patches_light(&s->patches);
+    const uint32_t count = s->scene->triangle_count;
+    for (uint32_t t = 0; t < count; t++) {
+        alpi_hits hits[ALPI_LIGHT_BATCH];
+        uint32_t met[ALPI_LIGHT_BATCH], cells[ALPI_LIGHT_BATCH][ALPI_PACKET];
+        for (uint32_t k = 0; k < ALPI_LIGHT_BATCH; k++) {
+            met[k] = 0xffu;
+            hits[k].behind = 0;
+            for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+                hits[k].triangle[i] = k % 2 == 1 && i % 2 == 1 ? (t + k) % count : t;
+                pick_point(hits[k].triangle[i], k / 2 * ALPI_PACKET + i, &hits[k].b1[i],
+                           &hits[k].b2[i]);
+            }
+        }
+        light.find(light.user, hits, met, ALPI_LIGHT_BATCH, cells);
+        for (uint32_t k = 0; k < ALPI_LIGHT_BATCH; k++) {
+            for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+                const uint32_t texel = alpi_patches_find(&s->patches, hits[k].triangle[i],
+                                                         hits[k].b1[i], hits[k].b2[i]);
+                assert_int_equal(cells[k][i],
+                                 texel == ALPI_NONE ? ALPI_CELL_BLACK : ALPI_CELL_FIRST + texel);
+            }
+        }
+    }
+}
+
 /// Points all over every triangle, its corners and edges too: what is found is a texel of the
 /// triangle's chart with light of its own, and near: `reach` texels at most.
 static double hold_lookups(const setting *s, double reach, uint32_t *black)
@@ -105,15 +146,11 @@ static double hold_lookups(const setting *s, double reach, uint32_t *black)
     const double texel = 1.0 / alp_atlas_get_info(s->atlas).texels_per_metre;
     double worst = 0.0;
     *black = 0;
+    hold_packets(s);
     for (uint32_t t = 0; t < s->scene->triangle_count; t++) {
         for (uint32_t i = 0; i < 24; i++) {
-            const vec2 u = alpi_sample_2d(t, i);
-            float b1 = u.x + u.y > 1.0f ? 1.0f - u.x : u.x,
-                  b2 = u.x + u.y > 1.0f ? 1.0f - u.y : u.y;
-            b1 = i == 0 ? 0.0f : i == 1 ? 1.0f : i == 2 ? 0.0f : b1;
-            b2 = i == 0 ? 0.0f : i == 1 ? 0.0f : i == 2 ? 1.0f : b2;
-            b1 = i == 3 ? 0.0f : i == 4 ? 1.0f - b2 : b1;
-            b2 = i == 5 ? 0.0f : b2;
+            float b1, b2;
+            pick_point(t, i, &b1, &b2);
             const uint32_t found = alpi_patches_find(&s->patches, t, b1, b2);
             if (found == ALPI_NONE) {
                 ++*black;
@@ -218,6 +255,7 @@ static void texels_without_light_have_stand_ins(void **state)
     for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
         assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
         assert_int_equal(find_cell(&none, t, 0.3f, 0.3f, false), ALPI_CELL_BLACK);
+        assert_int_equal(find_cell(&s.patches, t, 0.3f, 0.3f, true), ALPI_CELL_BLACK);
     }
     alpi_patches_destroy(&none);
     alpi_patches_destroy(&none);

@@ -2,8 +2,10 @@
 // Seams between tiles: where they are, how long they are, and how far apart their sides are.
 #include "maps/seams.h"
 
+#include "base/random.h"
 #include "base/tasks.h"
 #include "maps/seam_edges.h"
+#include "test_scenes.h"
 #include "test_tiles.h"
 
 #include <math.h>
@@ -332,6 +334,125 @@ static void it_can_be_cancelled(void **state)
     tear_down(&f);
 }
 
+/// Which pairs were found, in which order.
+typedef struct pair_log {
+    uint64_t hash;
+    uint32_t count;
+} pair_log;
+
+static alp_result log_pair(void *user, const alpi_seam_pair *found)
+{
+    pair_log *log = user;
+    const uint64_t edges =
+        (uint64_t)found->edges[0].half_edge << 32 | (uint64_t)found->edges[1].half_edge;
+    log->hash = alpi_hash64(log->hash ^ edges);
+    log->count++;
+    return ALP_OK;
+}
+
+/// Thousands of facets, each a chart: more edges than are searched in one go.
+static alp_lightmap *make_facets(alp_context *context, alp_scene **scene)
+{
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1.0, 64, 40, 1.0, 1);
+    *scene = test_mesh_scene(context, mesh, 0);
+    alp_atlas_options options = alp_atlas_options_default();
+    options.size = 512;
+    options.max_angle = 0.01f;
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(*scene, &options, &atlas));
+    alp_lightmap *lightmap = NULL;
+    ASSERT_OK(context, alpi_lightmap_create(atlas, &lightmap));
+    return lightmap;
+}
+
+/// Sixty-four tiles in two stacks: each edge where they meet has 32 partners, more in all than a
+/// part of the search keeps.
+static alp_lightmap *make_stacks(alp_context *context, alp_scene **scene)
+{
+    test_tile tiles[TEST_TILE_LIMIT];
+    for (int i = 0; i < TEST_TILE_LIMIT; i++) {
+        tiles[i] = pair[i / (TEST_TILE_LIMIT / 2)];
+        tiles[i].at[0] = 16.0f * (float)(i % 8) + 2.3f;
+        tiles[i].at[1] = 16.0f * (float)(i / 8) + 2.2f;
+        tiles[i].du[0] = tiles[i].dv[1] = 0.0f;
+        tiles[i].du[1] = tiles[i].dv[0] = 9.0f;
+    }
+    *scene = test_tiles_scene(context, tiles, TEST_TILE_LIMIT, SIZE);
+    return test_tiles_lightmap(*scene, SIZE);
+}
+
+static void any_workers_find_the_same(void **state)
+{
+    (void)state;
+    static const uint32_t workers[] = {1, 2, 7};
+    for (int kind = 0; kind < 2; kind++) {
+        pair_log first = {0, 0};
+        for (int w = 0; w < 3; w++) {
+            alp_context *context = test_context(workers[w]);
+            alp_scene *scene = NULL;
+            alp_lightmap *lightmap =
+                kind == 0 ? make_facets(context, &scene) : make_stacks(context, &scene);
+            alpi_seam_edges edges;
+            pair_log log = {0, 0};
+            ASSERT_OK(context, alpi_seam_edges_create(lightmap, &edges));
+            ASSERT_OK(context, alpi_seam_pairs_visit(scene, &edges, log_pair, &log));
+            first = w == 0 ? log : first;
+            assert_true(log.hash == first.hash);
+            assert_int_equal(log.count, first.count);
+            if (kind == 0) { // each edge has one partner: the ball is closed
+                assert_true(edges.count > 2 * 4096);
+                assert_int_equal(2 * log.count, edges.count);
+            } else { // between the stacks, and across the diagonals of each
+                assert_int_equal(log.count, 3 * 32 * 32);
+            }
+            alpi_seam_edges_destroy(&edges);
+            alp_lightmap_destroy(lightmap);
+            alp_scene_destroy(scene);
+            alp_context_destroy(context);
+        }
+    }
+}
+
+typedef struct patience {
+    int asked, limit;
+} patience;
+
+static bool lose_patience(void *user, const alp_progress *progress)
+{
+    (void)progress;
+    patience *p = user;
+    return ++p->asked < p->limit;
+}
+
+/// Whichever question is the last.
+static void the_search_can_be_cancelled(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = NULL;
+    alp_lightmap *lightmap = make_facets(context, &scene);
+    alpi_seam_edges edges;
+    ASSERT_OK(context, alpi_seam_edges_create(lightmap, &edges));
+    alp_result result = ALP_ERROR_CANCELLED;
+    int cancelled = 0;
+    for (int limit = 1; result != ALP_OK; limit++) {
+        patience p = {0, limit};
+        pair_log log = {0, 0};
+        const alpi_watch former =
+            alpi_set_watch(context, (alpi_watch){.callback = lose_patience, .user = &p});
+        result = alpi_seam_pairs_visit(lightmap->scene, &edges, log_pair, &log);
+        alpi_set_watch(context, former);
+        assert_true(result == ALP_OK || result == ALP_ERROR_CANCELLED);
+        cancelled += result != ALP_OK;
+    }
+    assert_true(cancelled >= 4); // sorting, settling, and the bands of the search
+    alpi_seam_edges_destroy(&edges);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 static void memory_that_ends_is_said(void **state)
 {
     (void)state;
@@ -378,6 +499,8 @@ int main(void)
         cmocka_unit_test(coordinates_that_go_on_make_no_seam),
         cmocka_unit_test(tiles_with_walls_meet_once),
         cmocka_unit_test(it_can_be_cancelled),
+        cmocka_unit_test(any_workers_find_the_same),
+        cmocka_unit_test(the_search_can_be_cancelled),
         cmocka_unit_test(memory_that_ends_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,6 +129,38 @@ static void a_turn_moves_the_picture(void **state)
     alp_context_destroy(context);
 }
 
+/// Many directions at once find what each finds alone, bit for bit, at the poles too, in pictures
+/// and in other skies.
+static void many_find_what_each_finds(void **state)
+{
+    (void)state;
+    enum { MOST = 256 };
+    static const uint32_t counts[] = {0, 1, 31, 32, 33, MOST};
+    alp_context *context = test_context(1);
+    alp_image *image = noise(context, 34, 17, 3);
+    const alp_sky_options clear = sky_options(ALP_SKY_CLEAR);
+    for (int kind = 0; kind < 2; kind++) {
+        alpi_sky *sky = kind == 0 ? image_sky(context, image, 1.0f) : sky_make(context, &clear, UP);
+        vec3 directions[MOST], found[MOST + 1];
+        for (int i = 0; i < MOST; i++) {
+            directions[i] = sky_polar(ALPI_PI * i / (MOST - 1), 0.37 * i);
+        }
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+            memset(found, 0x55, sizeof found);
+            const vec3 untouched = found[counts[c]];
+            alpi_sky_radiances(sky, directions, counts[c], found);
+            for (uint32_t i = 0; i < counts[c]; i++) {
+                const vec3 one = alpi_sky_radiance(sky, directions[i]);
+                assert_memory_equal(&found[i], &one, sizeof one);
+            }
+            assert_memory_equal(&found[counts[c]], &untouched, sizeof untouched);
+        }
+        alpi_sky_destroy(context, sky);
+    }
+    alp_image_destroy(image);
+    alp_context_destroy(context);
+}
+
 static void drawn_directions_follow_the_picture(void **state)
 {
     (void)state;
@@ -359,6 +391,7 @@ int main(void)
         cmocka_unit_test(texels_are_where_they_belong),
         cmocka_unit_test(it_wraps_around_and_ends_at_the_poles),
         cmocka_unit_test(a_turn_moves_the_picture),
+        cmocka_unit_test(many_find_what_each_finds),
         cmocka_unit_test(drawn_directions_follow_the_picture),
         cmocka_unit_test(the_mean_is_the_integral),
         cmocka_unit_test(one_bright_texel),

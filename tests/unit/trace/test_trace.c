@@ -267,18 +267,33 @@ static void chosen_surfaces_alone_are_hit(void **state)
         const bool surfaces[3] = {(set & 1) != 0, (set & 2) != 0, (set & 4) != 0};
         alpi_tracer *tracer = NULL;
         ASSERT_OK(context, alpi_tracer_create(scene, surfaces, NULL, NULL, &tracer));
-        alpi_rays rays = {.maximum = {INFINITY}};
-        rays.origin_x[0] = 0.25f;
-        rays.origin_y[0] = 3.0f;
-        rays.direction_y[0] = -1.0f;
-        alpi_hits hits;
-        alpi_trace_nearest(tracer, &rays, 1, (alpi_trace_filter){0}, &hits);
+        alpi_rays rays;
+        alpi_rays_clear(&rays);
+        for (int i = 0; i < ALPI_PACKET; i++) { // every second from below
+            const bool below = i % 2 == 1;
+            alpi_rays_set(&rays, i, (vec3){0.25f, below ? -1.0f : 3.0f, 0.1f * (float)i - 0.35f},
+                          (vec3){0.0f, below ? 1.0f : -1.0f, 0.0f}, INFINITY);
+        }
         const uint32_t top = set >= 4 ? 2 : set >= 2 ? 1 : 0;
-        if (set == 0) {
-            assert_int_equal(hits.triangle[0], ALPI_NONE);
-        } else { // the number is that of the scene
-            assert_int_equal(hits.triangle[0] / 2, top);
-            ASSERT_NEAR(hits.distance[0], 3.0 - top, 1e-6);
+        const uint32_t bottom = (set & 1) != 0 ? 0 : (set & 2) != 0 ? 1 : 2;
+        for (uint32_t active = 1; active <= 0xffu; active = active == 1 ? 0x5bu : active + 0xa4u) {
+            alpi_hits hits; // one lane, some, all of them
+            alpi_trace_nearest(tracer, &rays, active, (alpi_trace_filter){0}, &hits);
+            for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+                const bool below = i % 2 == 1;
+                if ((active >> i & 1u) == 0) {
+                    continue;
+                }
+                if (set == 0) {
+                    assert_int_equal(hits.triangle[i], ALPI_NONE);
+                    assert_true(isinf(hits.distance[i]));
+                } else { // the number is that of the scene
+                    const uint32_t met = below ? bottom : top;
+                    assert_int_equal(hits.triangle[i] / 2, met);
+                    ASSERT_NEAR(hits.distance[i], below ? 1.0 + met : 3.0 - met, 1e-6);
+                }
+                assert_int_equal(hits.behind >> i & 1u, set != 0 && below);
+            }
         }
         alpi_tracer_destroy(tracer);
     }
