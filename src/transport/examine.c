@@ -364,7 +364,7 @@ static void take_step(const examination *e, const vec2 u[ALPI_PACKET],
 static fates walk(const rooms *r, uint32_t first, uint32_t round, uint32_t active)
 {
     fates f = {0, 0};
-    alpi_hits start;
+    alpi_hits start = {.behind = 0};
     alpi_receiver_point at[ALPI_PACKET];
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const alpi_area_point *p = &r->points[first + i];

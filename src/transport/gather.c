@@ -5,6 +5,8 @@
 #include "transport/near_rays.h"
 #include "transport/panes.h"
 
+#include <string.h>
+
 /// Points that rays of a packet have met, and whose they are.
 typedef struct met_points {
     uint32_t left_scene; // bit i: lane i met nothing
@@ -182,13 +184,16 @@ void alpi_gather_find_skies(const alpi_gather_scene *from, const alpi_gather_pac
             escaped += cells[k][i] == ALPI_CELL_ESCAPED ? 1 : 0;
         }
     }
-    if (escaped > 0) {
-        alpi_sky_radiances(sky, directions, escaped, radiances);
+    memset(skies, 0, count * sizeof *skies);
+    if (escaped == 0) {
+        return;
     }
+    alpi_sky_radiances(sky, directions, escaped, radiances);
     for (uint32_t k = 0; k < count; k++) {
         for (int i = 0; i < ALPI_PACKET; i++) {
-            const bool seen = next < escaped && cells[k][i] == ALPI_CELL_ESCAPED;
-            skies[k][i] = seen ? radiances[next++] : (vec3){0.0f, 0.0f, 0.0f};
+            if (cells[k][i] == ALPI_CELL_ESCAPED) {
+                skies[k][i] = radiances[next++];
+            }
         }
     }
 }
