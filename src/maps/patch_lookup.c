@@ -40,6 +40,8 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
     return best;
 }
 
+/// A texel of each chart, and what is found at each pixel: its texel, or the nearest with light of
+/// its own.
 static void find_places(alpi_patches *p)
 {
     enum { RINGS = 3 };
@@ -105,13 +107,16 @@ static inline void find_pixel(const alpi_patch_triangle *t, float b1, float b2, 
     }
 }
 
-/// NULL: off the page.
-static inline const alpi_patch_place *place_at(const alpi_patches *p, uint32_t page,
-                                               const int32_t at[2])
+/// NULL: off the page, or on none.
+static inline const alpi_patch_place *place_at(const alpi_patches *p, const alpi_patch_triangle *t,
+                                               float b1, float b2)
 {
     const alpi_lattice *l = p->lattice;
+    int32_t at[2];
+    find_pixel(t, b1, b2, at);
     const uint32_t x = (uint32_t)at[0], y = (uint32_t)at[1]; // below 0: large
-    return x < l->width && y < l->height ? &p->places[alpi_lattice_pixel(l, page, x, y)] : NULL;
+    const bool on = t->page != ALPI_NONE && x < l->width && y < l->height;
+    return on ? &p->places[alpi_lattice_pixel(l, t->page, x, y)] : NULL;
 }
 
 /// The place of a point whose pixel is off its chart: a corner of the texel at it may still be on.
@@ -129,9 +134,7 @@ uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float
     if (t->page == ALPI_NONE) {
         return ALPI_NONE;
     }
-    int32_t at[2];
-    find_pixel(t, b1, b2, at);
-    const alpi_patch_place *place = place_at(patches, t->page, at);
+    const alpi_patch_place *place = place_at(patches, t, b1, b2);
     return place != NULL && place->chart == t->chart ? place->texel
                                                      : find_beside(patches, t, b1, b2);
 }
@@ -218,9 +221,7 @@ static void find_packet_places(const alpi_patches *p, const alpi_hits *hits, uin
     for (; met != 0 && !places->together; met &= met - 1) {
         const int i = __builtin_ctz(met);
         const alpi_patch_triangle *t = &p->triangles[hits->triangle[i]];
-        int32_t at[2];
-        find_pixel(t, hits->b1[i], hits->b2[i], at);
-        places->at[i] = t->page != ALPI_NONE ? place_at(p, t->page, at) : NULL;
+        places->at[i] = place_at(p, t, hits->b1[i], hits->b2[i]);
         if (places->at[i] != NULL) {
             __builtin_prefetch(places->at[i]);
         }
