@@ -58,6 +58,10 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
+/// Mean of two estimates by their numbers of samples.
+void alpi_light_merge(alpi_reference_value *value, const alpi_reference_value *fresh, double had,
+                      double more);
+
 /// Gathers the last bounce at the texels, in rounds until the wanted error is stated or the time is
 /// over, and takes what the rounds before gave where one is cut off; adds direct light, and fills
 /// task->values and the report.

@@ -2,6 +2,7 @@
 #include "bake/light_plan.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 /// How many times the samples there are, added to them, bring an error down to what is wanted: it
 /// falls with a power of their number.
@@ -10,14 +11,21 @@ static double more_samples(double error, double wanted, double power)
     return error > wanted ? fmax(1.1 * pow(error / wanted, 1.0 / power) - 1.0, 0.25) : 0.0;
 }
 
+double alpi_light_power(double had, double foreseen, double error)
+{
+    const double least = 0.5, most = 0.75;
+    const bool shown = foreseen > 0.0 && foreseen < 0.9 && error > 0.0;
+    return shown ? fmin(fmax(had * log(error) / log(foreseen), least), most) : had;
+}
+
 /// @param share of the squared error, that bounced light may have
 static alpi_light_plan plan_for(const alpi_light_effort *e, const alpi_light_noise *noise,
                                 double aim, double share)
 {
-    // A bounced ray takes as long as two or three of shadow. Direct light's error falls with the
-    // root of its samples; that of rays, which are one sequence, faster (measured, .6 to .7).
+    // A bounced ray takes as long as two or three of shadow. The error of rays, which are one
+    // sequence, falls faster than with their root (measured, .6 to .7).
     const double dear = 2.5;
-    const double falls[2] = {0.5, 0.62};
+    const double falls[2] = {e->direct_power, 0.62};
     alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim, .noisy = noise->noisy};
     p.direct = more_samples(noise->direct, p.for_direct, falls[0]) * e->direct;
     p.rays = more_samples(noise->bounced, sqrt(share) * aim, falls[1]) * e->rays;

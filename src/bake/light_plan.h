@@ -7,10 +7,11 @@
 
 /// What was done so far.
 typedef struct alpi_light_effort {
-    double direct, rays; // samples of a texel: of those that have the most
+    double direct, rays; // samples of a texel; direct: of those whose error counts
     double most;         // that either may become
     double texels;       // whose direct light is looked for
     double traced;       // that send rays
+    double direct_power; // of samples, that direct light's error falls with
 } alpi_light_effort;
 
 /// Errors of the two kinds of light, over a mean: those of the whole map, or of the texels that err
@@ -27,6 +28,15 @@ typedef struct alpi_light_plan {
     double cost;
     double noisy; // share of the texels that more direct light is for, about
 } alpi_light_plan;
+
+/// That power, before anything is known of it: that of samples that know nothing of each other.
+#define ALPI_LIGHT_FIRST_POWER 0.6
+/// The power that more samples have shown, within what is ever seen: half, to three quarters, which
+/// is that of stratified samples of an edge.
+/// @param had      as it was taken to be
+/// @param foreseen times the error before, by that power: < 1
+/// @param error    times the error before, as it came
+double alpi_light_power(double had, double foreseen, double error);
 
 /// The cheapest way to an error.
 /// @param aim for both kinds of light together: √(direct² + bounced²)

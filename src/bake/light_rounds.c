@@ -13,7 +13,7 @@
 // single rounds: some texels, held out, are gathered beside the map in each round, x̂ = Σ wᵢ yᵢ, and
 // the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
 #include "bake/layers.h"
-#include "bake/light.h"
+#include "bake/light_direct.h"
 #include "bake/light_error.h"
 
 #include "base/memory.h"
@@ -49,20 +49,18 @@ typedef struct rounds {
     uint8_t *between;                    // [texels] whether ever interpolated
     alpi_held_out *held_out;             // by the rays of the last round
     alpi_reference_value *held;          // [held_out->count] by those of all rounds
-    uint32_t rays, direct;               // samples so far; direct: of the texels that have the most
-    uint32_t *counts;                    // [texels] samples of direct light so far
-    uint32_t *list;                      // [texels] while direct light is gathered
-    uint8_t *noisy;                      // [texels] the same
-    uint32_t number;                     // of the round
-    double ray_seconds;                  // of a ray more of each texel
-    double direct_seconds;               // of a sample more of a texel
-    double mean, map_mean;               // of all light, and of that of the map: see measure()
-    double direct_error, bounced_error;  // root mean squares over a mean
-    double bounced_rms;                  // of bounced light, a soft sky's apart
-    double solved_error;                 // of the solution that rays meet, over a mean too
-    double solved_noise;                 // 1 / √ rays that a block of it is known by, on average
-    alpi_light_error map;                // as the map would be stated; see look_at_map()
-    bool cut_off;                        // by the clock, or by who watches
+    alpi_light_direct direct;
+    uint32_t rays;                      // of a texel so far
+    uint32_t number;                    // of the round
+    double ray_seconds;                 // of a ray more of each texel
+    double mean, map_mean;              // of all light, and of that of the map: see measure()
+    double direct_error, bounced_error; // root mean squares over a mean
+    double bounced_rms;                 // of bounced light, a soft sky's apart
+    double solved_error;                // of the solution that rays meet, over a mean too
+    double solved_noise;                // 1 / √ rays that a block of it is known by, on average
+    alpi_light_error map;               // as the map would be stated; see look_at_map()
+    bool for_worst;                     // the next round is for the worst texels alone
+    bool cut_off;                       // by the clock, or by who watches
 } rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
@@ -151,8 +149,7 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
                                    (double)rays / ((double)r->rays + rays), &t->progress);
 }
 
-/// Mean of two estimates by their numbers of samples.
-static void merge_one(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
+void alpi_light_merge(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
                       double more)
 {
     const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
@@ -187,7 +184,7 @@ static void merge_held_out(const rounds *r, uint32_t rays)
     float variance[3];
     note_interpolated(r);
     for (uint32_t i = 0; i < h->count; i++) {
-        merge_one(&r->held[i], &h->values[i], r->rays, rays);
+        alpi_light_merge(&r->held[i], &h->values[i], r->rays, rays);
     }
     if (h->count == 0) { // nothing was in the first round: each round tells its own
         return;
@@ -209,7 +206,7 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
     const float b = (float)((double)rays / ((double)r->rays + rays));
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
-        merge_one(&r->task->values[t], &r->fresh[t], r->rays, rays);
+        alpi_light_merge(&r->task->values[t], &r->fresh[t], r->rays, rays);
         mix(r, r->task->directional, t, r->rays, rays);
         for (int k = 0; k < 3 && r->skies != NULL; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
@@ -219,89 +216,6 @@ static alp_result add_bounced(rounds *r, uint32_t rays)
     r->solved_noise += (double)b * (noise - r->solved_noise);
     r->rays += rays;
     r->job->report.light_samples = r->rays;
-    return ALP_OK;
-}
-
-/// Lists the texels whose direct light is noisy, and those around them: a shadow's edge may hide
-/// from the few samples of a texel, and not from all of its neighbours'.
-/// @param variance of a channel, above which it is noisy
-static uint32_t list_noisy(const rounds *r, double variance)
-{
-    const alpi_lattice *l = r->task->lattice;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        const float *v = r->solution->direct[t].variance;
-        r->noisy[t] = (double)fmaxf(v[0], fmaxf(v[1], v[2])) > variance;
-    }
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        const uint16_t *p = l->texels->pixels[t];
-        bool any = false;
-        for (int k = 0; k < 9 && !any; k++) {
-            const uint32_t n = alpi_lattice_texel(l, l->texels->pages[t], (int64_t)p[0] + k % 3 - 1,
-                                                  (int64_t)p[1] + k / 3 - 1);
-            any = n != ALPI_NONE && r->noisy[n] != 0;
-        }
-        if (any) {
-            r->list[count++] = t;
-        }
-    }
-    return count;
-}
-
-/// Direct light of layers is averaged in place: what comes is added to `had / more` times what
-/// there is, and the sum, `merged`, made the mean.
-static void scale_layers(const rounds *r, uint32_t count, uint32_t more, bool merged)
-{
-    const alpi_light_layers *l = &r->job->layers.light;
-    for (uint32_t layer = 0; layer < l->count; layer++) {
-        for (uint32_t i = 0; i < count; i++) {
-            const uint32_t t = r->list[i];
-            const double had = r->counts[t];
-            const float factor = (float)(merged ? more / (had + more) : had / more);
-            for (int k = 0; k < 3; k++) {
-                l->direct[layer][t][k] *= factor;
-            }
-        }
-    }
-}
-
-static void release_list(rounds *r)
-{
-    alpi_release(r->job->context, r->list);
-    alpi_release(r->job->context, r->noisy);
-    r->list = NULL;
-    r->noisy = NULL;
-}
-
-/// Direct light by `more` samples of each light for the texels that are noisy, with `wanted` the
-/// root mean square that would do.
-static alp_result add_direct(rounds *r, double more, double wanted)
-{
-    const alpi_light_task *t = r->task;
-    const uint64_t seed = alpi_hash64(~r->job->options.occlusion.seed + r->number);
-    const uint32_t texels = t->receivers->count;
-    ALPI_TRY_NEW(r->job->context, r->list, texels);
-    ALPI_TRY_NEW(r->job->context, r->noisy, texels);
-    const uint32_t count = list_noisy(r, 0.25 * wanted * wanted);
-    const uint32_t samples = alpi_cosine_rays_samples((uint32_t)fmax(more, 1.0), 1);
-    const double began = alpi_seconds();
-    alpi_direct_output output = {.values = r->fresh, .directional = r->fresh_directional};
-    scale_layers(r, count, samples, false);
-    ALP_TRY(
-        alpi_radiosity_direct(r->solution, r->list, count, samples, seed, &t->progress, &output));
-    scale_layers(r, count, samples, true);
-    r->job->report.rays += output.rays;
-    r->direct_seconds = (alpi_seconds() - began) / ((double)samples * fmax(count, 1.0));
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t texel = r->list[i];
-        merge_one(&r->solution->direct[texel], &r->fresh[texel], r->counts[texel], samples);
-        mix(r, r->solution->directional, texel, r->counts[texel], samples);
-        r->counts[texel] += samples;
-    }
-    release_list(r);
-    r->direct += samples;
     return ALP_OK;
 }
 
@@ -385,10 +299,11 @@ static double aim_of(const rounds *r)
 
 static alpi_light_plan cheapest(const rounds *r, const alpi_light_noise *noise, double aim)
 {
-    const alpi_light_effort effort = {.direct = r->direct,
+    const alpi_light_effort effort = {.direct = alpi_light_typical_samples(&r->direct),
                                       .rays = r->rays,
                                       .most = most_rays(&r->job->options.light),
                                       .texels = r->task->count,
+                                      .direct_power = r->direct.power,
                                       .traced = (double)r->job->report.light_traced};
     return alpi_light_cheapest(&effort, noise, aim);
 }
@@ -419,14 +334,17 @@ static alp_result plan_for_worst(rounds *r, alpi_light_plan *p)
 static alp_result plan_round(rounds *r, alpi_light_plan *p)
 {
     const double aim = aim_of(r);
+    r->for_worst = false;
     if (hypot(r->direct_error, r->bounced_error) > aim) {
-        const double noisy = 0.2; // of direct light, about a fifth of the map
+        const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
+        const double noisy = alpi_light_noisy_share(&r->direct, half);
         const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
         *p = cheapest(r, &noise, aim);
         return ALP_OK;
     }
     *p = (alpi_light_plan){0};
-    return r->job->options.light.error > 0.0f ? plan_for_worst(r, p) : ALP_OK;
+    r->for_worst = r->job->options.light.error > 0.0f;
+    return r->for_worst ? plan_for_worst(r, p) : ALP_OK;
 }
 
 /// One more round of what is too noisy.
@@ -443,11 +361,16 @@ static alp_result improve(rounds *r, bool *done)
     r->number++;
     const double direct_asked = direct, rays_asked = rays;
     const double listed = fmax(p.noisy * (double)r->task->count, 1.0); // texels, about
-    direct =
-        affordable(r, direct, listed * r->direct_seconds * (rays > 0.0 ? 2.0 : 1.0), r->direct);
+    const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
+    direct = affordable(r, direct, each, r->direct.most);
     if (direct > 0.0) {
-        alpi_light_clock_part(r->task->clock, true, rays > 0.0 ? 1.0 : 0.0);
-        ALP_TRY(add_direct(r, direct, p.for_direct * r->mean));
+        const alpi_light_goal goal = {.wanted = p.for_direct * r->mean,
+                                      .each = r->for_worst,
+                                      .most = direct < direct_asked ? direct * listed : HUGE_VAL,
+                                      .seed =
+                                          alpi_hash64(~r->job->options.occlusion.seed + r->number)};
+        alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
+        ALP_TRY(alpi_light_more_direct(&r->direct, &goal));
     }
     rays = affordable(r, rays, r->ray_seconds, r->rays);
     if (rays > 0.0) {
@@ -460,7 +383,13 @@ static alp_result improve(rounds *r, bool *done)
     if (direct <= 0.0 && rays <= 0.0) { // no time for more
         *done = r->cut_off = true;
     }
-    return measure(r);
+    const double before = r->direct_error * r->mean;
+    ALP_TRY(measure(r));
+    if (direct > 0.0 && !r->for_worst) {
+        r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
+                                           r->direct_error * r->mean / before);
+    }
+    return ALP_OK;
 }
 
 // --- all of them ---------------------------------------------------------------------------------
@@ -485,9 +414,16 @@ static alp_result begin(rounds *r)
     r->job->report.light_samples =
         r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
     r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
-    r->direct = r->solution->options.direct_samples;
-    r->direct_seconds =
-        r->solution->direct_seconds / ((double)r->direct * fmax(r->task->count, 1.0));
+    const uint32_t direct = r->solution->options.direct_samples;
+    r->direct = (alpi_light_direct){.job = r->job,
+                                    .task = r->task,
+                                    .solution = r->solution,
+                                    .values = r->solution->direct,
+                                    .most = direct,
+                                    .limit = MOST_SAMPLES,
+                                    .power = ALPI_LIGHT_FIRST_POWER,
+                                    .seconds = r->solution->direct_seconds /
+                                               (direct * fmax(r->task->count, 1.0))};
     return measure(r);
 }
 
@@ -504,13 +440,15 @@ static alp_result go_on(rounds *r)
     if (r->task->directional != NULL) {
         ALPI_TRY_NEW(context, r->fresh_directional, texels);
     }
-    ALPI_TRY_NEW(context, r->counts, texels);
+    ALPI_TRY_NEW(context, r->direct.counts, texels);
+    r->direct.fresh = r->fresh;
+    r->direct.fresh_directional = r->fresh_directional;
     ALPI_TRY_NEW(context, r->between, texels);
     ALPI_TRY_NEW(context, r->held, r->held_out->count);
     memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
     note_interpolated(r);
     for (uint32_t t = 0; t < texels; t++) {
-        r->counts[t] = r->direct;
+        r->direct.counts[t] = r->direct.most;
     }
     for (bool done = false; !done && r->number < limit;) {
         ALP_TRY(improve(r, &done));
@@ -532,7 +470,7 @@ static alp_result warn_of_error(rounds *r)
         ALP_TRY(look_at_map(r));
     }
     r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
-    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->rays, r->direct);
+    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->rays, r->direct.most);
     return ALP_OK;
 }
 
@@ -566,8 +504,7 @@ static void release_rounds(rounds *r)
     alpi_release(context, r->fresh);
     alpi_release(context, r->fresh_skies);
     alpi_release(context, r->fresh_directional);
-    alpi_release(context, r->counts);
-    release_list(r);
+    alpi_release(context, r->direct.counts);
     alpi_release(context, r->between);
     alpi_release(context, r->held);
     alpi_release(context, r->held_out);
@@ -577,7 +514,7 @@ static void release_rounds(rounds *r)
     r->fresh_directional = NULL;
     r->fresh = NULL;
     r->fresh_skies = NULL;
-    r->counts = NULL;
+    r->direct.counts = NULL;
 }
 
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,

@@ -24,16 +24,16 @@ enum { CLEAR_WIDTH = 64, CLEAR_HEIGHT = 32 };
 enum { GROUND_FINER = 4 };
 /// Of the soft part of an image. More leaves fewer spots and makes rays noisier: radiosity of a
 /// house under a hall's lamps takes 3 % longer for the same error with 3, 70 % with 5.
-static const double SOFT_UNEVENNESS = 2.0;
+static const double SOFT_UNEVENNESS = 1.4;
 
 struct alpi_sky {
-    alp_sky_kind kind;    // CONSTANT is a HEMISPHERE of one colour
-    vec3 up, down;        // of HEMISPHERE
-    alpi_sky_table table; // of IMAGE and CLEAR
-    alpi_sky_look *looks; // [ALPI_SKY_LOOKS] of spots, else NULL
-    alpi_clear_sky clear; // of CLEAR
-    vec3 ground;          // of CLEAR
-    float strength;       // of CLEAR, with twilight
+    alp_sky_kind kind;     // CONSTANT is a HEMISPHERE of one colour
+    vec3 up, down;         // of HEMISPHERE
+    alpi_sky_table table;  // of IMAGE and CLEAR
+    alpi_sky_looks *looks; // of spots, else NULL
+    alpi_clear_sky clear;  // of CLEAR
+    vec3 ground;           // of CLEAR
+    float strength;        // of CLEAR, with twilight
     vec3 mean;
 };
 
@@ -368,9 +368,9 @@ alp_result alpi_sky_split(alp_context *context, const alpi_sky *sky, alpi_sky **
     return result;
 }
 
-bool alpi_sky_is_spots(const alpi_sky *sky)
+const alpi_sky_looks *alpi_sky_spot_looks(const alpi_sky *sky)
 {
-    return sky->looks != NULL;
+    return sky->looks;
 }
 
 // --- asking --------------------------------------------------------------------------------------
@@ -427,26 +427,6 @@ vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density)
     if (density != NULL) {
         *density = fmaxf(alpi_sky_density(sky, direction), FLT_MIN);
     }
-    return direction;
-}
-
-/// u.x is the place among the looks, which are neighbours as the values of u.x are.
-static const alpi_sky_look *look_at(const alpi_sky *sky, vec2 u)
-{
-    const uint32_t place = (uint32_t)(u.x * (float)ALPI_SKY_LOOKS);
-    return &sky->looks[place < ALPI_SKY_LOOKS ? place : ALPI_SKY_LOOKS - 1];
-}
-
-vec3 alpi_sky_draw(const alpi_sky *sky, vec2 u, vec3 *radiance, float *density)
-{
-    if (sky->looks != NULL) {
-        const alpi_sky_look *look = look_at(sky, u);
-        *radiance = look->radiance;
-        *density = look->density;
-        return look->direction;
-    }
-    const vec3 direction = alpi_sky_sample(sky, u, density);
-    *radiance = alpi_sky_radiance(sky, direction);
     return direction;
 }
 

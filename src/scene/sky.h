@@ -7,7 +7,8 @@
 
 #include <alpenglow/light.h>
 
-typedef struct alpi_sky alpi_sky; // immutable
+typedef struct alpi_sky alpi_sky;             // immutable
+typedef struct alpi_sky_looks alpi_sky_looks; // sky_spots.h
 
 /// @param sun_direction towards the sun, unit; read by the clear sky only, which leaves the sun's
 ///                      disk to the caller
@@ -23,8 +24,8 @@ void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_sky_split(alp_context *context, const alpi_sky *sky, alpi_sky **soft,
                           alpi_sky **spots);
-/// Whether it is the spots of another.
-bool alpi_sky_is_spots(const alpi_sky *sky);
+/// Where to look, of the spots of another; else NULL. As long as the sky.
+const alpi_sky_looks *alpi_sky_spot_looks(const alpi_sky *sky);
 
 /// Radiance from a unit direction. Images are bilinear between texel centres, wrapping around; what
 /// is sampled and what is looked up are the same function.
@@ -35,9 +36,6 @@ void alpi_sky_radiances(const alpi_sky *sky, const vec3 *directions, uint32_t co
 
 /// Draws a direction. @param u [0,1)²  @param density out, may be NULL: per steradian, > 0
 vec3 alpi_sky_sample(const alpi_sky *sky, vec2 u, float *density);
-/// The same, with what comes from there; of spots it costs next to nothing.
-/// @param density out, not NULL
-vec3 alpi_sky_draw(const alpi_sky *sky, vec2 u, vec3 *radiance, float *density);
 /// Density that alpi_sky_sample draws a direction with; > 0 wherever the radiance is.
 float alpi_sky_density(const alpi_sky *sky, vec3 direction);
 

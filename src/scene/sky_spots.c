@@ -120,7 +120,7 @@ static uint32_t list_cells(const alpi_sky_table *t, lit_cell *cells)
 
 /// One look in each of as many equal shares of the light along the list.
 static void draw_looks(const alpi_sky_table *t, const lit_cell *cells, uint32_t count,
-                       alpi_sky_look *looks)
+                       alpi_sky_looks *looks)
 {
     enum { SEED = 0x5b0f };
     double sum = 0.0, before = 0.0;
@@ -132,18 +132,23 @@ static void draw_looks(const alpi_sky_table *t, const lit_cell *cells, uint32_t 
         while (i + 1 < count && before + cells[i].weight <= place) {
             before += cells[i++].weight;
         }
-        looks[k].direction =
+        const vec3 d =
             alpi_sky_table_in_cell(t, cells[i].column, cells[i].row, alpi_sample_2d(SEED, k));
-        looks[k].radiance = alpi_sky_table_radiance(t, looks[k].direction);
-        looks[k].density = fmaxf(alpi_sky_table_density(t, looks[k].direction), FLT_MIN);
+        const vec3 radiance = alpi_sky_table_radiance(t, d);
+        const float density = fmaxf(alpi_sky_table_density(t, d), FLT_MIN);
+        const float direction[3] = {d.x, d.y, d.z}, seen[3] = {radiance.x, radiance.y, radiance.z};
+        for (int c = 0; c < 3; c++) {
+            looks->direction[c][k] = direction[c];
+            looks->light[c][k] = seen[c] / (density * (float)ALPI_SKY_LOOKS);
+        }
     }
 }
 
 alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table,
-                               alpi_sky_look **looks)
+                               alpi_sky_looks **looks)
 {
     const uint32_t count = list_cells(table, NULL);
-    ALPI_TRY_NEW(context, *looks, ALPI_SKY_LOOKS);
+    ALPI_TRY_NEW(context, *looks, 1);
     lit_cell *cells = ALPI_NEW(context, lit_cell, count);
     if (cells == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;

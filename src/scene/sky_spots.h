@@ -6,15 +6,14 @@
 
 #include "scene/sky_table.h"
 
-/// What is seen of spots in one direction.
-typedef struct alpi_sky_look {
-    vec3 direction; // unit
-    vec3 radiance;
-    float density; // per steradian, > 0: alpi_sky_table_density
-} alpi_sky_look;
-
 /// How many looks there are: a lamp that gives a thousandth of the light has 16 of them.
 enum { ALPI_SKY_LOOKS = 1 << 14 };
+
+/// Looks at spots, as arrays to be walked along.
+typedef struct alpi_sky_looks {
+    float direction[3][ALPI_SKY_LOOKS]; // unit
+    float light[3][ALPI_SKY_LOOKS];     // ∫ L dω of what a look stands for, W·m⁻²
+} alpi_sky_looks;
 
 /// Parts a table by brightness: no more of a pixel than `level` is soft, what is above it, in the
 /// pixel's colour, a spot. The two radiances add up to the table's in every direction.
@@ -25,12 +24,12 @@ enum { ALPI_SKY_LOOKS = 1 << 14 };
 alp_result alpi_sky_spots_part(alp_context *context, const alpi_sky_table *table, double unevenness,
                                alpi_sky_table *soft, alpi_sky_table *spots);
 
-/// Draws looks from a table that is not black, in proportion to its brightness, stratified, and in
-/// an order in which those that follow each other are neighbours: to take one in n of them, from a
-/// random first on, is to draw n stratified directions without a search.
-/// @param looks out: [ALPI_SKY_LOOKS], the caller's to release
+/// Draws looks from a table that is not black, in proportion to its brightness, stratified: Σ light
+/// f(direction) is ∫ L f dω. They are in an order in which those that follow each other are
+/// neighbours: to take one in n of them, from a random first on, is to draw stratified directions.
+/// @param looks out: the caller's to release
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table,
-                               alpi_sky_look **looks);
+                               alpi_sky_looks **looks);
 
 #endif

@@ -56,6 +56,7 @@ alp_result alpi_sky_table_create(alp_context *context, uint32_t width, uint32_t 
     ALPI_TRY_NEW(context, table->pixels, (size_t)width * height);
     ALPI_TRY_NEW(context, table->rows, (size_t)height + 1);
     ALPI_TRY_NEW(context, table->cells, (size_t)width * ((size_t)height + 1));
+    ALPI_TRY_NEW(context, table->guides, ((size_t)height + 1) * (ALPI_SKY_GUIDES + 1));
     ALPI_TRY_NEW(context, table->haversines, (size_t)height + 2);
     for (uint32_t j = 1; j <= height; j++) {
         double s = sin((j - 0.5) * ALPI_PI / (2.0 * height));
@@ -70,6 +71,7 @@ void alpi_sky_table_release(alp_context *context, alpi_sky_table *table)
     alpi_release(context, table->pixels);
     alpi_release(context, table->rows);
     alpi_release(context, table->cells);
+    alpi_release(context, table->guides);
     alpi_release(context, table->haversines);
 }
 
@@ -93,11 +95,26 @@ static double sum_row(alpi_sky_table *t, uint32_t j)
     return sum * 4.0 * ALPI_PI / t->width * (t->haversines[j + 1] - t->haversines[j]);
 }
 
+/// The last guides lead to the last cell: nothing is drawn beyond it.
+static void guide_row(alpi_sky_table *t, uint32_t j)
+{
+    const double *cells = t->cells + (size_t)j * t->width;
+    uint32_t *guides = t->guides + (size_t)j * (ALPI_SKY_GUIDES + 1);
+    uint32_t i = 0;
+    for (uint32_t k = 0; k <= ALPI_SKY_GUIDES; k++) {
+        while (i + 1 < t->width && cells[i] <= (double)k / ALPI_SKY_GUIDES) {
+            i++;
+        }
+        guides[k] = i;
+    }
+}
+
 void alpi_sky_table_finish(alpi_sky_table *table)
 {
     double total = 0.0;
     for (uint32_t j = 0; j <= table->height; j++) {
         total += sum_row(table, j);
+        guide_row(table, j);
         table->rows[j] = total;
     }
     for (uint32_t j = 0; total > 0.0 && j <= table->height; j++) {
@@ -198,9 +215,10 @@ float alpi_sky_table_density(const alpi_sky_table *table, vec3 direction)
 // --- drawing -------------------------------------------------------------------------------------
 
 /// Index of the first sum above u, and u's place within it. Cells without weight are never found.
-static uint32_t find_cell(const double *sums, uint32_t count, double u, double *rest)
+/// @param first of [first, first + count), which holds it
+static uint32_t find_cell(const double *sums, uint32_t first, uint32_t count, double u,
+                          double *rest)
 {
-    uint32_t first = 0; // of [first, first + count), which holds it
     while (count > 1) { // without a branch that no processor could foresee
         const uint32_t half = count / 2;
         first += sums[first + half - 1] > u ? 0 : half;
@@ -243,9 +261,12 @@ static vec3 sample_cell(const alpi_sky_table *table, uint32_t x0, uint32_t row, 
 vec3 alpi_sky_table_sample(const alpi_sky_table *table, vec2 u)
 {
     double across = 0.0, down = 0.0;
-    uint32_t row = find_cell(table->rows, table->height + 1, (double)u.y, &down);
+    uint32_t row = find_cell(table->rows, 0, table->height + 1, (double)u.y, &down);
     const double *cells = table->cells + (size_t)row * table->width;
-    uint32_t column = find_cell(cells, table->width, (double)u.x, &across);
+    const uint32_t *guides = table->guides + (size_t)row * (ALPI_SKY_GUIDES + 1);
+    const uint32_t k = (uint32_t)(u.x * (float)ALPI_SKY_GUIDES);
+    const uint32_t last = guides[k + 1] - guides[k] + 1;
+    uint32_t column = find_cell(cells, guides[k], last, (double)u.x, &across);
     return sample_cell(table, column, row, across, down);
 }
 

@@ -7,6 +7,10 @@
 #include "base/context.h"
 #include "base/vec.h"
 
+/// A search among the cells of a row begins and ends in so many places of a table that stays in a
+/// processor's cache; the cells of a picture do not.
+enum { ALPI_SKY_GUIDES = 64 };
+
 /// Cell (i, j) of the table lies between texel centres i and i + 1 (around) and j − 1 and j; rows 0
 /// and `height` are the half rows at the poles, where the outermost texels go on unchanged.
 typedef struct alpi_sky_table {
@@ -16,6 +20,7 @@ typedef struct alpi_sky_table {
     double total;       // ∫ of what directions are drawn in proportion to, over the sphere
     double *rows;       // [height + 1] sums of the cells of rows 0…j, over `total`
     double *cells;      // [height + 1][width] sums within the row, over the row's
+    uint32_t *guides;   // [height + 1][ALPI_SKY_GUIDES + 1] first sum of a row above k / GUIDES
     double *haversines; // [height + 2] sin²(θ/2) at the upper edge of row j
 } alpi_sky_table;
 

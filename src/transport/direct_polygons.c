@@ -158,7 +158,7 @@ static void add_direction(alpi_polygon_gather *g, uint32_t polygon, uint32_t s, 
     const alpi_polygon_wave *w = &g->wave;
     const alpi_rays *rays = &w->rays[s];
     const vec3 light = vec3_scale(g->polygons[polygon].radiance, w->weight[s][lane]);
-    alpi_polygon_directional *to = &g->directional[lane][polygon];
+    alpi_directional_found *to = &g->directional[lane][polygon];
     alpi_directional_way way = {
         .direction = {rays->direction_x[lane], rays->direction_y[lane], rays->direction_z[lane]},
         .normal = {w->normal[0][s][lane], w->normal[1][s][lane], w->normal[2][s][lane]}};

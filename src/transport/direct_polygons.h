@@ -30,13 +30,6 @@ enum { ALPI_POLYGON_LIMIT = ALPI_DIRECT_FEW };
 uint32_t alpi_polygons_collect(const alpi_direct_emitters *emitters, const uint32_t *parts,
                                alpi_polygon polygons[ALPI_POLYGON_LIMIT]);
 
-/// What free rays to a polygon brought, by its direction and together, over the samples: their
-/// ratio counts.
-typedef struct alpi_polygon_directional {
-    alpi_directional_sums sums;
-    double irradiance[3];
-} alpi_polygon_directional;
-
 /// What gathers the light of polygons at eight receivers, by one worker.
 typedef struct alpi_polygon_gather {
     const alpi_direct_options *options;
@@ -50,7 +43,7 @@ typedef struct alpi_polygon_gather {
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
     bool above;        // its own: rays go to what is above the horizon alone
     bool by_direction; // then this too:
-    alpi_polygon_directional directional[ALPI_PACKET][ALPI_POLYGON_LIMIT];
+    alpi_directional_found directional[ALPI_PACKET][ALPI_POLYGON_LIMIT];
     // Its own.
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint8_t scouts[ALPI_POLYGON_LIMIT][2];                    // whether any was free, any stopped

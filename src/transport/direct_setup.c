@@ -138,8 +138,9 @@ static void find_sky(alpi_direct *d)
     d->sky = alpi_lighting_sky(d->options.lighting);
     if (d->sky != NULL) {
         d->sky_part = add_part(d, ALPI_DIRECT_SKY, ALPI_NONE);
-        d->sky_met = !alpi_sky_is_spots(d->sky);
-        d->sky_drawn = !d->sky_met || is_uneven(d->sky);
+        d->sky_spots = alpi_sky_spot_looks(d->sky) != NULL;
+        d->sky_met = !d->sky_spots;
+        d->sky_drawn = d->sky_met && is_uneven(d->sky);
     }
 }
 
@@ -191,7 +192,7 @@ double alpi_direct_most_rays(const alpi_direct *d, bool extended, uint32_t recei
     const bool meets = d->emitters.all.count > 0 || d->sky_met;
     double of_each_sample = d->suns_drawn ? 1.0 : d->sun_count;
     of_each_sample += d->emitters.all.count > 0 ? 1.0 : 0.0;
-    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn ? 1.0 : 0.0);
+    of_each_sample += (meets ? 1.0 : 0.0) + (d->sky_drawn || d->sky_spots ? 1.0 : 0.0);
     const double lamps = d->lamps_drawn ? 1.0 : d->lamp_count;
     const bool once = !extended && !d->lamps_drawn;
     const double others = of_each_sample * d->samples + (once ? lamps : lamps * d->samples);

@@ -33,7 +33,8 @@ struct alpi_direct {
     const alpi_sky *sky;           // NULL: none
     uint32_t sky_part;
     bool sky_drawn; // it is uneven: directions to it are drawn
-    bool sky_met;   // by cosine-distributed rays too: it is not all spots
+    bool sky_met;   // by cosine-distributed rays too
+    bool sky_spots; // it is all spots, and neither: see direct_spots.h
 };
 
 /// The most rays that a block may take, of eight receivers or so many if they are fewer; a shorter

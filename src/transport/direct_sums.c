@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "transport/direct_sums.h"
 
-enum { R = ALPI_DIRECT_REPLICATES };
+#include "base/memory.h"
+#include "base/tasks.h"
 
-/// What rays found, scaled to what there is of it. @param light over the samples
-static void add_directional(const alpi_polygon_directional *found, const double light[3],
-                            alpi_directional_sums *sums)
-{
-    const double luminance = alpi_luminance(found->irradiance);
-    const double scale = luminance > 0.0 ? alpi_luminance(light) / luminance : 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double all = found->irradiance[k];
-        for (int i = 0; i < ALPI_SH1_COUNT && all > 0.0; i++) {
-            sums->sh[i][k] += found->sums.sh[i][k] * light[k] / all;
-        }
-        sums->toward[k] += scale * found->sums.toward[k];
-    }
-}
+#include <math.h>
+#include <string.h>
+
+enum { R = ALPI_DIRECT_REPLICATES };
+/// As many weigh as much as what would be taken to be true without any.
+static const double FEW_RECEIVERS = 2.0;
 
 void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane,
                               double (*sums)[R][3], alpi_directional_sums *directional)
@@ -32,30 +25,83 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
             all[i % 3] += one;
         }
         if (directional != NULL) {
-            add_directional(&polygons->directional[lane][p], all, directional);
+            alpi_directional_add_found(&polygons->directional[lane][p], all, directional);
         }
     }
 }
 
+/// Whether the replicates of a half are one sequence. Polygons have all emissive materials, or
+/// none.
+static bool is_joined(const alpi_direct *d, uint32_t part)
+{
+    const alpi_direct_kind kind = d->parts[part].kind;
+    return d->polygon_count == 0 || (kind != ALPI_DIRECT_MATERIAL && kind != ALPI_DIRECT_MATERIALS);
+}
+
+static bool has_joined(const alpi_direct *d)
+{
+    bool any = false;
+    for (uint32_t p = 0; p < d->part_count; p++) {
+        any = any || is_joined(d, p);
+    }
+    return any;
+}
+
+alp_result alpi_direct_halves_create(const alpi_direct *d, uint32_t count,
+                                     alpi_direct_halves *halves)
+{
+    *halves = (alpi_direct_halves){NULL, NULL};
+    ALPI_TRY_NEW(d->options.context, halves->sums, count / ALPI_PACKET + 1);
+    if (d->polygon_count > 0 && has_joined(d)) {
+        ALPI_TRY_NEW(d->options.context, halves->joined, count);
+    }
+    return ALP_OK;
+}
+
+void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves)
+{
+    alpi_release(d->options.context, halves->sums);
+    alpi_release(d->options.context, halves->joined);
+}
+
+/// @param sums of the joined parts together
+static void compare_halves(const double (*sums)[3], uint32_t each, uint32_t place,
+                           const alpi_direct_halves *halves)
+{
+    alpi_reference_value joined;
+    alpi_reference_mean(sums, R, each, &joined);
+    double apart = 0.0, variance = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double half[2] = {0.0, 0.0};
+        for (int r = 0; r < R; r++) {
+            half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
+        }
+        apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
+        variance += (double)joined.variance[k];
+    }
+    halves->sums[place / ALPI_PACKET][0] += (float)apart;
+    halves->sums[place / ALPI_PACKET][1] += (float)variance;
+    if (halves->joined != NULL) {
+        memcpy(halves->joined[place], joined.variance, sizeof joined.variance);
+    }
+}
+
 void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t receiver,
-                     alpi_direct_output *output)
+                     uint32_t place, const alpi_direct_halves *halves, alpi_direct_output *output)
 {
     const uint32_t each = d->samples / R;
     alpi_reference_value *value = &output->values[receiver];
-    if (d->part_count == 1) {
-        alpi_reference_mean(sums[0], R, each, value);
-        alpi_direct_put_part(output, 1, 0, receiver, value);
-        return;
-    }
-    double all[R][3] = {{0.0}};
+    double all[R][3] = {{0.0}}, joined[R][3] = {{0.0}};
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
         alpi_reference_value part;
         alpi_reference_mean(sums[p], R, each, &part);
+        const bool is_one = is_joined(d, p);
         for (int k = 0; k < 3; k++) {
             mean[k] += part.mean[k];
             for (int r = 0; r < R; r++) {
                 all[r][k] += sums[p][r][k];
+                joined[r][k] += is_one ? sums[p][r][k] : 0.0;
             }
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
@@ -64,4 +110,45 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
     for (int k = 0; k < 3; k++) {
         value->mean[k] = mean[k];
     }
+    compare_halves((const double(*)[3])joined, each, place, halves);
+}
+
+static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_direct_halves *halves = user;
+    for (uint32_t i = begin; i < end; i++) {
+        sums[0] += (double)halves->sums[i][0];
+        sums[1] += (double)halves->sums[i][1];
+    }
+}
+
+static void scale_parts(const alpi_direct *d, uint32_t receiver, float scale,
+                        alpi_direct_output *output)
+{
+    for (uint32_t p = 0; p < d->part_count && output->parts != NULL; p++) {
+        float *v = output->parts[(size_t)receiver * d->part_count + p].variance;
+        for (int k = 0; k < 3 && is_joined(d, p); k++) {
+            v[k] *= scale;
+        }
+    }
+}
+
+alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *list, uint32_t count,
+                                       const alpi_direct_halves *halves, alpi_direct_output *output)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    const uint32_t blocks = count / ALPI_PACKET + 1;
+    ALP_TRY(alpi_parallel_sum(d->options.context, blocks, add_halves, halves, NULL, sums));
+    const double kept = FEW_RECEIVERS / fmax(count, 1.0);
+    const float scale = sums[1] > 0.0 ? (float)((sums[0] / sums[1] + kept) / (1.0 + kept)) : 1.0f;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t receiver = list != NULL ? list[i] : i;
+        float *v = output->values[receiver].variance;
+        for (int k = 0; k < 3; k++) { // what polygons and the others have in common may be negative
+            const float joined = halves->joined != NULL ? halves->joined[i][k] : v[k];
+            v[k] = fmaxf(scale * v[k], v[k] - (1.0f - scale) * joined);
+        }
+        scale_parts(d, receiver, scale, output);
+    }
+    return ALP_OK;
 }

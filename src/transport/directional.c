@@ -56,6 +56,20 @@ void alpi_directional_finish(const alpi_directional_sums *sums, double scale,
     }
 }
 
+void alpi_directional_add_found(const alpi_directional_found *found, const double light[3],
+                                alpi_directional_sums *sums)
+{
+    const double luminance = alpi_luminance(found->irradiance);
+    const double scale = luminance > 0.0 ? alpi_luminance(light) / luminance : 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double all = found->irradiance[k];
+        for (int i = 0; i < ALPI_SH1_COUNT && all > 0.0; i++) {
+            sums->sh[i][k] += found->sums.sh[i][k] * light[k] / all;
+        }
+        sums->toward[k] += scale * found->sums.toward[k];
+    }
+}
+
 void alpi_directional_mix(alpi_directional *had, float a, const alpi_directional *more, float b)
 {
     for (int k = 0; k < 3; k++) {

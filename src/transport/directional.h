@@ -51,6 +51,16 @@ void alpi_directional_add(alpi_directional_sums *sums, const double irradiance[3
 void alpi_directional_finish(const alpi_directional_sums *sums, double scale,
                              alpi_directional *directional);
 
+/// What free rays brought, by its direction and together, with the same weight: their ratio counts
+/// where what there is of the light is known better.
+typedef struct alpi_directional_found {
+    alpi_directional_sums sums;
+    double irradiance[3];
+} alpi_directional_found;
+/// Adds what rays found, scaled to what there is of it. @param light as much as there is
+void alpi_directional_add_found(const alpi_directional_found *found, const double light[3],
+                                alpi_directional_sums *sums);
+
 /// Means of two estimates: a · had + b · more, in `had`.
 void alpi_directional_mix(alpi_directional *had, float a, const alpi_directional *more, float b);
 

@@ -72,23 +72,36 @@ alpi_receivers test_patches_receivers(const test_patches *patches)
         .count = patches->count, .extended = extended, .place = place_patch, .user = patches};
 }
 
-alpi_reference_value test_stage_direct(const test_stage *stage, const test_patch *patch,
-                                       uint32_t samples, uint64_t seed, uint64_t *rays)
+uint64_t test_stage_gather(const test_stage *stage, const test_patches *patches, uint32_t samples,
+                           uint64_t seed, alpi_reference_value *values)
 {
-    const test_patches patches = {.count = 1, .patches = patch, .offset = 1e-6f};
-    const alpi_receivers receivers = test_patches_receivers(&patches);
+    const alpi_receivers receivers = test_patches_receivers(patches);
     alpi_direct_options o = test_stage_options(stage, samples);
     o.seed = seed;
     alpi_direct *direct = NULL;
-    alpi_reference_value value = {.mean = {0.0f}};
-    alpi_direct_output output = {.values = &value};
+    alpi_direct_output output = {.values = values};
     ASSERT_OK(stage->context, alpi_direct_create(&o, &direct));
     ASSERT_OK(stage->context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
     alpi_direct_destroy(direct);
-    if (rays != NULL) {
-        *rays = output.rays;
+    return output.rays;
+}
+
+alpi_reference_value test_stage_direct(const test_stage *stage, const test_patch *patch,
+                                       uint32_t samples, uint64_t seed, uint64_t *rays)
+{
+    enum { COPIES = 64, SAMPLES = 1 << 17 };
+    static test_patch copies[COPIES];
+    static alpi_reference_value values[COPIES];
+    const uint32_t room = SAMPLES / samples < COPIES ? SAMPLES / samples : COPIES;
+    const test_patches patches = {.count = room > 0 ? room : 1, .patches = copies, .offset = 1e-6f};
+    for (uint32_t i = 0; i < patches.count; i++) {
+        copies[i] = *patch;
     }
-    return value;
+    const uint64_t sent = test_stage_gather(stage, &patches, samples, seed, values);
+    if (rays != NULL) {
+        *rays = sent / patches.count;
+    }
+    return values[0];
 }
 
 test_patch test_point(vec3 position, vec3 normal)

@@ -35,7 +35,11 @@ typedef struct test_patches {
 } test_patches;
 alpi_receivers test_patches_receivers(const test_patches *patches);
 
-/// Direct light at one patch, with a seed.
+/// Direct light at patches, with a seed. @param values [patches] out  @return rays
+uint64_t test_stage_gather(const test_stage *stage, const test_patches *patches, uint32_t samples,
+                           uint64_t seed, alpi_reference_value *values);
+/// The same at one patch, as one of many that are alike: one alone would not know its variance.
+/// @param rays out, or NULL: of one of them
 alpi_reference_value test_stage_direct(const test_stage *stage, const test_patch *patch,
                                        uint32_t samples, uint64_t seed, uint64_t *rays);
 /// A point with a normal.

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "transport/direct_gather.h"
+
+#include "scene/sky.h"
+#include "transport/panes.h"
+
+#include <string.h>
+
+enum { R = ALPI_DIRECT_REPLICATES, BLOCK = ALPI_SPOT_BLOCK, FOUR = 4 };
+_Static_assert((int)BLOCK == FOUR * FOUR && (int)R == (int)ALPI_PACKET, "as the loops have it");
+/// The slack is that of the points of one chunk; other points may have normals farther apart.
+static const float MORE_SLACK = 1.25f;
+
+// --- choosing ------------------------------------------------------------------------------------
+
+/// Weights of looks that follow each other.
+static void weigh(const alpi_spot_choice *c, uint32_t first, float weights[BLOCK])
+{
+    const alpi_sky_looks *l = c->looks;
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        const uint32_t k = first + i;
+        const float w = c->normal.x * l->direction[0][k] + c->normal.y * l->direction[1][k] +
+                        c->normal.z * l->direction[2][k] + c->slack;
+        weights[i] = w > 0.0f ? w : 0.0f;
+    }
+}
+
+/// Sums of fours, then of all of a block.
+static float sum_block(const float terms[BLOCK], float fours[BLOCK / FOUR])
+{
+    for (uint32_t i = 0; i < BLOCK / FOUR; i++) {
+        const float *t = &terms[i * FOUR];
+        fours[i] = (t[0] + t[1]) + (t[2] + t[3]);
+    }
+    return (fours[0] + fours[1]) + (fours[2] + fours[3]);
+}
+
+/// E₀, by the weights of a block.
+static void add_open(alpi_spot_choice *c, uint32_t first, const float weights[BLOCK])
+{
+    for (int k = 0; k < 3; k++) {
+        float terms[BLOCK], fours[BLOCK / FOUR];
+        for (uint32_t i = 0; i < BLOCK; i++) {
+            terms[i] = weights[i] * c->looks->light[k][first + i];
+        }
+        c->open[k] += (double)sum_block(terms, fours);
+    }
+}
+
+void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
+                       alpi_spot_choice *choice)
+{
+    if (choice->looks == looks && choice->slack == slack && choice->normal.x == normal.x &&
+        choice->normal.y == normal.y && choice->normal.z == normal.z) {
+        return; // neighbours are often of one plane
+    }
+    choice->looks = looks;
+    choice->normal = normal;
+    choice->slack = slack;
+    choice->total = 0.0;
+    memset(choice->open, 0, sizeof choice->open);
+    for (uint32_t b = 0; b < ALPI_SPOT_BLOCKS; b++) {
+        float weights[BLOCK], fours[BLOCK / FOUR];
+        weigh(choice, b * BLOCK, weights);
+        choice->total += (double)sum_block(weights, fours);
+        choice->ends[b] = choice->total;
+        if (!(slack > 0.0f)) {
+            add_open(choice, b * BLOCK, weights);
+        }
+    }
+}
+
+/// The first block that ends beyond a place, of those from `from` on up to one that does.
+static uint32_t find_block(const alpi_spot_choice *c, double place, uint32_t from, uint32_t last)
+{
+    while (from < last) {
+        const uint32_t middle = from + (last - from) / 2;
+        const bool before = c->ends[middle] <= place;
+        from = before ? middle + 1 : from;
+        last = before ? last : middle;
+    }
+    return from;
+}
+
+/// The look at a place in a block: by fours, then one by one.
+static uint32_t find_look(const alpi_spot_choice *c, uint32_t block, double place, float *weight)
+{
+    float weights[BLOCK], fours[BLOCK / FOUR];
+    weigh(c, block * BLOCK, weights);
+    sum_block(weights, fours);
+    float left = (float)(place - (block > 0 ? c->ends[block - 1] : 0.0));
+    uint32_t four = 0, one = 0;
+    for (uint32_t i = 0; i + 1 < BLOCK / FOUR; i++) {
+        const bool past = left >= fours[i] && four == i;
+        left -= past ? fours[i] : 0.0f;
+        four += past;
+    }
+    for (uint32_t i = 0; i + 1 < FOUR; i++) {
+        const float w = weights[four * FOUR + i];
+        const bool past = left >= w && one == i;
+        left -= past ? w : 0.0f;
+        one += past;
+    }
+    uint32_t found = four * FOUR + one;
+    while (!(weights[found] > 0.0f) && found > 0) { // rounding led past the last that has any
+        found--;
+    }
+    *weight = weights[found];
+    return block * BLOCK + found;
+}
+
+uint32_t alpi_spots_pick(const alpi_spot_choice *choice, double place, float *weight)
+{
+    return find_look(choice, find_block(choice, place, 0, ALPI_SPOT_BLOCKS - 1), place, weight);
+}
+
+// --- gathering -----------------------------------------------------------------------------------
+
+/// Chooses by the points of the first chunk.
+static void begin(alpi_direct_gather *g)
+{
+    const vec3 normal = g->points[0].shading_normal;
+    float apart = 0.0f;
+    for (uint32_t i = 1; i < g->count; i++) {
+        apart = fmaxf(apart, vec3_length(vec3_sub(g->points[i].shading_normal, normal)));
+    }
+    alpi_spots_choose(alpi_sky_spot_looks(g->direct->sky), normal, MORE_SLACK * apart,
+                      &g->spots.choice);
+    for (uint32_t r = 0; r < R; r++) { // those of a half at even distances too
+        const uint32_t half = r / ALPI_DIRECT_HALF * ALPI_DIRECT_HALF;
+        const double first = (double)alpi_direct_draw(g, ALPI_DIRECT_USE_SKY, half).x;
+        g->spots.begins[r] = (first + (r - half)) / ALPI_DIRECT_HALF;
+    }
+    memset(g->spots.drawn, 0, sizeof g->spots.drawn);
+    g->spots.found = (alpi_directional_found){.sums = {.width = g->horizon_width}};
+}
+
+/// Eight draws on their way, one of each replicate: light that each brings if it is free.
+typedef struct spot_packet {
+    float light[R][3];
+    float cosines[R];
+} spot_packet;
+
+/// Aims the draws of all replicates within one of their even shares.
+static void aim(alpi_direct_gather *g, uint32_t first, spot_packet *packet, alpi_rays *rays)
+{
+    const alpi_spot_choice *c = &g->spots.choice;
+    const uint32_t each = g->direct->samples / R, share = (g->first + first) / R;
+    const double width = c->total / each;
+    const uint32_t from = find_block(c, share * width, 0, ALPI_SPOT_BLOCKS - 1);
+    const uint32_t last = find_block(c, (share + 1) * width, from, ALPI_SPOT_BLOCKS - 1);
+    alpi_rays_clear(rays);
+    for (uint32_t r = 0; r < R; r++) {
+        const alpi_receiver_point *p = &g->points[first + r];
+        const double place = (share + g->spots.begins[r]) * width;
+        float weight;
+        const uint32_t k = find_look(c, find_block(c, place, from, last), place, &weight);
+        const vec3 direction = {c->looks->direction[0][k], c->looks->direction[1][k],
+                                c->looks->direction[2][k]};
+        const float cosine = vec3_dot(direction, p->shading_normal);
+        const bool counts = cosine > 0.0f && weight > 0.0f;
+        const float factor = counts ? (float)c->total * (cosine / weight) : 0.0f;
+        for (int i = 0; i < 3; i++) {
+            packet->light[r][i] = c->looks->light[i][k] * factor;
+            g->spots.drawn[r][i] += (double)packet->light[r][i];
+        }
+        packet->cosines[r] = cosine;
+        alpi_rays_set(rays, (int)r, alpi_direct_start(p), direction, counts ? INFINITY : -INFINITY);
+        g->rays += counts;
+    }
+}
+
+/// Adds what arrives, through panes.
+static void add_free(alpi_direct_gather *g, uint32_t first, const spot_packet *packet,
+                     alpi_rays *rays)
+{
+    const alpi_direct_options *o = &g->direct->options;
+    uint32_t free = 0;
+    vec3 left[ALPI_PACKET], directions[ALPI_PACKET];
+    for (uint32_t r = 0; r < R; r++) {
+        free |= rays->maximum[r] >= 0.0f ? 1u << r : 0u;
+        left[r] = (vec3){1.0f, 1.0f, 1.0f};
+        directions[r] = (vec3){rays->direction_x[r], rays->direction_y[r], rays->direction_z[r]};
+    }
+    if (o->filter.panes) {
+        alpi_panes_dim(o->scene, o->tracer, o->filter, free, rays, left);
+    }
+    for (uint32_t r = 0; r < R; r++) {
+        if ((free >> r & 1u) != 0) {
+            const float *light = packet->light[r];
+            const alpi_direct_arrival given = {
+                .light = {light[0] * left[r].x, light[1] * left[r].y, light[2] * left[r].z},
+                .part = (uint16_t)g->direct->sky_part,
+                .replicate = (uint16_t)r,
+                .way = {.direction = directions[r],
+                        .normal = g->points[first + r].shading_normal,
+                        .cosine = packet->cosines[r]}};
+            alpi_direct_add(g, &given);
+        }
+    }
+}
+
+void alpi_direct_add_spots(alpi_direct_gather *g)
+{
+    const alpi_direct_options *o = &g->direct->options;
+    const uint32_t packets = g->count / R;
+    spot_packet given[ALPI_DIRECT_CHUNK / R];
+    if (g->first == 0) {
+        begin(g);
+    }
+    if (!(g->spots.choice.total > 0.0)) {
+        return;
+    }
+    for (uint32_t k = 0; k < packets; k++) {
+        aim(g, k * R, &given[k], &g->packets[k]);
+    }
+    alpi_trace_occluded(o->tracer, g->packets, packets, (1u << ALPI_PACKET) - 1u, o->filter,
+                        ALPI_RAYS_NEAR);
+    alpi_directional_sums *others = g->by_direction;
+    g->by_direction = others != NULL ? &g->spots.found.sums : NULL;
+    for (uint32_t k = 0; k < packets; k++) {
+        add_free(g, k * R, &given[k], &g->packets[k]);
+    }
+    g->by_direction = others;
+}
+
+/// Of a flat receiver: what there is, by what of it was free. Each replicate keeps what it found
+/// apart from the mean of all, for their ratio has less noise than they.
+static void make_ratio(const alpi_spot_gather *s, double each, double (*sums)[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double drawn = 0.0, free = 0.0;
+        for (int r = 0; r < R; r++) {
+            drawn += s->drawn[r][k];
+            free += sums[r][k];
+        }
+        const double ratio = drawn > 0.0 ? free / drawn : 0.0;
+        const double scale = drawn > 0.0 ? s->choice.open[k] * each * R / drawn : 1.0;
+        for (int r = 0; r < R; r++) {
+            const double apart = sums[r][k] - ratio * s->drawn[r][k];
+            sums[r][k] = s->choice.open[k] * each * ratio + scale * apart;
+        }
+    }
+}
+
+void alpi_direct_finish_spots(alpi_direct_gather *g)
+{
+    alpi_spot_gather *s = &g->spots;
+    double(*sums)[3] = g->sums[g->direct->sky_part];
+    double light[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 3 * R; i++) {
+        s->found.irradiance[i % 3] += sums[i / 3][i % 3];
+    }
+    if (!(s->choice.slack > 0.0f)) {
+        make_ratio(s, (double)g->direct->samples / R, sums);
+    }
+    for (int i = 0; i < 3 * R; i++) {
+        light[i % 3] += sums[i / 3][i % 3];
+    }
+    if (g->by_direction != NULL) {
+        alpi_directional_add_found(&s->found, light, g->by_direction);
+    }
+}
