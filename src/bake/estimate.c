@@ -3,6 +3,7 @@
 // lit as the texels will be.
 #include "bake/layers.h"
 #include "bake/light.h"
+#include "bake/light_plan.h"
 
 #include "atlas/factors.h"
 #include "base/memory.h"
@@ -22,7 +23,6 @@ static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latte
 static const double BOUNCED_ERROR = 0.037; // of 64 rays, over the mean of all light
 static const double BOUNCED_POWER = 1.6;   // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
-static const double EDGE_SHARE = 1.0;      // noisy texels with those around them, over noisy ones
 static const double PACKET_SHARE = 0.22;   // time of a ray in a packet, over that of a path
 static const double TEXEL_SECONDS = 1e-6;  // atlas, files
 
@@ -131,43 +131,74 @@ static void place_points(const alpi_bake_job *job, double area, alpi_point_array
     points->count = placed;
 }
 
+/// Direct light of the points.
+static alp_result gather_direct(const alpi_bake_job *job, const alpi_receivers *receivers,
+                                const alpi_tracer *tracer, const alpi_lighting *lighting,
+                                alpi_direct_output *output)
+{
+    const alpi_direct_options options = {.context = job->context,
+                                         .scene = job->scene,
+                                         .tracer = tracer,
+                                         .lighting = lighting,
+                                         .filter = {.one_sided = job->options.occlusion.one_sided},
+                                         .samples = DIRECT_SAMPLES,
+                                         .seed = job->options.occlusion.seed};
+    alpi_direct *direct = NULL;
+    ALP_TRY(alpi_direct_create(&options, &direct));
+    const alp_result result = alpi_direct_irradiance(direct, receivers, NULL, 0, NULL, output);
+    alpi_direct_destroy(direct);
+    return result;
+}
+
+/// What samples of direct light are for: all of it, but for the soft part of a sky.
+static alp_result time_direct(const alpi_bake_job *job, const alpi_receivers *receivers,
+                              const alpi_tracer *tracer, const alpi_lighting *lighting,
+                              alpi_reference_value *values, pilot *p)
+{
+    alpi_direct_output output = {.values = values};
+    alpi_lighting *soft = NULL, *spots = NULL;
+    const bool parted = alpi_lighting_sky(lighting) != NULL && !alpi_tracer_has_panes(tracer);
+    if (parted) {
+        ALP_TRY(alpi_lighting_split_sky(lighting, &job->options.light.lighting, &soft, &spots));
+    }
+    const double began = alpi_seconds();
+    const alp_result result =
+        gather_direct(job, receivers, tracer, parted ? spots : lighting, &output);
+    const double samples = (double)receivers->count * DIRECT_SAMPLES;
+    p->direct_seconds = (alpi_seconds() - began) / samples;
+    p->rays = (double)output.rays / samples;
+    alpi_lighting_destroy(job->context, soft);
+    alpi_lighting_destroy(job->context, spots);
+    for (uint32_t i = 0; i < receivers->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            p->variances[i] += (double)values[i].variance[k] / 3.0;
+        }
+    }
+    return result;
+}
+
 static alp_result light_points(const alpi_bake_job *job, const alpi_receivers *receivers,
                                const alpi_tracer *tracer, const alpi_lighting *lighting,
                                alpi_reference_value *values, pilot *p)
 {
     const alp_bake_options *o = &job->options;
-    const alpi_direct_options options = {.context = job->context,
-                                         .scene = job->scene,
-                                         .tracer = tracer,
-                                         .lighting = lighting,
-                                         .filter = {.one_sided = o->occlusion.one_sided},
-                                         .samples = DIRECT_SAMPLES,
-                                         .seed = o->occlusion.seed};
-    alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = values};
-    ALP_TRY(alpi_direct_create(&options, &direct));
-    double began = alpi_seconds();
-    const alp_result result = alpi_direct_irradiance(direct, receivers, NULL, 0, NULL, &output);
-    alpi_direct_destroy(direct);
-    ALP_TRY(result);
-    const double samples = (double)receivers->count * DIRECT_SAMPLES;
-    p->direct_seconds = (alpi_seconds() - began) / samples;
-    p->rays = (double)output.rays / samples;
+    ALP_TRY(gather_direct(job, receivers, tracer, lighting, &output));
     for (uint32_t i = 0; i < receivers->count; i++) {
         for (int k = 0; k < 3; k++) {
             p->mean += (double)values[i].mean[k] / (3.0 * receivers->count);
-            p->variances[i] += (double)values[i].variance[k] / 3.0;
         }
     }
+    ALP_TRY(time_direct(job, receivers, tracer, lighting, values, p));
     const alpi_reference paths = {.context = job->context,
                                   .scene = job->scene,
                                   .tracer = tracer,
                                   .lighting = lighting,
-                                  .filter = options.filter,
+                                  .filter = {.one_sided = o->occlusion.one_sided},
                                   .samples = PATHS,
                                   .bounces = 1,
                                   .seed = o->occlusion.seed};
-    began = alpi_seconds();
+    const double began = alpi_seconds();
     ALP_TRY(alpi_reference_irradiance(&paths, receivers, NULL, 0, NULL, values));
     const double rays = (double)receivers->count * PATHS;
     p->ray_seconds = PACKET_SHARE * (alpi_seconds() - began) / rays;
@@ -200,30 +231,35 @@ static alp_result run_pilot(const alpi_bake_job *job, double area, pilot *p, uin
 
 // --- rays ----------------------------------------------------------------------------------------
 
-/// Samples of direct light for each texel, as light_rounds.c would go on with texels like these;
-/// what it adds for the worst of a hundred is little, and left out.
-static double count_direct(const alp_light_options *o, pilot *p, uint32_t count)
+/// Samples of a texel with a variance, known by DIRECT_SAMPLES.
+static double deal_samples(double variance, double scale)
 {
-    enum { ROUNDS = 12, MOST = 65536 };
-    const double mean = ALL_OVER_DIRECT * p->mean, wanted = 0.75 * (double)o->error * mean;
-    double all = DIRECT_SAMPLES, there = DIRECT_SAMPLES;
-    for (int round = 0; round < ROUNDS && wanted > 0.0 && there < MOST; round++) {
-        double square = 0.0, noisy = 0.0;
-        for (uint32_t i = 0; i < count; i++) {
-            square += p->variances[i] / count;
-            noisy += p->variances[i] > 0.25 * wanted * wanted ? 1.0 / count : 0.0;
+    enum { MOST = 65536 };
+    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER, had = DIRECT_SAMPLES;
+    const double all = scale * pow(variance * pow(had, power), 1.0 / (power + 1.0));
+    return fmin(fmax(all, had), MOST);
+}
+
+/// Samples of direct light for each texel, as light_more_direct.c would deal them out to texels
+/// like these; what is added for the worst of a hundred is little, and left out.
+static double count_direct(const alp_light_options *o, const pilot *p, uint32_t count)
+{
+    const double wanted = 0.75 * (double)o->error * ALL_OVER_DIRECT * p->mean;
+    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER;
+    double low = -100.0, high = 100.0, mean = DIRECT_SAMPLES; // log2 of the scale
+    for (int i = 0; i < 40 && wanted > 0.0; i++) {
+        const double scale = exp2(0.5 * (low + high));
+        double square = 0.0, samples = 0.0;
+        for (uint32_t k = 0; k < count; k++) {
+            const double dealt = deal_samples(p->variances[k], scale);
+            square += p->variances[k] * pow(DIRECT_SAMPLES / dealt, power) / count;
+            samples += dealt / count;
         }
-        if (square <= wanted * wanted) {
-            break;
-        }
-        const double factor = fmin(fmax(1.1 * square / (wanted * wanted) - 1.0, 1.0), 15.0);
-        all += fmin(EDGE_SHARE * noisy, 1.0) * factor * there;
-        for (uint32_t i = 0; i < count; i++) {
-            p->variances[i] /= p->variances[i] > 0.25 * wanted * wanted ? 1.0 + factor : 1.0;
-        }
-        there *= 1.0 + factor;
+        const bool good = square <= wanted * wanted;
+        mean = good ? samples : mean;
+        *(good ? &high : &low) = 0.5 * (low + high);
     }
-    return all;
+    return mean;
 }
 
 static double find_traced_share(const alp_bake_options *o, double texels)
@@ -233,7 +269,7 @@ static double find_traced_share(const alp_bake_options *o, double texels)
                : fmin(LATTICE_SHARE + EDGE_TEXELS / sqrt(fmax(texels, 1.0)), 1.0);
 }
 
-static void add_light(const alp_bake_options *o, pilot *p, uint32_t count, alp_bake_work *w)
+static void add_light(const alp_bake_options *o, const pilot *p, uint32_t count, alp_bake_work *w)
 {
     const alp_light_options *l = &o->light;
     const double texels = (double)w->texels;
