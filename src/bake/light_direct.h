@@ -12,7 +12,7 @@ typedef struct alpi_light_direct {
     alpi_reference_value *values;        // [texels] of the solution
     alpi_reference_value *fresh;         // [texels] scratch
     alpi_directional *fresh_directional; // [texels] the same; NULL: not wanted
-    uint32_t *counts;                    // [texels] samples so far
+    uint32_t *counts;                    // [texels] samples so far; 0: it has no light of its own
     uint32_t most;                       // of those that have the most
     double limit;                        // that any may have
     double power;                        // of samples, that the error falls with
@@ -36,7 +36,9 @@ typedef struct alpi_light_goal {
 } alpi_light_goal;
 
 /// Gives texels more samples, those with more noise more of them.
+/// @param dealt out: whether any texel got more
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_light_more_direct(alpi_light_direct *direct, const alpi_light_goal *goal);
+alp_result alpi_light_more_direct(alpi_light_direct *direct, const alpi_light_goal *goal,
+                                  bool *dealt);
 
 #endif

@@ -84,7 +84,7 @@ void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error,
     } else if (wanted > 0.0 && error->p99 > ALPI_P99_LIMIT * wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
                   "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred "
-                  "has more than %.2g %% after %u rays a texel and %u samples of each light, "
+                  "has more than %.2g %% after %u rays a texel and up to %u samples of each light, "
                   "wanted at most %.2g %%",
                   100.0 * error->rms, 100.0 * error->p99, rays, direct,
                   100.0 * ALPI_P99_LIMIT * wanted);

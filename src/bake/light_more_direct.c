@@ -23,7 +23,7 @@ static const double NOISY = 0.25;
 enum { ASKED = 1 << 11 };
 enum {
     LEAST = ALPI_DIRECT_REPLICATES, // samples: of class 0
-    CLASSES = 14,                   // each has twice as many as the one before
+    CLASSES = 13,                   // each has twice as many as the one before
     MOST_TIMES = 16                 // of what a texel has already: its variance is a guess
 };
 
@@ -31,7 +31,7 @@ enum {
 typedef struct direct_deal {
     alpi_light_direct *direct;
     const alpi_light_goal *goal;
-    uint8_t *noisy; // [texels]
+    uint8_t *marks; // [texels] whether it is noisy; then its class
     uint32_t *list; // [count] those that get any
     uint32_t *some; // [count] of one class
     uint32_t count;
@@ -95,14 +95,14 @@ static void list_noisy(direct_deal *deal)
     const double wanted = deal->goal->wanted;
     for (uint32_t i = 0; i < t->count; i++) {
         const uint32_t texel = t->order[i];
-        deal->noisy[texel] = noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
+        deal->marks[texel] = noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
     }
     for (uint32_t i = 0; i < t->count; i++) {
         uint32_t around[9];
         const int count = find_around(t->lattice, t->order[i], around);
         bool any = false;
         for (int k = 0; k < count && !any; k++) {
-            any = deal->noisy[around[k]] != 0;
+            any = deal->marks[around[k]] != 0;
         }
         if (any) {
             deal->list[deal->count++] = t->order[i];
@@ -119,17 +119,23 @@ typedef struct texel_need {
     double rate;     // log2 of s^(1 / (2p + 1))
 } texel_need;
 
-/// The variance that is known of a texel is a guess: it is taken to be like those around it.
+/// The variance that is known of a texel is a guess: it is taken to be like those around it, by as
+/// many samples.
 static texel_need find_need(const direct_deal *deal, uint32_t texel)
 {
     const alpi_light_direct *d = deal->direct;
     uint32_t around[9];
     const int count = find_around(d->task->lattice, texel, around);
-    double sum = 0.0;
+    const double had = d->counts[texel];
+    double sum = 0.0, known = 0.0;
     for (int k = 0; k < count; k++) {
-        sum += mean_variance(&d->values[around[k]]);
+        const double v = mean_variance(&d->values[around[k]]), by = d->counts[around[k]];
+        if (by > 0.0) {
+            sum += by == had ? v : v * pow(by / had, 2.0 * d->power);
+            known += 1.0;
+        }
     }
-    texel_need n = {.variance = sum / fmax(count, 1.0), .had = d->counts[texel]};
+    texel_need n = {.variance = sum / fmax(known, 1.0), .had = had};
     if (deal->goal->each) { // t as it would bring this texel there
         n.variance = fmax(n.variance, mean_variance(&d->values[texel]));
         n.rate = log2(n.had) + (0.5 * log2(n.variance) - log2(deal->goal->wanted)) / d->power;
@@ -186,14 +192,15 @@ static double mean_of_others(const direct_deal *deal)
 /// foreseen is a guess; within a number of samples.
 static void find_scale(direct_deal *deal)
 {
-    static const double EXACT = 0.05, FURTHER = 0.88; // of an octave; of the squared error
+    enum { STEPS = 12 };                // halves of some dozen octaves
+    static const double FURTHER = 0.88; // of the squared error
     texel_need needs[ASKED];
     uint32_t count = 0;
     const uint32_t step = deal->count / ASKED + 1;
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (uint32_t i = 0; i < deal->count; i += step) {
         const texel_need n = find_need(deal, deal->list[i]);
-        if (n.variance > 0.0) {
+        if (n.variance > 0.0 && isfinite(n.variance)) {
             low = fmin(low, log2(n.had) - n.rate);
             high = fmax(high, log2(n.had * (1.0 + MOST_TIMES)) - n.rate);
             needs[count++] = n;
@@ -203,12 +210,13 @@ static void find_scale(direct_deal *deal)
     const double asked = (deal->count + step - 1) / step;
     const double wanted = deal->goal->wanted;
     const double room = (FURTHER * wanted * wanted - mean_of_others(deal)) / listed * asked;
-    high = deal->goal->each ? 0.0 : high;
-    while (count > 0 && high - low > EXACT && !deal->goal->each) {
+    high = deal->goal->each ? 0.0 : high; // of each: as its rate has it, or less
+    for (int i = 0; i < STEPS && count > 0; i++) {
         double squares, samples;
         deal->scale = 0.5 * (low + high);
         foresee(deal, needs, count, &squares, &samples);
-        if (squares <= room || samples * step > deal->goal->most) {
+        const bool good = !deal->goal->each && squares <= room;
+        if (good || samples * step > deal->goal->most) {
             high = deal->scale;
         } else {
             low = deal->scale;
@@ -266,7 +274,7 @@ static alp_result gather(const direct_deal *deal, uint32_t count, int class)
     return ALP_OK;
 }
 
-static alp_result gather_classes(direct_deal *deal)
+static alp_result gather_classes(direct_deal *deal, bool *dealt)
 {
     enum { NONE = CLASSES };
     double samples = 0.0;
@@ -274,42 +282,44 @@ static alp_result gather_classes(direct_deal *deal)
     for (uint32_t i = 0; i < deal->count; i++) {
         const texel_need n = find_need(deal, deal->list[i]);
         const int class = n.variance > 0.0 ? class_of(deal, &n) : -1;
-        deal->noisy[deal->list[i]] = (uint8_t)(class < 0 ? NONE : class);
+        deal->marks[deal->list[i]] = (uint8_t)(class < 0 ? NONE : class);
     }
     for (int class = 0; class < CLASSES; class ++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < deal->count; i++) {
             deal->some[count] = deal->list[i];
-            count += deal->noisy[deal->list[i]] == class;
+            count += deal->marks[deal->list[i]] == class;
         }
         if (count > 0) {
             ALP_TRY(gather(deal, count, class));
             samples += (double)count * samples_of(class);
         }
     }
-    if (samples > 0.0) {
+    *dealt = samples > 0.0;
+    if (*dealt) {
         deal->direct->seconds = (alpi_seconds() - began) / samples;
     }
     return ALP_OK;
 }
 
-static alp_result run(direct_deal *deal)
+static alp_result run(direct_deal *deal, bool *dealt)
 {
     alp_context *context = deal->direct->job->context;
     const uint32_t texels = deal->direct->task->receivers->count;
-    ALPI_TRY_NEW(context, deal->noisy, texels);
+    ALPI_TRY_NEW(context, deal->marks, texels);
     ALPI_TRY_NEW(context, deal->list, texels);
     list_noisy(deal);
     ALPI_TRY_NEW(context, deal->some, deal->count + 1);
     find_scale(deal);
-    return gather_classes(deal);
+    return gather_classes(deal, dealt);
 }
 
-alp_result alpi_light_more_direct(alpi_light_direct *direct, const alpi_light_goal *goal)
+alp_result alpi_light_more_direct(alpi_light_direct *direct, const alpi_light_goal *goal,
+                                  bool *dealt)
 {
     direct_deal deal = {.direct = direct, .goal = goal};
-    const alp_result result = run(&deal);
-    alpi_release(direct->job->context, deal.noisy);
+    const alp_result result = run(&deal, dealt);
+    alpi_release(direct->job->context, deal.marks);
     alpi_release(direct->job->context, deal.list);
     alpi_release(direct->job->context, deal.some);
     return result;

@@ -29,7 +29,8 @@ typedef struct alpi_light_plan {
     double noisy; // share of the texels that more direct light is for, about
 } alpi_light_plan;
 
-/// That power, before anything is known of it: that of samples that know nothing of each other.
+/// That power, before anything is known of it: .5 is that of samples that know nothing of each
+/// other, .53 to .64 was measured.
 #define ALPI_LIGHT_FIRST_POWER 0.6
 /// The power that more samples have shown, within what is ever seen: half, to three quarters, which
 /// is that of stratified samples of an edge.

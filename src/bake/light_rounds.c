@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rounds of rays: direct and bounced light are gathered apart, and the one whose error is the
-// larger gets more, until all of it is as good as it was asked to be. Rounds have random numbers of
-// their own; what they find is averaged by their numbers of samples.
+// Rounds of rays: direct and bounced light are gathered apart, and get as many more samples as
+// bring both together to the error that was asked for at the least cost: bounced light as many for
+// each texel, direct light by its noise (light_more_direct.c). Rounds have random numbers of their
+// own; what they find is averaged by their numbers of samples.
 //
 // With shares wᵢ of the samples and errors bᵢ + eᵢ of the rounds, bᵢ the bias of interpolation and
 // eᵢ noise, a texel's squared error is
@@ -31,10 +32,13 @@ enum {
     FIRST_DIRECT = 8, // the same
     MOST_SAMPLES = 65536,
     ROUND_LIMIT = 12,
-    TIMED_ROUND_LIMIT = 64 // each at most doubles what there is, or ends with the time
+    TIMED_ROUND_LIMIT = 64 // each adds about as much as there is, or ends with the time
 };
 // Of the time that is left, what a round may take: how long it takes is a guess.
 static const double TIME_SHARE = 0.9;
+/// Share of the texels whose direct light more samples would go to, at least: they are counted for
+/// one way to share out the error of many.
+static const double LEAST_NOISY = 0.05;
 
 typedef struct rounds {
     alpi_bake_job *job;
@@ -337,7 +341,7 @@ static alp_result plan_round(rounds *r, alpi_light_plan *p)
     r->for_worst = false;
     if (hypot(r->direct_error, r->bounced_error) > aim) {
         const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
-        const double noisy = alpi_light_noisy_share(&r->direct, half);
+        const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
         const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
         *p = cheapest(r, &noise, aim);
         return ALP_OK;
@@ -361,16 +365,17 @@ static alp_result improve(rounds *r, bool *done)
     r->number++;
     const double direct_asked = direct, rays_asked = rays;
     const double listed = fmax(p.noisy * (double)r->task->count, 1.0); // texels, about
+    bool dealt = false;
     const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
-    direct = affordable(r, direct, each, r->direct.most);
+    direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
     if (direct > 0.0) {
-        const alpi_light_goal goal = {.wanted = p.for_direct * r->mean,
-                                      .each = r->for_worst,
-                                      .most = direct < direct_asked ? direct * listed : HUGE_VAL,
-                                      .seed =
-                                          alpi_hash64(~r->job->options.occlusion.seed + r->number)};
+        const alpi_light_goal goal = {
+            .wanted = p.for_direct * r->mean,
+            .each = r->for_worst,
+            .most = isinf(r->task->clock->deadline) ? HUGE_VAL : direct * listed,
+            .seed = alpi_hash64(~r->job->options.occlusion.seed + r->number)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
-        ALP_TRY(alpi_light_more_direct(&r->direct, &goal));
+        ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
     rays = affordable(r, rays, r->ray_seconds, r->rays);
     if (rays > 0.0) {
@@ -383,6 +388,7 @@ static alp_result improve(rounds *r, bool *done)
     if (direct <= 0.0 && rays <= 0.0) { // no time for more
         *done = r->cut_off = true;
     }
+    *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
     const double before = r->direct_error * r->mean;
     ALP_TRY(measure(r));
     if (direct > 0.0 && !r->for_worst) {
@@ -420,7 +426,7 @@ static alp_result begin(rounds *r)
                                     .solution = r->solution,
                                     .values = r->solution->direct,
                                     .most = direct,
-                                    .limit = MOST_SAMPLES,
+                                    .limit = most_rays(&r->job->options.light),
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
                                                (direct * fmax(r->task->count, 1.0))};
@@ -447,8 +453,8 @@ static alp_result go_on(rounds *r)
     ALPI_TRY_NEW(context, r->held, r->held_out->count);
     memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
     note_interpolated(r);
-    for (uint32_t t = 0; t < texels; t++) {
-        r->direct.counts[t] = r->direct.most;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        r->direct.counts[r->task->order[i]] = r->direct.most;
     }
     for (bool done = false; !done && r->number < limit;) {
         ALP_TRY(improve(r, &done));

@@ -29,6 +29,10 @@ static double unevenness_below(const alpi_sky_table *t, double level)
     return sum > 0.0 ? squares * all / (sum * sum) : 0.0;
 }
 
+/// What is black makes any sky uneven: over a black ground, twice. A level that leaves the rest
+/// this much more uneven than if it were even does.
+static const double BESIDE_BLACK = 1.2;
+
 /// The highest level that leaves what is below it even; it is found to 1 %.
 static double find_level(const alpi_sky_table *t, double unevenness)
 {
@@ -38,6 +42,7 @@ static double find_level(const alpi_sky_table *t, double unevenness)
         high = b > high ? b : high;
         low = b > 0.0 && b < low ? b : low;
     }
+    unevenness = fmax(unevenness, BESIDE_BLACK * unevenness_below(t, low));
     if (unevenness_below(t, high) <= unevenness) {
         return high;
     }

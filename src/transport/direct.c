@@ -83,7 +83,7 @@ static void add_sky(alpi_direct_gather *g)
                                       .way = {.normal = p->shading_normal, .cosine = cosine}});
         }
     }
-    alpi_direct_flush(g, true);
+    alpi_direct_flush(g, ALPI_RAYS_SCATTERED);
 }
 
 // --- surfaces and sky that are met ---------------------------------------------------------------
@@ -187,7 +187,7 @@ static void aim(alpi_direct_gather *g, const alpi_emitter_view *view, uint32_t i
     vec3 t, b;
     vec3_frame(n, &t, &b);
     const vec3 along = vec3_mad(vec3_mad(vec3_scale(t, local.x), local.y, b), local.z, n);
-    alpi_direct_way way = {view->point, vec3_normalize_or(along, n), INFINITY, true};
+    alpi_direct_way way = {view->point, vec3_normalize_or(along, n), INFINITY, ALPI_RAYS_SCATTERED};
     const float density = cosine_density(local.z);
     if (is_horizon(g, local.z)) {
         alpi_directional_count(&g->directional, ALPI_PI, (double)local.z);
@@ -231,12 +231,12 @@ static void add_surfaces(alpi_direct_gather *g)
         views[i] = alpi_emitter_view_from(&g->choice, alpi_direct_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
-    alpi_direct_flush(g, false);
+    alpi_direct_flush(g, ALPI_RAYS_NEAR);
     for (uint32_t i = 0; i < count; i++) {
         aim(g, &views[i], i, &met);
     }
     trace_met(g, &met);
-    alpi_direct_flush(g, true);
+    alpi_direct_flush(g, ALPI_RAYS_SCATTERED);
 }
 
 // --- receivers -----------------------------------------------------------------------------------

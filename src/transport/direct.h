@@ -16,7 +16,7 @@
 #include "transport/directional.h"
 #include "transport/reference.h"
 
-/// Independently scrambled parts of a receiver's samples: see ALPI_REFERENCE_REPLICATES. Half as
+/// Parts of a receiver's samples: see ALPI_REFERENCE_REPLICATES. Half as
 /// many here, for they cost stratification, of which direct light lives: 16 have an error 15 to
 /// 20 % larger at the same number of rays (penumbrae and polygons of test_direct.c).
 enum { ALPI_DIRECT_REPLICATES = 8 };
@@ -79,12 +79,13 @@ typedef struct alpi_direct_output {
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased,
-/// but for partly hidden polygons, whose bias is far below their noise; a lamp at a receiver
-/// without extent takes one ray and is exact. Packets of eight receivers that follow each other in
-/// the list ask for polygons together: they should be neighbours in space. What a receiver gets
-/// does not depend on the list.
+/// but for partly hidden polygons and spots of a sky, whose bias is far below their noise; a lamp
+/// at a receiver without extent takes one ray and is exact. Packets of eight receivers that follow
+/// each other in the list ask for polygons together: they should be neighbours in space. What a
+/// receiver gets does not depend on the list, but for a factor that the list's variances have in
+/// common.
 /// @param output values and parts of the listed receivers are written, rays is added to
-/// @return ALP_OK; CANCELLED
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 /// Variances are true on average over receivers and seeds. Where all rays to a polygon agree, only
 /// its form factor's is left, mostly nothing: a hundredth of it that is hidden is seen by few, who
 /// then state more than they err. (By the rule of three, of a polygon that n rays find free at most

@@ -46,7 +46,7 @@ void alpi_direct_add_lamps(alpi_direct_gather *g)
             ask_lamp(g, light, i, alpi_direct_replicate(i), (float)(1.0 / part));
         }
     }
-    alpi_direct_flush(g, false);
+    alpi_direct_flush(g, ALPI_RAYS_NEAR);
 }
 
 /// Asks a point of a sun's disk. @param factor 1 / the probability that the sun is asked
@@ -54,8 +54,9 @@ static void ask_sun(alpi_direct_gather *g, const alpi_sun *sun, uint32_t i, uint
                     float factor)
 {
     const alpi_receiver_point *p = &g->points[i];
-    const alpi_direct_way way = {
-        alpi_direct_start(p), alpi_sun_sample(sun, alpi_direct_draw(g, use, i)), INFINITY, false};
+    const alpi_direct_way way = {alpi_direct_start(p),
+                                 alpi_sun_sample(sun, alpi_direct_draw(g, use, i)), INFINITY,
+                                 ALPI_RAYS_NEAR};
     const float cosine = vec3_dot(way.direction, p->shading_normal);
     if (cosine > 0.0f) {
         alpi_direct_send(
@@ -101,5 +102,5 @@ void alpi_direct_add_suns(alpi_direct_gather *g)
             ask_sun(g, sun, i, ALPI_DIRECT_USE_SUN, (float)(1.0 / part));
         }
     }
-    alpi_direct_flush(g, false);
+    alpi_direct_flush(g, ALPI_RAYS_NEAR);
 }

@@ -2,7 +2,6 @@
 #include "transport/direct_gather.h"
 
 #include "scene/sky.h"
-#include "transport/panes.h"
 
 #include <string.h>
 
@@ -10,6 +9,8 @@ enum { R = ALPI_DIRECT_REPLICATES, BLOCK = ALPI_SPOT_BLOCK, FOUR = 4 };
 _Static_assert((int)BLOCK == FOUR * FOUR && (int)R == (int)ALPI_PACKET, "as the loops have it");
 /// The slack is that of the points of one chunk; other points may have normals farther apart.
 static const float MORE_SLACK = 1.25f;
+/// Normals less apart are rounded: facets in one plane.
+static const float FLAT = 1e-4f;
 
 // --- choosing ------------------------------------------------------------------------------------
 
@@ -109,9 +110,16 @@ static uint32_t find_look(const alpi_spot_choice *c, uint32_t block, double plac
     return block * BLOCK + found;
 }
 
-uint32_t alpi_spots_pick(const alpi_spot_choice *choice, double place, float *weight)
+alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, double from, double to)
 {
-    return find_look(choice, find_block(choice, place, 0, ALPI_SPOT_BLOCKS - 1), place, weight);
+    const uint32_t first = find_block(choice, from, 0, ALPI_SPOT_BLOCKS - 1);
+    return (alpi_spot_range){first, find_block(choice, to, first, ALPI_SPOT_BLOCKS - 1)};
+}
+
+uint32_t alpi_spots_pick(const alpi_spot_choice *choice, alpi_spot_range range, double place,
+                         float *weight)
+{
+    return find_look(choice, find_block(choice, place, range.first, range.last), place, weight);
 }
 
 // --- gathering -----------------------------------------------------------------------------------
@@ -124,8 +132,8 @@ static void begin(alpi_direct_gather *g)
     for (uint32_t i = 1; i < g->count; i++) {
         apart = fmaxf(apart, vec3_length(vec3_sub(g->points[i].shading_normal, normal)));
     }
-    alpi_spots_choose(alpi_sky_spot_looks(g->direct->sky), normal, MORE_SLACK * apart,
-                      &g->spots.choice);
+    alpi_spots_choose(alpi_sky_spot_looks(g->direct->sky), normal,
+                      apart > FLAT ? MORE_SLACK * apart : 0.0f, &g->spots.choice);
     for (uint32_t r = 0; r < R; r++) { // those of a half at even distances too
         const uint32_t half = r / ALPI_DIRECT_HALF * ALPI_DIRECT_HALF;
         const double first = (double)alpi_direct_draw(g, ALPI_DIRECT_USE_SKY, half).x;
@@ -147,14 +155,13 @@ static void aim(alpi_direct_gather *g, uint32_t first, spot_packet *packet, alpi
     const alpi_spot_choice *c = &g->spots.choice;
     const uint32_t each = g->direct->samples / R, share = (g->first + first) / R;
     const double width = c->total / each;
-    const uint32_t from = find_block(c, share * width, 0, ALPI_SPOT_BLOCKS - 1);
-    const uint32_t last = find_block(c, (share + 1) * width, from, ALPI_SPOT_BLOCKS - 1);
+    const alpi_spot_range range = alpi_spots_narrow(c, share * width, (share + 1) * width);
     alpi_rays_clear(rays);
     for (uint32_t r = 0; r < R; r++) {
         const alpi_receiver_point *p = &g->points[first + r];
         const double place = (share + g->spots.begins[r]) * width;
         float weight;
-        const uint32_t k = find_look(c, find_block(c, place, from, last), place, &weight);
+        const uint32_t k = alpi_spots_pick(c, range, place, &weight);
         const vec3 direction = {c->looks->direction[0][k], c->looks->direction[1][k],
                                 c->looks->direction[2][k]};
         const float cosine = vec3_dot(direction, p->shading_normal);
@@ -170,31 +177,21 @@ static void aim(alpi_direct_gather *g, uint32_t first, spot_packet *packet, alpi
     }
 }
 
-/// Adds what arrives, through panes.
+/// Adds what arrives.
 static void add_free(alpi_direct_gather *g, uint32_t first, const spot_packet *packet,
-                     alpi_rays *rays)
+                     const alpi_rays *rays)
 {
-    const alpi_direct_options *o = &g->direct->options;
-    uint32_t free = 0;
-    vec3 left[ALPI_PACKET], directions[ALPI_PACKET];
     for (uint32_t r = 0; r < R; r++) {
-        free |= rays->maximum[r] >= 0.0f ? 1u << r : 0u;
-        left[r] = (vec3){1.0f, 1.0f, 1.0f};
-        directions[r] = (vec3){rays->direction_x[r], rays->direction_y[r], rays->direction_z[r]};
-    }
-    if (o->filter.panes) {
-        alpi_panes_dim(o->scene, o->tracer, o->filter, free, rays, left);
-    }
-    for (uint32_t r = 0; r < R; r++) {
-        if ((free >> r & 1u) != 0) {
+        if (rays->maximum[r] >= 0.0f) {
             const float *light = packet->light[r];
             const alpi_direct_arrival given = {
-                .light = {light[0] * left[r].x, light[1] * left[r].y, light[2] * left[r].z},
+                .light = {light[0], light[1], light[2]},
                 .part = (uint16_t)g->direct->sky_part,
                 .replicate = (uint16_t)r,
-                .way = {.direction = directions[r],
-                        .normal = g->points[first + r].shading_normal,
-                        .cosine = packet->cosines[r]}};
+                .way = {
+                    .direction = {rays->direction_x[r], rays->direction_y[r], rays->direction_z[r]},
+                    .normal = g->points[first + r].shading_normal,
+                    .cosine = packet->cosines[r]}};
             alpi_direct_add(g, &given);
         }
     }
@@ -224,21 +221,43 @@ void alpi_direct_add_spots(alpi_direct_gather *g)
     g->by_direction = others;
 }
 
+/// Share of a channel's light that was free. A channel that few looks have may have been drawn too
+/// seldom to tell: then all channels together have a say, as much as one draw.
+static double find_ratio(const alpi_spot_gather *s, int channel, double draws, double (*sums)[3])
+{
+    double drawn[3] = {0.0, 0.0, 0.0}, free[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 3 * R; i++) {
+        drawn[i % 3] += s->drawn[i / 3][i % 3];
+        free[i % 3] += sums[i / 3][i % 3];
+    }
+    const double expected = s->choice.open[channel] * draws;
+    if (drawn[channel] >= 0.5 * expected && drawn[channel] > 0.0) {
+        return free[channel] / drawn[channel];
+    }
+    const double all = drawn[0] + drawn[1] + drawn[2];
+    const double together = all > 0.0 ? (free[0] + free[1] + free[2]) / all : 0.0;
+    const double one = s->choice.open[channel];
+    const double weight = drawn[channel] + one;
+    return weight > 0.0 ? (free[channel] + one * together) / weight : 0.0;
+}
+
 /// Of a flat receiver: what there is, by what of it was free. Each replicate keeps what it found
-/// apart from the mean of all, for their ratio has less noise than they.
+/// apart from that, for the ratio has less noise than they.
+/// @param each draws of a replicate
 static void make_ratio(const alpi_spot_gather *s, double each, double (*sums)[3])
 {
+    double ratios[3];
     for (int k = 0; k < 3; k++) {
-        double drawn = 0.0, free = 0.0;
+        ratios[k] = find_ratio(s, k, each * R, sums);
+    }
+    for (int k = 0; k < 3; k++) {
+        double mean = 0.0;
         for (int r = 0; r < R; r++) {
-            drawn += s->drawn[r][k];
-            free += sums[r][k];
+            sums[r][k] -= ratios[k] * s->drawn[r][k];
+            mean += sums[r][k] / R;
         }
-        const double ratio = drawn > 0.0 ? free / drawn : 0.0;
-        const double scale = drawn > 0.0 ? s->choice.open[k] * each * R / drawn : 1.0;
         for (int r = 0; r < R; r++) {
-            const double apart = sums[r][k] - ratio * s->drawn[r][k];
-            sums[r][k] = s->choice.open[k] * each * ratio + scale * apart;
+            sums[r][k] += s->choice.open[k] * each * ratios[k] - mean;
         }
     }
 }

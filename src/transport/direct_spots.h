@@ -4,16 +4,17 @@
 // The spots are a fixed list of looks, each in a direction ω_k with a light l_k, so that
 // E = Σ l_k max(n·ω_k, 0) V_k with visibility V. For the normal n of a receiver a prefix sum over
 // blocks of looks lets any number of them be drawn in proportion to max(n·ω_k, 0), all their light
-// being alike: only visibility, and hue, is left to chance. A replicate's draws lie at even
-// distances along the list, whose looks are neighbours as they follow each other. The replicates
-// go along it together, so that the rays of a packet are nearly parallel.
+// being alike within a factor of 2: visibility, and hue, are left to chance. A replicate's draws
+// lie at even distances along the list, whose looks are neighbours as they follow each other. The
+// replicates go along it together, so that the rays of a packet are nearly parallel.
 //
 // What there is without anything in between, E₀ = Σ l_k max(n·ω_k, 0), is known. So where a
 // receiver is flat, E = E₀ Σ l V / Σ l over the draws: what sees all spots, or none, has no noise.
-// A ratio of means, whose bias falls as 1 / draws².
+// A ratio of means; its bias is far below its noise.
 //
-// Where normals differ, looks are drawn by max(n·ω_k + s, 0), s the largest |n' − n|: above it lies
-// n'·ω_k of none of them.
+// Where normals differ, looks are drawn by max(n·ω_k + s, 0), s no less than |n' − n| for all
+// normals n' of some points: n'·ω_k is above that for none of them. Panes are not seen to: who asks
+// for spots alone has none.
 #ifndef ALPI_TRANSPORT_DIRECT_SPOTS_H
 #define ALPI_TRANSPORT_DIRECT_SPOTS_H
 
@@ -35,8 +36,15 @@ typedef struct alpi_spot_choice {
 /// Makes a choice, unless it is made already.
 void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
                        alpi_spot_choice *choice);
-/// The look at a place within [0, total). @param weight out, > 0
-uint32_t alpi_spots_pick(const alpi_spot_choice *choice, double place, float *weight);
+/// Blocks, first and last, that places lie in.
+typedef struct alpi_spot_range {
+    uint32_t first, last;
+} alpi_spot_range;
+/// Where to search for places from `from` to `to`.
+alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, double from, double to);
+/// The look at a place within [0, total) and the range. @param weight out, > 0
+uint32_t alpi_spots_pick(const alpi_spot_choice *choice, alpi_spot_range range, double place,
+                         float *weight);
 
 /// The draws at a receiver.
 typedef struct alpi_spot_gather {

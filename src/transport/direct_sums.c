@@ -8,8 +8,8 @@
 #include <string.h>
 
 enum { R = ALPI_DIRECT_REPLICATES };
-/// As many weigh as much as what would be taken to be true without any.
-static const double FEW_RECEIVERS = 2.0;
+/// As many blocks weigh as much as what would be taken to be true without any.
+static const double FEW_BLOCKS = 0.25;
 
 void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane,
                               double (*sums)[R][3], alpi_directional_sums *directional)
@@ -119,7 +119,16 @@ static void add_halves(const void *user, uint32_t begin, uint32_t end, double su
     for (uint32_t i = begin; i < end; i++) {
         sums[0] += (double)halves->sums[i][0];
         sums[1] += (double)halves->sums[i][1];
+        sums[2] += (double)halves->sums[i][1] * (double)halves->sums[i][1];
     }
+}
+
+/// F, of as many blocks as weigh.
+static float find_scale(const double sums[ALPI_SUM_LIMIT])
+{
+    const double kept = FEW_BLOCKS * sums[2] / (sums[1] * sums[1]);
+    const double scale = (sums[0] / sums[1] + kept) / (1.0 + kept);
+    return isfinite(scale) ? (float)scale : 1.0f; // none has a variance, or it is infinite
 }
 
 static void scale_parts(const alpi_direct *d, uint32_t receiver, float scale,
@@ -139,14 +148,13 @@ alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *lis
     double sums[ALPI_SUM_LIMIT] = {0.0};
     const uint32_t blocks = count / ALPI_PACKET + 1;
     ALP_TRY(alpi_parallel_sum(d->options.context, blocks, add_halves, halves, NULL, sums));
-    const double kept = FEW_RECEIVERS / fmax(count, 1.0);
-    const float scale = sums[1] > 0.0 ? (float)((sums[0] / sums[1] + kept) / (1.0 + kept)) : 1.0f;
+    const float scale = find_scale(sums);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t receiver = list != NULL ? list[i] : i;
         float *v = output->values[receiver].variance;
         for (int k = 0; k < 3; k++) { // what polygons and the others have in common may be negative
             const float joined = halves->joined != NULL ? halves->joined[i][k] : v[k];
-            v[k] = fmaxf(scale * v[k], v[k] - (1.0f - scale) * joined);
+            v[k] = fmaxf(fminf(scale, 1.0f) * v[k], v[k] + (scale - 1.0f) * joined);
         }
         scale_parts(d, receiver, scale, output);
     }

@@ -19,7 +19,8 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
 /// each other, V = Σ (xᵢ − x̄)² / (R (R − 1)), is too large. With the means a, b of the halves,
 /// which are independent, (a − b)² / 4 is not; but it is one number. So over all receivers of a
 /// call V is scaled by F = Σ (a − b)² / 4 / Σ V: right on average, and of each as precise as V.
-/// Few receivers do not tell: of those V mostly stays, which is too large.
+/// Few receivers do not tell, nor many of which few have all the noise: of those V partly stays,
+/// which is too large.
 typedef struct alpi_direct_halves {
     float (*sums)[2]; // [(count + 7) / 8] (a − b)² / 4 and V of what is not of polygons, over the
                       // channels and the receivers of a block

@@ -60,11 +60,14 @@ void alpi_directional_add_found(const alpi_directional_found *found, const doubl
                                 alpi_directional_sums *sums)
 {
     const double luminance = alpi_luminance(found->irradiance);
+    const double *e = found->irradiance, whole = e[0] + e[1] + e[2];
     const double scale = luminance > 0.0 ? alpi_luminance(light) / luminance : 0.0;
     for (int k = 0; k < 3; k++) {
         const double all = found->irradiance[k];
-        for (int i = 0; i < ALPI_SH1_COUNT && all > 0.0; i++) {
-            sums->sh[i][k] += found->sums.sh[i][k] * light[k] / all;
+        for (int i = 0; i < ALPI_SH1_COUNT && whole > 0.0; i++) {
+            const double *sh = found->sums.sh[i]; // of a channel that was not found as of all
+            sums->sh[i][k] +=
+                light[k] * (all > 0.0 ? sh[k] / all : (sh[0] + sh[1] + sh[2]) / whole);
         }
         sums->toward[k] += scale * found->sums.toward[k];
     }

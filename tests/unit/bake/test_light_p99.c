@@ -119,6 +119,17 @@ static void worst_texels_tell_what_they_are_made_of(void **state)
     assert_true(noise.direct == 0.0 && noise.bounced == 0.0 && noise.noisy > 0.3);
 }
 
+/// A power is what the error showed, within .5 and .75; what says nothing leaves it.
+static void powers_follow_the_error(void **state)
+{
+    (void)state;
+    ASSERT_NEAR(alpi_light_power(0.6, pow(16.0, -0.6), pow(16.0, -0.7)), 0.7, 1e-12);
+    assert_true(alpi_light_power(0.6, 0.1, 0.001) == 0.75);
+    assert_true(alpi_light_power(0.6, 0.1, 0.9) == 0.5);
+    assert_true(alpi_light_power(0.6, 0.1, 0.0) == 0.6);
+    assert_true(alpi_light_power(0.6, 0.95, 0.5) == 0.6);
+}
+
 /// Only what is too noisy gets more: as much as brings it there, 15 times what there is at most.
 static void plans_leave_alone_what_is_good(void **state)
 {
@@ -149,9 +160,10 @@ static void what_fell_short_is_told(void **state)
                     8);
     assert_false(test_log_has("error-not-reached"));
     alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.009, .p99 = 0.051}, false, 64, 8);
-    assert_non_null(strstr(
-        test_log_text(), "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
-                         "after 64 rays a texel and 8 samples of each light, wanted at most 4 %"));
+    assert_non_null(
+        strstr(test_log_text(),
+               "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
+               "after 64 rays a texel and up to 8 samples of each light, wanted at most 4 %"));
     test_log_clear();
     alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.02, .p99 = 0.05}, false, 64, 8);
     assert_non_null(strstr(test_log_text(), "the light is 2 % after"));
@@ -166,6 +178,7 @@ int main(void)
         cmocka_unit_test(small_shadows_come_down),
         cmocka_unit_test(bounced_light_alone_errs_over_its_own_mean),
         cmocka_unit_test(worst_texels_tell_what_they_are_made_of),
+        cmocka_unit_test(powers_follow_the_error),
         cmocka_unit_test(plans_leave_alone_what_is_good),
         cmocka_unit_test(what_fell_short_is_told),
     };
