@@ -153,25 +153,50 @@ static int class_of(const direct_deal *deal, const texel_need *n)
     if (!(more >= (deal->goal->each ? 0.0 : 0.5 * LEAST)) || most < LEAST) {
         return -1;
     }
-    const double class = fmin(floor(log2(more / LEAST) + 0.5), floor(log2(most / LEAST)));
-    return (int)fmin(fmax(class, 0.0), CLASSES - 1);
+    const double k = fmin(floor(log2(more / LEAST) + 0.5), floor(log2(most / LEAST)));
+    return (int)fmin(fmax(k, 0.0), CLASSES - 1);
 }
 
-static uint32_t samples_of(int class)
+static uint32_t samples_of(int k)
 {
-    return class < 0 ? 0 : (uint32_t)LEAST << class;
+    return k < 0 ? 0 : (uint32_t)LEAST << k;
 }
 
-/// What the scale leads to, for some of the texels.
-static void foresee(const direct_deal *deal, const texel_need *needs, uint32_t count,
-                    double *squares, double *samples)
+/// Some of the listed texels, of which each stands for as many others.
+typedef struct some_needs {
+    texel_need needs[ASKED];
+    uint32_t count;
+    double each;      // listed texels that one stands for
+    double low, high; // scales by which none of them gets any, and all get the most
+} some_needs;
+
+static void ask_some(const direct_deal *deal, some_needs *some)
 {
-    *squares = *samples = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        const double more = samples_of(class_of(deal, &needs[i])), had = needs[i].had;
-        *squares += needs[i].variance * pow(had / (had + more), 2.0 * deal->direct->power);
-        *samples += more;
+    const uint32_t step = deal->count / ASKED + 1, asked = (deal->count + step - 1) / step;
+    *some = (some_needs){.low = HUGE_VAL, .high = -HUGE_VAL};
+    for (uint32_t i = 0; i < deal->count; i += step) {
+        const texel_need n = find_need(deal, deal->list[i]);
+        if (n.variance > 0.0 && isfinite(n.variance)) {
+            some->low = fmin(some->low, log2(n.had) - n.rate);
+            some->high = fmax(some->high, log2(n.had * (1.0 + MOST_TIMES)) - n.rate);
+            some->needs[some->count++] = n;
+        }
     }
+    some->each = deal->count / fmax(asked, 1.0);
+}
+
+/// What the scale leads to: the variance of the listed texels, over all there are.
+/// @param samples out: of all together
+static double foresee(const direct_deal *deal, const some_needs *some, double *samples)
+{
+    double sum = 0.0;
+    *samples = 0.0;
+    for (uint32_t i = 0; i < some->count; i++) {
+        const double had = some->needs[i].had, more = samples_of(class_of(deal, &some->needs[i]));
+        sum += some->needs[i].variance * pow(had / (had + more), 2.0 * deal->direct->power);
+        *samples += some->each * more;
+    }
+    return sum * some->each / fmax(deal->direct->task->count, 1.0);
 }
 
 /// Mean over all texels of the variance of those that are not listed.
@@ -194,38 +219,24 @@ static void find_scale(direct_deal *deal)
 {
     enum { STEPS = 12 };                // halves of some dozen octaves
     static const double FURTHER = 0.88; // of the squared error
-    texel_need needs[ASKED];
-    uint32_t count = 0;
-    const uint32_t step = deal->count / ASKED + 1;
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (uint32_t i = 0; i < deal->count; i += step) {
-        const texel_need n = find_need(deal, deal->list[i]);
-        if (n.variance > 0.0 && isfinite(n.variance)) {
-            low = fmin(low, log2(n.had) - n.rate);
-            high = fmax(high, log2(n.had * (1.0 + MOST_TIMES)) - n.rate);
-            needs[count++] = n;
-        }
-    }
-    const double listed = deal->count / fmax(deal->direct->task->count, 1.0);
-    const double asked = (deal->count + step - 1) / step;
-    const double wanted = deal->goal->wanted;
-    const double room = (FURTHER * wanted * wanted - mean_of_others(deal)) / listed * asked;
-    high = deal->goal->each ? 0.0 : high; // of each: as its rate has it, or less
-    for (int i = 0; i < STEPS && count > 0; i++) {
-        double squares, samples;
+    const alpi_light_goal *goal = deal->goal;
+    const double others = mean_of_others(deal);
+    some_needs some;
+    ask_some(deal, &some);
+    double low = some.low, samples;
+    double high = goal->each ? 0.0 : some.high; // of each: as its rate has it, or less
+    for (int i = 0; i < STEPS && some.count > 0; i++) {
         deal->scale = 0.5 * (low + high);
-        foresee(deal, needs, count, &squares, &samples);
-        const bool good = !deal->goal->each && squares <= room;
-        if (good || samples * step > deal->goal->most) {
+        const double squared = foresee(deal, &some, &samples) + others;
+        const bool good = !goal->each && squared <= FURTHER * goal->wanted * goal->wanted;
+        if (good || samples > goal->most) {
             high = deal->scale;
         } else {
             low = deal->scale;
         }
     }
-    double squares = 0.0, samples;
     deal->scale = high;
-    foresee(deal, needs, count, &squares, &samples);
-    deal->direct->foreseen = sqrt(squares / fmax(asked, 1.0) * listed + mean_of_others(deal));
+    deal->direct->foreseen = sqrt(foresee(deal, &some, &samples) + others);
 }
 
 // --- gathering -----------------------------------------------------------------------------------
@@ -247,11 +258,10 @@ static void scale_layers(const direct_deal *deal, uint32_t count, uint32_t more,
     }
 }
 
-/// One class of texels.
-static alp_result gather(const direct_deal *deal, uint32_t count, int class)
+/// Gives the texels of one class their samples.
+static alp_result gather(const direct_deal *deal, uint32_t count, uint32_t more)
 {
     alpi_light_direct *d = deal->direct;
-    const uint32_t more = samples_of(class);
     const uint64_t seed = alpi_hash64(deal->goal->seed + more);
     alpi_direct_output output = {.values = d->fresh, .directional = d->fresh_directional};
     scale_layers(deal, count, more, false);
@@ -281,18 +291,18 @@ static alp_result gather_classes(direct_deal *deal, bool *dealt)
     const double began = alpi_seconds();
     for (uint32_t i = 0; i < deal->count; i++) {
         const texel_need n = find_need(deal, deal->list[i]);
-        const int class = n.variance > 0.0 ? class_of(deal, &n) : -1;
-        deal->marks[deal->list[i]] = (uint8_t)(class < 0 ? NONE : class);
+        const int k = n.variance > 0.0 ? class_of(deal, &n) : -1;
+        deal->marks[deal->list[i]] = (uint8_t)(k < 0 ? NONE : k);
     }
-    for (int class = 0; class < CLASSES; class ++) {
+    for (int k = 0; k < CLASSES; k++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < deal->count; i++) {
             deal->some[count] = deal->list[i];
-            count += deal->marks[deal->list[i]] == class;
+            count += deal->marks[deal->list[i]] == k;
         }
         if (count > 0) {
-            ALP_TRY(gather(deal, count, class));
-            samples += (double)count * samples_of(class);
+            ALP_TRY(gather(deal, count, samples_of(k)));
+            samples += (double)count * samples_of(k);
         }
     }
     *dealt = samples > 0.0;

@@ -54,7 +54,7 @@ static void ask_surface(alpi_direct_gather *g, const alpi_emitter_view *view, ui
     if (cosine > 0.0f) {
         const float met = view->share > NEAR_SHARE ? cosine_density(cosine) : 0.0f;
         const alpi_direct_way way = {view->point, s.direction, alpi_direct_reach(s.distance, p),
-                                     false};
+                                     ALPI_RAYS_NEAR};
         alpi_direct_send(
             g, &way, s.light, cosine / (s.density + met),
             (alpi_direct_arrival){.part = part_of_triangle(g->direct, s.triangle),

@@ -37,23 +37,23 @@ typedef struct alpi_direct_arrival {
 } alpi_direct_arrival;
 
 typedef struct alpi_direct_gather {
+    alpi_rays packets[ALPI_TRACE_BATCH]; // of the queue
+    alpi_polygon_gather polygons;
     const alpi_direct *direct;
     const alpi_receivers *receivers;
     alpi_direct_output *output;
-    uint32_t keys[2]; // of the receiver, for each half of its samples
-    alpi_receiver_point points[ALPI_DIRECT_CHUNK];
-    uint32_t first, count; // samples of the chunk
     uint64_t rays;
-    double sums[ALPI_DIRECT_PART_LIMIT][ALPI_DIRECT_REPLICATES][3];
-    double horizon_width; // 0: light is not wanted by its direction
-    alpi_directional_sums directional;
+    double horizon_width;                // 0: light is not wanted by its direction
     alpi_directional_sums *by_direction; // where to add what arrives; NULL: it is not wanted
-    uint32_t queued;
-    alpi_direct_arrival givens[ALPI_DIRECT_QUEUE];
-    alpi_rays packets[ALPI_TRACE_BATCH];
-    alpi_polygon_gather polygons;
+    alpi_directional_sums directional;
     alpi_emitter_choice choice;
     alpi_spot_gather spots;
+    double sums[ALPI_DIRECT_PART_LIMIT][ALPI_DIRECT_REPLICATES][3];
+    uint32_t first, count; // samples of the chunk
+    uint32_t queued;
+    uint32_t keys[2]; // of the receiver, for each half of its samples
+    alpi_receiver_point points[ALPI_DIRECT_CHUNK];
+    alpi_direct_arrival givens[ALPI_DIRECT_QUEUE];
 } alpi_direct_gather;
 
 /// Sample i of the chunk, for one use; the replicates take turns, and those of a half are one

@@ -15,7 +15,7 @@ static void ask_lamp(alpi_direct_gather *g, uint32_t light, uint32_t i, uint32_t
     const float cosine = vec3_dot(at.direction, p->shading_normal);
     if (cosine > 0.0f) {
         const alpi_direct_way way = {origin, at.direction, alpi_direct_reach(at.distance, p),
-                                     false};
+                                     ALPI_RAYS_NEAR};
         alpi_direct_send(
             g, &way, at.light, cosine * factor,
             (alpi_direct_arrival){.part = (uint16_t)g->direct->light_parts[light],

@@ -5,7 +5,6 @@
 #include "base/tasks.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { R = ALPI_DIRECT_REPLICATES };
 /// As many blocks weigh as much as what would be taken to be true without any.
@@ -53,7 +52,7 @@ alp_result alpi_direct_halves_create(const alpi_direct *d, uint32_t count,
     *halves = (alpi_direct_halves){NULL, NULL};
     ALPI_TRY_NEW(d->options.context, halves->sums, count / ALPI_PACKET + 1);
     if (d->polygon_count > 0 && has_joined(d)) {
-        ALPI_TRY_NEW(d->options.context, halves->joined, count);
+        ALPI_TRY_NEW(d->options.context, halves->shares, count);
     }
     return ALP_OK;
 }
@@ -61,28 +60,33 @@ alp_result alpi_direct_halves_create(const alpi_direct *d, uint32_t count,
 void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves)
 {
     alpi_release(d->options.context, halves->sums);
-    alpi_release(d->options.context, halves->joined);
+    alpi_release(d->options.context, halves->shares);
 }
 
-/// @param sums of the joined parts together
-static void compare_halves(const double (*sums)[3], uint32_t each, uint32_t place,
-                           const alpi_direct_halves *halves)
+static double sum_variances(const alpi_reference_value *v)
+{
+    return (double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2];
+}
+
+/// @param sums of the joined parts together  @param all that there is
+static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_reference_value *all,
+                           uint32_t place, const alpi_direct_halves *halves)
 {
     alpi_reference_value joined;
     alpi_reference_mean(sums, R, each, &joined);
-    double apart = 0.0, variance = 0.0;
+    double apart = 0.0;
     for (int k = 0; k < 3; k++) {
         double half[2] = {0.0, 0.0};
         for (int r = 0; r < R; r++) {
             half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
         }
         apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
-        variance += (double)joined.variance[k];
     }
+    const double variance = sum_variances(&joined);
     halves->sums[place / ALPI_PACKET][0] += (float)apart;
     halves->sums[place / ALPI_PACKET][1] += (float)variance;
-    if (halves->joined != NULL) {
-        memcpy(halves->joined[place], joined.variance, sizeof joined.variance);
+    if (halves->shares != NULL) { // together they may have less than this part alone, by chance
+        halves->shares[place] = (float)fmin(variance / sum_variances(all), 1.0);
     }
 }
 
@@ -110,7 +114,7 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
     for (int k = 0; k < 3; k++) {
         value->mean[k] = mean[k];
     }
-    compare_halves((const double(*)[3])joined, each, place, halves);
+    compare_halves((const double(*)[3])joined, each, value, place, halves);
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
@@ -151,10 +155,9 @@ alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *lis
     const float scale = find_scale(sums);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t receiver = list != NULL ? list[i] : i;
-        float *v = output->values[receiver].variance;
-        for (int k = 0; k < 3; k++) { // what polygons and the others have in common may be negative
-            const float joined = halves->joined != NULL ? halves->joined[i][k] : v[k];
-            v[k] = fmaxf(fminf(scale, 1.0f) * v[k], v[k] + (scale - 1.0f) * joined);
+        const float share = halves->shares != NULL ? halves->shares[i] : 1.0f;
+        for (int k = 0; k < 3; k++) {
+            output->values[receiver].variance[k] *= 1.0f + share * (scale - 1.0f);
         }
         scale_parts(d, receiver, scale, output);
     }

@@ -6,6 +6,7 @@
 #include "base/image.h"
 #include "base/random.h"
 #include "scene/sky.h"
+#include "sh/basis.h"
 #include "transport/direct_spots.h"
 
 #include <math.h>
@@ -277,15 +278,22 @@ static void a_curved_receiver_misses_nothing(void **state)
     ASSERT_OK(context, alpi_direct_create(&o, &direct));
     ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
     alpi_direct_destroy(direct);
+    double true_squares = 0.0, stated = 0.0;
     for (int k = 0; k < 3; k++) {
-        double mean = 0.0, variance = 0.0;
+        double mean = 0.0, squares = 0.0;
         for (int c = 0; c < COPIES; c++) {
+            const double apart = (double)values[c].mean[k] - truth[k];
             mean += (double)values[c].mean[k] / COPIES;
-            variance += (double)values[c].variance[k] / COPIES;
+            squares += apart * apart / COPIES;
+            stated += (double)values[c].variance[k] / COPIES;
         }
-        // 5 standard errors of the mean, and what the edge of the floor is rounded by.
-        ASSERT_NEAR(mean, truth[k], 5.0 * sqrt(variance / COPIES) + 1e-3 * truth[k]);
+        true_squares += squares;
+        // Of all light, a fiftieth; of the mean 5 standard errors, and what the edge of the floor
+        // is rounded by.
+        assert_true(sqrt(squares) < 0.02 * (truth[0] + truth[1] + truth[2]));
+        ASSERT_NEAR(mean, truth[k], 5.0 * sqrt(squares / COPIES) + 1e-3 * truth[k]);
     }
+    ASSERT_NEAR(sqrt(stated / true_squares), 1.0, 0.1);
     finish(&s);
 }
 
@@ -300,23 +308,32 @@ static void light_has_its_directions(void **state)
     alpi_direct_options o = test_stage_options(&s.all, 4096);
     alpi_direct *direct = NULL;
     alpi_reference_value value;
-    alpi_directional by_direction;
+    alpi_directional by_direction = {.toward = {0.0f}};
     alpi_direct_output output = {.values = &value, .directional = &by_direction};
     ASSERT_OK(context, alpi_direct_create(&o, &direct));
     ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
     alpi_direct_destroy(direct);
-    double toward[3] = {0.0, 0.0, 0.0};
+    double toward[3] = {0.0, 0.0, 0.0}, sh[ALPI_SH1_COUNT][3] = {{0.0}};
     for (uint32_t k = 0; k < ALPI_SKY_LOOKS; k++) {
         const vec3 d = look_at(s.looks, k);
         const double rgb[3] = {(double)s.looks->light[0][k], (double)s.looks->light[1][k],
                                (double)s.looks->light[2][k]};
-        const double light = alpi_luminance(rgb) * fmax((double)d.y, 0.0);
-        toward[0] += light * (double)d.x;
-        toward[1] += light * (double)d.y;
-        toward[2] += light * (double)d.z;
+        const double cosine = fmax((double)d.y, 0.0), light = alpi_luminance(rgb) * cosine;
+        const double along[3] = {(double)d.x, (double)d.y, (double)d.z};
+        double basis[ALPI_SH1_COUNT];
+        alpi_sh1_basis(d, basis);
+        for (int c = 0; c < 3; c++) {
+            toward[c] += light * along[c];
+            for (int i = 0; i < ALPI_SH1_COUNT && cosine > 0.0; i++) {
+                sh[i][c] += rgb[c] * basis[i];
+            }
+        }
     }
-    for (int k = 0; k < 3; k++) {
-        ASSERT_NEAR(by_direction.toward[k], toward[k], 2e-3 * fabs(toward[1]));
+    for (int c = 0; c < 3; c++) {
+        ASSERT_NEAR(by_direction.toward[c], toward[c], 2e-3 * fabs(toward[1]));
+        for (int i = 0; i < ALPI_SH1_COUNT; i++) {
+            ASSERT_NEAR(by_direction.sh[i][c], sh[i][c], 2e-3 * fabs(sh[1][c]));
+        }
     }
     finish(&s);
 }

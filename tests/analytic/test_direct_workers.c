@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Direct light has the same bits for any number of workers and whatever else is in the list; it
-// ends soon after it is cancelled, within one receiver too.
+// Direct light has the same bits for any number of workers, and the same means whatever else is in
+// the list; it ends soon after it is cancelled, within one receiver too.
+#include "base/image.h"
+#include "scene/sky.h"
 #include "test_direct_stage.h"
 
 enum { POINTS = 32, PARTS = 3 };
@@ -10,14 +12,15 @@ typedef struct result {
     alpi_reference_value values[POINTS], parts[POINTS][PARTS];
 } result;
 
-static test_stage open_cornell(alp_context *context)
+/// With a lamp. @param lighting NULL: of an even sky
+static test_stage open_cornell(alp_context *context, const alp_lighting_options *lighting)
 {
     alp_scene *scene = NULL;
     const alpi_light lamp = test_lamp((vec3){0.2f, 0.3f, -0.2f}, 0.1f);
-    alp_lighting_options o = alp_lighting_options_default();
-    o.sky.kind = ALP_SKY_CONSTANT;
+    alp_lighting_options even = alp_lighting_options_default();
+    even.sky.kind = ALP_SKY_CONSTANT;
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
-    return test_stage_open(context, scene, &lamp, 1, &o);
+    return test_stage_open(context, scene, &lamp, 1, lighting != NULL ? lighting : &even);
 }
 
 static test_patches floor_patches(void)
@@ -54,7 +57,7 @@ static void workers_change_nothing(void **state)
     static result results[5];
     static const uint32_t workers[4] = {1, 2, 7, 32};
     alp_context *context = test_context(1);
-    test_stage stage = open_cornell(context);
+    test_stage stage = open_cornell(context, NULL);
     for (int k = 0; k < 4; k++) {
         gather(&stage, workers[k], NULL, 0, &results[k]);
         assert_memory_equal(&results[k], &results[0], sizeof results[0]);
@@ -73,6 +76,43 @@ static void workers_change_nothing(void **state)
     }
     assert_true(results[4].values[5].mean[0] == 0.0f); // not in the list
     test_stage_close(&stage);
+    alp_context_destroy(context);
+}
+
+/// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: variances of
+/// sequences and of what knows nothing of its neighbours, in one value.
+static void nor_with_spots(void **state)
+{
+    (void)state;
+    enum { WIDTH = 64, HEIGHT = 32 };
+    alp_context *context = test_context(1);
+    const alp_image_info info = {WIDTH, HEIGHT, 3, ALP_COMPONENT_FLOAT};
+    alp_lighting_options o = alp_lighting_options_default();
+    alp_image *picture = NULL;
+    ASSERT_OK(context, alp_image_create(context, info, &picture));
+    for (uint32_t i = 0; i < WIDTH * HEIGHT * 3; i++) {
+        alp_image_floats(picture)[i] = i / 3 % 5 == 0 ? 40.0f : 0.1f;
+    }
+    o.sky.kind = ALP_SKY_IMAGE;
+    o.sky.image = picture;
+    test_stage stage = open_cornell(context, &o);
+    alpi_lighting *whole = stage.lighting, *soft = NULL;
+    ASSERT_OK(context, alpi_lighting_split_sky(whole, &o, &soft, &stage.lighting));
+    assert_non_null(alpi_sky_spot_looks(alpi_lighting_sky(stage.lighting)));
+    static result results[3];
+    static const uint32_t workers[3] = {1, 2, 7};
+    for (int k = 0; k < 3; k++) {
+        gather(&stage, workers[k], NULL, 0, &results[k]);
+        assert_memory_equal(&results[k], &results[0], sizeof results[0]);
+    }
+    for (int p = 0; p < PARTS; p++) {
+        assert_true(results[0].parts[POINTS - 1][p].mean[0] > 0.0f);
+    }
+    assert_true(results[0].values[POINTS - 1].variance[0] > 0.0f);
+    alpi_lighting_destroy(context, soft);
+    alpi_lighting_destroy(context, whole);
+    test_stage_close(&stage);
+    alp_image_destroy(picture);
     alp_context_destroy(context);
 }
 
@@ -98,7 +138,7 @@ static void one_receiver_can_be_cancelled(void **state)
     // 2^26 samples of one receiver take minutes.
     for (uint32_t workers = 1; workers <= 2; workers++) {
         alp_context *context = test_context(workers);
-        test_stage stage = open_cornell(context);
+        test_stage stage = open_cornell(context, NULL);
         alpi_direct_options o = test_stage_options(&stage, 1u << 26);
         const test_patches floor = floor_patches();
         const alpi_receivers receivers = test_patches_receivers(&floor);
@@ -126,7 +166,7 @@ static void counts_are_true(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    test_stage stage = open_cornell(context);
+    test_stage stage = open_cornell(context, NULL);
     const alpi_direct_options o = test_stage_options(&stage, 64);
     const test_patches floor = floor_patches();
     const alpi_receivers receivers = test_patches_receivers(&floor);
@@ -182,9 +222,8 @@ static void every_allocation_may_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(one_receiver_can_be_cancelled),
-        cmocka_unit_test(counts_are_true),
+        cmocka_unit_test(workers_change_nothing),        cmocka_unit_test(nor_with_spots),
+        cmocka_unit_test(one_receiver_can_be_cancelled), cmocka_unit_test(counts_are_true),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

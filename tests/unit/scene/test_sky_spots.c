@@ -165,6 +165,51 @@ static void black_ground_leaves_the_sky_soft(void **state)
     alp_context_destroy(context);
 }
 
+/// The cell of a sum, one by one. @return its index  @param rest out: the place in it
+static uint32_t search(const double *sums, double u, float *rest)
+{
+    uint32_t i = 0;
+    while (sums[i] <= u) {
+        i++;
+    }
+    const double below = i > 0 ? sums[i - 1] : 0.0;
+    *rest = (float)((u - below) / (sums[i] - below));
+    return i;
+}
+
+/// Rows that are black, have one lit texel, many black ones, and fewer cells than there are guides.
+static void guides_lead_to_the_cell(void **state)
+{
+    (void)state;
+    enum { ROWS = 5, TRIES = 4096 };
+    static const uint32_t widths[3] = {3, 64, 1000};
+    alp_context *context = test_context(1);
+    for (int w = 0; w < 3; w++) {
+        alpi_sky_table t;
+        const uint32_t width = widths[w];
+        ASSERT_OK(context, alpi_sky_table_create(context, width, ROWS, 0.2f, &t));
+        for (uint32_t i = 0; i < width * ROWS; i++) {
+            const uint32_t x = i % width, y = i / width, random = alpi_hash32(i);
+            const bool lit[ROWS] = {false, false, x == width - 1, random % 16 == 0, true};
+            const float light = lit[y] ? 1.0f + (float)(random % 7) : 0.0f;
+            t.pixels[i] = (vec3){light, light, light};
+        }
+        alpi_sky_table_finish(&t);
+        for (uint32_t i = 0; i < TRIES; i++) {
+            const vec2 u = i < TRIES / 2 ? alpi_sample_2d(3, i)
+                                         : (vec2){(float)(i % 65) / 65.0f, (float)(i % 64) / 64.0f};
+            vec2 place;
+            const uint32_t row = search(t.rows, (double)u.y, &place.y);
+            const uint32_t column = search(t.cells + (size_t)row * width, (double)u.x, &place.x);
+            const vec3 expected = alpi_sky_table_in_cell(&t, column, row, place);
+            const vec3 apart = vec3_sub(alpi_sky_table_sample(&t, u), expected);
+            assert_true(vec3_length(apart) < 1e-5f);
+        }
+        alpi_sky_table_release(context, &t);
+    }
+    alp_context_destroy(context);
+}
+
 static void even_skies_have_no_spots(void **state)
 {
     (void)state;
@@ -220,6 +265,7 @@ int main(void)
         cmocka_unit_test(looks_are_the_light_of_the_spots),
         cmocka_unit_test(looks_that_follow_each_other_are_neighbours),
         cmocka_unit_test(black_ground_leaves_the_sky_soft),
+        cmocka_unit_test(guides_lead_to_the_cell),
         cmocka_unit_test(even_skies_have_no_spots),
         cmocka_unit_test(every_failed_allocation_leaves_nothing),
     };
