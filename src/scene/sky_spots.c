@@ -149,6 +149,42 @@ static void draw_looks(const alpi_sky_table *t, const lit_cell *cells, uint32_t 
     }
 }
 
+static vec3 look_at(const alpi_sky_looks *l, uint32_t k)
+{
+    return (vec3){l->direction[0][k], l->direction[1][k], l->direction[2][k]};
+}
+
+/// What holds of the looks of a block together.
+static void sum_block(alpi_sky_looks *l, uint32_t block)
+{
+    const float rounded = 1e-6f; // of the axis, and of a product with it
+    const uint32_t first = block * ALPI_LOOK_BLOCK;
+    double sum[3] = {0.0, 0.0, 0.0}, moment[3][3] = {{0.0}};
+    for (uint32_t k = first; k < first + ALPI_LOOK_BLOCK; k++) {
+        for (int i = 0; i < 3; i++) {
+            sum[i] += (double)l->direction[i][k];
+            for (int c = 0; c < 3; c++) {
+                moment[c][i] += (double)l->light[c][k] * (double)l->direction[i][k];
+            }
+        }
+    }
+    const vec3 mean = {(float)sum[0], (float)sum[1], (float)sum[2]};
+    const vec3 axis = vec3_normalize_or(mean, (vec3){0.0f, 0.0f, 0.0f});
+    const float along[3] = {axis.x, axis.y, axis.z};
+    for (int i = 0; i < 3; i++) {
+        l->axis[i][block] = along[i];
+        l->sum[i][block] = (float)sum[i];
+        for (int c = 0; c < 3; c++) {
+            l->moment[c][i][block] = (float)moment[c][i];
+        }
+    }
+    float apart = 0.0f;
+    for (uint32_t k = first; k < first + ALPI_LOOK_BLOCK; k++) {
+        apart = fmaxf(apart, vec3_length(vec3_sub(look_at(l, k), axis)));
+    }
+    l->apart[block] = apart + rounded;
+}
+
 alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table,
                                alpi_sky_looks **looks)
 {
@@ -161,6 +197,9 @@ alp_result alpi_sky_spots_look(alp_context *context, const alpi_sky_table *table
     list_cells(table, cells);
     qsort(cells, count, sizeof *cells, by_order);
     draw_looks(table, cells, count, *looks);
+    for (uint32_t b = 0; b < ALPI_LOOK_BLOCKS; b++) {
+        sum_block(*looks, b);
+    }
     alpi_release(context, cells);
     return ALP_OK;
 }

@@ -6,13 +6,21 @@
 
 #include "scene/sky_table.h"
 
-/// How many looks there are: a lamp that gives a thousandth of the light has 16 of them.
-enum { ALPI_SKY_LOOKS = 1 << 14 };
+enum {
+    ALPI_SKY_LOOKS = 1 << 14, // a lamp that gives a thousandth of the light has 16 of them
+    ALPI_LOOK_BLOCK = 16,     // that follow each other, and are near each other
+    ALPI_LOOK_BLOCKS = ALPI_SKY_LOOKS / ALPI_LOOK_BLOCK
+};
 
-/// Looks at spots, as arrays to be walked along.
+/// Looks at spots, as arrays to be walked along; and what a normal n makes of a block of them
+/// without a walk, where all of it is above the horizon: Σ n·ω = n · Σ ω, Σ l n·ω = n · Σ l ω.
 typedef struct alpi_sky_looks {
-    float direction[3][ALPI_SKY_LOOKS]; // unit
-    float light[3][ALPI_SKY_LOOKS];     // ∫ L dω of what a look stands for, W·m⁻²
+    float direction[3][ALPI_SKY_LOOKS];   // ω, unit
+    float light[3][ALPI_SKY_LOOKS];       // l = ∫ L dω of what a look stands for, W·m⁻²
+    float axis[3][ALPI_LOOK_BLOCKS];      // of a block; unit, or 0
+    float apart[ALPI_LOOK_BLOCKS];        // |ω − axis| ≤ this, of all of the block
+    float sum[3][ALPI_LOOK_BLOCKS];       // Σ ω
+    float moment[3][3][ALPI_LOOK_BLOCKS]; // Σ l ω, by channel
 } alpi_sky_looks;
 
 /// Parts a table by brightness: no more of a pixel than `level` is soft, what is above it, in the

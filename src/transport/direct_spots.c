@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { R = ALPI_DIRECT_REPLICATES, BLOCK = ALPI_SPOT_BLOCK, FOUR = 4 };
+enum { R = ALPI_DIRECT_REPLICATES, BLOCK = ALPI_LOOK_BLOCK, FOUR = 4 };
 _Static_assert((int)BLOCK == FOUR * FOUR && (int)R == (int)ALPI_PACKET, "as the loops have it");
 /// The slack is that of the points of one chunk; other points may have normals farther apart.
 static const float MORE_SLACK = 1.25f;
@@ -15,13 +15,14 @@ static const float FLAT = 1e-4f;
 // --- choosing ------------------------------------------------------------------------------------
 
 /// Weights of looks that follow each other.
-static void weigh(const alpi_spot_choice *c, uint32_t first, float weights[BLOCK])
+static void weigh(const alpi_spot_choice *c, uint32_t first, float weights[restrict BLOCK])
 {
-    const alpi_sky_looks *l = c->looks;
-    for (uint32_t i = 0; i < BLOCK; i++) {
-        const uint32_t k = first + i;
-        const float w = c->normal.x * l->direction[0][k] + c->normal.y * l->direction[1][k] +
-                        c->normal.z * l->direction[2][k] + c->slack;
+    const float *x = &c->looks->direction[0][first], *y = &c->looks->direction[1][first];
+    const float *z = &c->looks->direction[2][first];
+    const vec3 n = c->normal;
+    const float slack = c->slack;
+    for (int i = 0; i < BLOCK; i++) {
+        const float w = n.x * x[i] + n.y * y[i] + n.z * z[i] + slack;
         weights[i] = w > 0.0f ? w : 0.0f;
     }
 }
@@ -36,15 +37,50 @@ static float sum_block(const float terms[BLOCK], float fours[BLOCK / FOUR])
     return (fours[0] + fours[1]) + (fours[2] + fours[3]);
 }
 
-/// E₀, by the weights of a block.
-static void add_open(alpi_spot_choice *c, uint32_t first, const float weights[BLOCK])
+/// Adds a block that the horizon runs through. @return the sum of its weights
+static float add_parted(alpi_spot_choice *c, uint32_t block)
 {
+    float weights[BLOCK], fours[BLOCK / FOUR];
+    weigh(c, block * BLOCK, weights);
     for (int k = 0; k < 3; k++) {
-        float terms[BLOCK], fours[BLOCK / FOUR];
+        float terms[BLOCK];
         for (uint32_t i = 0; i < BLOCK; i++) {
-            terms[i] = weights[i] * c->looks->light[k][first + i];
+            terms[i] = weights[i] * c->looks->light[k][block * BLOCK + i];
         }
         c->open[k] += (double)sum_block(terms, fours);
+    }
+    return sum_block(weights, fours);
+}
+
+/// n · v of all blocks.
+static void multiply(vec3 n, const float (*v)[ALPI_LOOK_BLOCKS], float *products)
+{
+    for (uint32_t b = 0; b < ALPI_LOOK_BLOCKS; b++) {
+        products[b] = n.x * v[0][b] + n.y * v[1][b] + n.z * v[2][b];
+    }
+}
+
+/// Sums over the blocks, of which few are parted by the horizon.
+static void sum_blocks(alpi_spot_choice *c)
+{
+    const alpi_sky_looks *l = c->looks;
+    float heights[ALPI_LOOK_BLOCKS], sums[ALPI_LOOK_BLOCKS], open[3][ALPI_LOOK_BLOCKS];
+    multiply(c->normal, l->axis, heights);
+    multiply(c->normal, l->sum, sums);
+    for (int k = 0; k < 3; k++) {
+        multiply(c->normal, l->moment[k], open[k]);
+    }
+    for (uint32_t b = 0; b < ALPI_LOOK_BLOCKS; b++) {
+        const float height = heights[b] + c->slack;
+        if (height >= l->apart[b]) {
+            c->total += (double)(sums[b] + (float)BLOCK * c->slack);
+            for (int k = 0; k < 3; k++) {
+                c->open[k] += (double)open[k][b];
+            }
+        } else if (height > -l->apart[b]) {
+            c->total += (double)add_parted(c, b);
+        }
+        c->ends[b] = c->total;
     }
 }
 
@@ -59,16 +95,9 @@ void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
     choice->normal = normal;
     choice->slack = slack;
     choice->total = 0.0;
+    choice->weighed = ALPI_NONE;
     memset(choice->open, 0, sizeof choice->open);
-    for (uint32_t b = 0; b < ALPI_SPOT_BLOCKS; b++) {
-        float weights[BLOCK], fours[BLOCK / FOUR];
-        weigh(choice, b * BLOCK, weights);
-        choice->total += (double)sum_block(weights, fours);
-        choice->ends[b] = choice->total;
-        if (!(slack > 0.0f)) {
-            add_open(choice, b * BLOCK, weights);
-        }
-    }
+    sum_blocks(choice);
 }
 
 /// The first block that ends beyond a place, of those from `from` on up to one that does.
@@ -83,43 +112,47 @@ static uint32_t find_block(const alpi_spot_choice *c, double place, uint32_t fro
     return from;
 }
 
-/// The look at a place in a block: by fours, then one by one.
-static uint32_t find_look(const alpi_spot_choice *c, uint32_t block, double place, float *weight)
+/// The look at a place in the block that was weighed last: by fours, then one by one.
+static uint32_t find_look(const alpi_spot_choice *c, float left)
 {
-    float weights[BLOCK], fours[BLOCK / FOUR];
-    weigh(c, block * BLOCK, weights);
-    sum_block(weights, fours);
-    float left = (float)(place - (block > 0 ? c->ends[block - 1] : 0.0));
     uint32_t four = 0, one = 0;
     for (uint32_t i = 0; i + 1 < BLOCK / FOUR; i++) {
-        const bool past = left >= fours[i] && four == i;
-        left -= past ? fours[i] : 0.0f;
+        const bool past = left >= c->fours[i] && four == i;
+        left -= past ? c->fours[i] : 0.0f;
         four += past;
     }
     for (uint32_t i = 0; i + 1 < FOUR; i++) {
-        const float w = weights[four * FOUR + i];
+        const float w = c->weights[four * FOUR + i];
         const bool past = left >= w && one == i;
         left -= past ? w : 0.0f;
         one += past;
     }
     uint32_t found = four * FOUR + one;
-    while (!(weights[found] > 0.0f) && found > 0) { // rounding led past the last that has any
+    while (!(c->weights[found] > 0.0f) && found > 0) { // rounding led past the last that has any
         found--;
     }
-    *weight = weights[found];
-    return block * BLOCK + found;
+    return found;
 }
 
-alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, double from, double to)
+alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, alpi_spot_range before, double to)
 {
-    const uint32_t first = find_block(choice, from, 0, ALPI_SPOT_BLOCKS - 1);
-    return (alpi_spot_range){first, find_block(choice, to, first, ALPI_SPOT_BLOCKS - 1)};
+    const uint32_t last = find_block(choice, to, before.last, ALPI_LOOK_BLOCKS - 1);
+    return (alpi_spot_range){before.last, last};
 }
 
-uint32_t alpi_spots_pick(const alpi_spot_choice *choice, alpi_spot_range range, double place,
+uint32_t alpi_spots_pick(alpi_spot_choice *choice, alpi_spot_range range, double place,
                          float *weight)
 {
-    return find_look(choice, find_block(choice, place, range.first, range.last), place, weight);
+    const uint32_t block = find_block(choice, place, range.first, range.last);
+    if (choice->weighed != block) { // draws that follow each other are often of one
+        weigh(choice, block * BLOCK, choice->weights);
+        sum_block(choice->weights, choice->fours);
+        choice->weighed = block;
+    }
+    const double before = block > 0 ? choice->ends[block - 1] : 0.0;
+    const uint32_t found = find_look(choice, (float)(place - before));
+    *weight = choice->weights[found];
+    return block * BLOCK + found;
 }
 
 // --- gathering -----------------------------------------------------------------------------------
@@ -140,6 +173,7 @@ static void begin(alpi_direct_gather *g)
         g->spots.begins[r] = (first + (r - half)) / ALPI_DIRECT_HALF;
     }
     memset(g->spots.drawn, 0, sizeof g->spots.drawn);
+    g->spots.range = (alpi_spot_range){0, 0};
     g->spots.found = (alpi_directional_found){.sums = {.width = g->horizon_width}};
 }
 
@@ -152,16 +186,16 @@ typedef struct spot_packet {
 /// Aims the draws of all replicates within one of their even shares.
 static void aim(alpi_direct_gather *g, uint32_t first, spot_packet *packet, alpi_rays *rays)
 {
-    const alpi_spot_choice *c = &g->spots.choice;
+    alpi_spot_choice *c = &g->spots.choice;
     const uint32_t each = g->direct->samples / R, share = (g->first + first) / R;
     const double width = c->total / each;
-    const alpi_spot_range range = alpi_spots_narrow(c, share * width, (share + 1) * width);
+    g->spots.range = alpi_spots_narrow(c, g->spots.range, (share + 1) * width);
     alpi_rays_clear(rays);
     for (uint32_t r = 0; r < R; r++) {
         const alpi_receiver_point *p = &g->points[first + r];
         const double place = (share + g->spots.begins[r]) * width;
         float weight;
-        const uint32_t k = alpi_spots_pick(c, range, place, &weight);
+        const uint32_t k = alpi_spots_pick(c, g->spots.range, place, &weight);
         const vec3 direction = {c->looks->direction[0][k], c->looks->direction[1][k],
                                 c->looks->direction[2][k]};
         const float cosine = vec3_dot(direction, p->shading_normal);

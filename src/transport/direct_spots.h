@@ -21,16 +21,16 @@
 #include "scene/sky_spots.h"
 #include "transport/direct.h"
 
-enum { ALPI_SPOT_BLOCK = 16, ALPI_SPOT_BLOCKS = ALPI_SKY_LOOKS / ALPI_SPOT_BLOCK };
-
 /// Looks that are drawn for a normal.
 typedef struct alpi_spot_choice {
     const alpi_sky_looks *looks;   // NULL: none yet
     vec3 normal;                   // unit
     float slack;                   // s, ≥ 0
-    double ends[ALPI_SPOT_BLOCKS]; // sum of the weights up to the end of each block
+    double ends[ALPI_LOOK_BLOCKS]; // sum of the weights up to the end of each block
     double total;                  // of all weights; 0: all spots are below the horizon
     double open[3];                // E₀, W·m⁻²; of slack 0 only
+    uint32_t weighed;              // the block picked from last, with its weights; ALPI_NONE: none
+    float weights[ALPI_LOOK_BLOCK], fours[ALPI_LOOK_BLOCK / 4]; // and their sums by fours
 } alpi_spot_choice;
 
 /// Makes a choice, unless it is made already.
@@ -40,15 +40,17 @@ void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
 typedef struct alpi_spot_range {
     uint32_t first, last;
 } alpi_spot_range;
-/// Where to search for places from `from` to `to`.
-alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, double from, double to);
+/// Where to search for places from where a range ends up to `to`. @param before {0, 0}: from 0
+alpi_spot_range alpi_spots_narrow(const alpi_spot_choice *choice, alpi_spot_range before,
+                                  double to);
 /// The look at a place within [0, total) and the range. @param weight out, > 0
-uint32_t alpi_spots_pick(const alpi_spot_choice *choice, alpi_spot_range range, double place,
+uint32_t alpi_spots_pick(alpi_spot_choice *choice, alpi_spot_range range, double place,
                          float *weight);
 
 /// The draws at a receiver.
 typedef struct alpi_spot_gather {
     alpi_spot_choice choice;
+    alpi_spot_range range;                   // of the draws last aimed
     double begins[ALPI_DIRECT_REPLICATES];   // of the first draw, within the first of even shares
     double drawn[ALPI_DIRECT_REPLICATES][3]; // what draws would bring if all were free
     alpi_directional_found found;
