@@ -13,6 +13,7 @@
 #include "scene/lighting_options.h"
 #include "scene/lighting_punctual.h"
 #include "scene/lighting_suns.h"
+#include "scene/sky_spots.h"
 #include "scene/triangle_light.h"
 
 #include <stdio.h>
@@ -30,9 +31,10 @@ struct alpi_lighting {
     alpi_sun *suns;
     uint32_t sun_count;
     alpi_emitters emitters;
-    alpi_sky *sky;      // may be NULL
-    double sky_average; // π × mean radiance, mean of the channels
-    int only;           // the one class of which there is light; −1: several, or none
+    alpi_sky *sky;        // may be NULL
+    const alpi_sky *soft; // borrowed, where the sky's spots are apart: that rays meet
+    double sky_average;   // π × mean radiance, mean of the channels
+    int only;             // the one class of which there is light; −1: several, or none
 };
 
 /// Of draws, that a class of light has wherever it may give any.
@@ -235,6 +237,7 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     }
     set_sky(*soft, skies[0]);
     set_sky(*spots, skies[1]);
+    (*spots)->soft = skies[0];
     return ALP_OK;
 }
 
@@ -291,11 +294,20 @@ uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting)
     return lighting->emitters.count;
 }
 
+/// By rays that leave: spots are where to look, drawn alone.
+static bool is_met(const alpi_sky *sky)
+{
+    return sky != NULL && alpi_sky_spot_looks(sky) == NULL;
+}
+
 vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction)
 {
     vec3 sum = {0.0f, 0.0f, 0.0f};
-    if (lighting->sky != NULL) {
+    if (is_met(lighting->sky)) {
         sum = alpi_sky_radiance(lighting->sky, direction);
+    }
+    if (lighting->soft != NULL) {
+        sum = vec3_add(sum, alpi_sky_radiance(lighting->soft, direction));
     }
     for (uint32_t i = 0; i < lighting->sun_count; i++) {
         if (alpi_sun_holds(&lighting->suns[i], direction)) {
@@ -396,7 +408,7 @@ static double escape_density(const place *p, vec3 direction)
                        (alpi_sun_importance(sun, p->normal) / p->sun_sum);
         }
     }
-    if (lighting->sky != NULL) {
+    if (is_met(lighting->sky)) {
         density +=
             p->weight[ALPI_LIGHT_CLASS_SKY] * (double)alpi_sky_density(lighting->sky, direction);
     }
@@ -524,9 +536,24 @@ static bool sample_surface(const place *p, double pick, vec2 u, alpi_light_sampl
     return true;
 }
 
+/// One of the looks, as a light without extent.
+static bool sample_spots(const place *p, vec2 u, alpi_light_sample *sample)
+{
+    const alpi_sky_looks *l = alpi_sky_spot_looks(p->lighting->sky);
+    const uint32_t k = (uint32_t)(u.x * (float)ALPI_SKY_LOOKS);
+    sample->kind = ALPI_LIGHT_CLASS_PUNCTUAL;
+    sample->direction = (vec3){l->direction[0][k], l->direction[1][k], l->direction[2][k]};
+    sample->light = (vec3){l->light[0][k], l->light[1][k], l->light[2][k]};
+    sample->density = (float)(p->weight[ALPI_LIGHT_CLASS_SKY] / ALPI_SKY_LOOKS);
+    return true;
+}
+
 static bool sample_escape(const place *p, double pick, vec2 u, alpi_light_sample *sample)
 {
     const alpi_lighting *lighting = p->lighting;
+    if (sample->kind == ALPI_LIGHT_CLASS_SKY && !is_met(lighting->sky)) {
+        return sample_spots(p, u, sample);
+    }
     if (sample->kind == ALPI_LIGHT_CLASS_SKY) {
         sample->direction = alpi_sky_sample(lighting->sky, u, NULL);
     } else {

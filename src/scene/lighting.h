@@ -25,7 +25,8 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
                                 alpi_lighting **lighting);
 /// All light as two that add up to it: a soft sky alone with all else, and the bright spots of the
 /// sky with all else. Each has the lights and emissive triangles whole: who asks for both takes
-/// only the sky of the first.
+/// only the sky of the first. Paths that have the second alone find all light: its spots are drawn
+/// and never met, and rays that leave meet the soft sky, of the first, which is never drawn.
 /// @param lighting made of the same scene and options
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
@@ -40,9 +41,9 @@ void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting);
 
 /// A way from a point to light.
 typedef struct alpi_light_sample {
-    alpi_light_class kind;
-    vec3 direction;    // unit, from the point
-    float distance;    // metres to the light, INFINITY for sun, directional and sky
+    alpi_light_class kind; // PUNCTUAL: no ray meets it; a spot of a sky too
+    vec3 direction;        // unit, from the point
+    float distance;        // metres to the light, INFINITY for sun, directional and sky
     vec3 light;        // radiance that comes from there; PUNCTUAL: E on a surface that faces it.
                        // SUN and SKY: of sky and suns together, whichever was drawn
     float density;     // of drawing this, per steradian: what alpi_lighting_density says of it;

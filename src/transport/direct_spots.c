@@ -27,9 +27,10 @@ static void weigh(const alpi_spot_choice *c, uint32_t first, float weights[restr
     }
 }
 
-/// Sums of fours, then of all of a block.
-static float sum_block(const float terms[BLOCK], float fours[BLOCK / FOUR])
+/// The sum over a block, by fours.
+static float sum_block(const float terms[BLOCK])
 {
+    float fours[BLOCK / FOUR];
     for (uint32_t i = 0; i < BLOCK / FOUR; i++) {
         const float *t = &terms[i * FOUR];
         fours[i] = (t[0] + t[1]) + (t[2] + t[3]);
@@ -40,16 +41,16 @@ static float sum_block(const float terms[BLOCK], float fours[BLOCK / FOUR])
 /// Adds a block that the horizon runs through. @return the sum of its weights
 static float add_parted(alpi_spot_choice *c, uint32_t block)
 {
-    float weights[BLOCK], fours[BLOCK / FOUR];
+    float weights[BLOCK];
     weigh(c, block * BLOCK, weights);
     for (int k = 0; k < 3; k++) {
         float terms[BLOCK];
         for (uint32_t i = 0; i < BLOCK; i++) {
             terms[i] = weights[i] * c->looks->light[k][block * BLOCK + i];
         }
-        c->open[k] += (double)sum_block(terms, fours);
+        c->open[k] += (double)sum_block(terms);
     }
-    return sum_block(weights, fours);
+    return sum_block(weights);
 }
 
 /// n · v of all blocks.
@@ -103,31 +104,37 @@ void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
 /// The first block that ends beyond a place, of those from `from` on up to one that does.
 static uint32_t find_block(const alpi_spot_choice *c, double place, uint32_t from, uint32_t last)
 {
-    while (from < last) {
+    enum { NARROW = 8 };
+    while (last - from > NARROW) {
         const uint32_t middle = from + (last - from) / 2;
         const bool before = c->ends[middle] <= place;
         from = before ? middle + 1 : from;
         last = before ? last : middle;
     }
+    while (from < last && c->ends[from] <= place) {
+        from++;
+    }
     return from;
 }
 
-/// The look at a place in the block that was weighed last: by fours, then one by one.
-static uint32_t find_look(const alpi_spot_choice *c, float left)
+static void weigh_block(alpi_spot_choice *c, uint32_t block)
 {
-    uint32_t four = 0, one = 0;
-    for (uint32_t i = 0; i + 1 < BLOCK / FOUR; i++) {
-        const bool past = left >= c->fours[i] && four == i;
-        left -= past ? c->fours[i] : 0.0f;
-        four += past;
+    float sum = 0.0f;
+    weigh(c, block * BLOCK, c->weights);
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        sum += c->weights[i];
+        c->look_ends[i] = sum;
     }
-    for (uint32_t i = 0; i + 1 < FOUR; i++) {
-        const float w = c->weights[four * FOUR + i];
-        const bool past = left >= w && one == i;
-        left -= past ? w : 0.0f;
-        one += past;
+    c->weighed = block;
+}
+
+/// The look at a place in the block that was weighed last.
+static uint32_t find_look(const alpi_spot_choice *c, float place)
+{
+    uint32_t found = 0;
+    for (uint32_t i = 0; i + 1 < BLOCK; i++) {
+        found += c->look_ends[i] <= place;
     }
-    uint32_t found = four * FOUR + one;
     while (!(c->weights[found] > 0.0f) && found > 0) { // rounding led past the last that has any
         found--;
     }
@@ -145,9 +152,7 @@ uint32_t alpi_spots_pick(alpi_spot_choice *choice, alpi_spot_range range, double
 {
     const uint32_t block = find_block(choice, place, range.first, range.last);
     if (choice->weighed != block) { // draws that follow each other are often of one
-        weigh(choice, block * BLOCK, choice->weights);
-        sum_block(choice->weights, choice->fours);
-        choice->weighed = block;
+        weigh_block(choice, block);
     }
     const double before = block > 0 ? choice->ends[block - 1] : 0.0;
     const uint32_t found = find_look(choice, (float)(place - before));

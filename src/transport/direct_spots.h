@@ -29,8 +29,8 @@ typedef struct alpi_spot_choice {
     double ends[ALPI_LOOK_BLOCKS]; // sum of the weights up to the end of each block
     double total;                  // of all weights; 0: all spots are below the horizon
     double open[3];                // E₀, W·m⁻²; of slack 0 only
-    uint32_t weighed;              // the block picked from last, with its weights; ALPI_NONE: none
-    float weights[ALPI_LOOK_BLOCK], fours[ALPI_LOOK_BLOCK / 4]; // and their sums by fours
+    uint32_t weighed;              // the block picked from last; ALPI_NONE: none
+    float weights[ALPI_LOOK_BLOCK], look_ends[ALPI_LOOK_BLOCK]; // of it, and their sums
 } alpi_spot_choice;
 
 /// Makes a choice, unless it is made already.

@@ -300,6 +300,32 @@ static void a_curved_receiver_misses_nothing(void **state)
     finish(&s);
 }
 
+/// Paths that draw spots and meet the soft sky find what paths find that draw from the picture.
+static void paths_find_all_light(void **state)
+{
+    (void)state;
+    stage s = start(true);
+    alpi_lighting *spots = s.all.lighting;
+    for (int i = 0; i <= 4; i++) {
+        const test_patch p = test_point((vec3){2.0f * (float)i - 4.0f, 0, 0.3f}, UP);
+        const test_patches one = {.count = 1, .patches = &p, .offset = 1e-6f};
+        const alpi_receivers receivers = test_patches_receivers(&one);
+        alpi_reference_value values[2];
+        for (int k = 0; k < 2; k++) {
+            s.all.lighting = k == 0 ? s.whole : spots;
+            const alpi_reference r = test_stage_reference(&s.all, 1 << 14);
+            ASSERT_OK(context,
+                      alpi_reference_irradiance(&r, &receivers, NULL, 1, NULL, &values[k]));
+        }
+        for (int c = 0; c < 3; c++) {
+            const double apart = (double)values[1].mean[c] - (double)values[0].mean[c];
+            const double variance = (double)values[1].variance[c] + (double)values[0].variance[c];
+            assert_true(fabs(apart) < 4.5 * sqrt(variance) + 2e-3 * (double)values[0].mean[c]);
+        }
+    }
+    finish(&s);
+}
+
 /// By direction it is the light of the looks, as much of it as there is.
 static void light_has_its_directions(void **state)
 {
@@ -348,6 +374,7 @@ int main(void)
         cmocka_unit_test(an_open_floor_is_exact),
         cmocka_unit_test(a_roof_hides_looks),
         cmocka_unit_test(a_curved_receiver_misses_nothing),
+        cmocka_unit_test(paths_find_all_light),
         cmocka_unit_test(light_has_its_directions),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
