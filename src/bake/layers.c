@@ -158,10 +158,14 @@ alp_result alpi_bake_find_layers(alpi_bake_job *job, uint32_t *lights)
     alpi_direct *direct = NULL;
     job->layers.light.context = job->context;
     job->layers.sky = ALPI_NONE;
-    ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
+    alpi_hush(job->context, true);
+    alp_result result = alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting);
+    alpi_hush(job->context, false);
     const alpi_direct_options options = {
         .context = job->context, .scene = job->scene, .lighting = lighting, .samples = 1};
-    alp_result result = alpi_direct_create(&options, &direct);
+    if (result == ALP_OK) {
+        result = alpi_direct_create(&options, &direct);
+    }
     if (result == ALP_OK) {
         const alpi_direct_part *parts = alpi_direct_parts(direct, lights);
         result = plan_parts(job, lighting, parts, *lights);

@@ -33,6 +33,7 @@ struct alp_context {
     struct alpi_loop *loop;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
+    uint32_t hushed; // how often
     _Atomic uint64_t memory_now;
     _Atomic uint64_t memory_peak;
 };
@@ -192,7 +193,7 @@ alp_result(alpi_fail)(alp_context *context, alp_result code, const char *format,
 static void log_message(alp_context *context, alp_log_level level, const char *code,
                         const char *object, const char *format, va_list arguments)
 {
-    if (context->options.log == NULL) {
+    if (context->options.log == NULL || context->hushed > 0) {
         return;
     }
     char text[MESSAGE_SIZE];
@@ -215,6 +216,15 @@ void alpi_note(alp_context *context, const char *code, const char *object, const
     va_start(arguments, format);
     log_message(context, ALP_LOG_NOTE, code, object, format, arguments);
     va_end(arguments);
+}
+
+void alpi_hush(alp_context *context, bool hushed)
+{
+    if (hushed) {
+        context->hushed++;
+    } else {
+        context->hushed--;
+    }
 }
 
 struct alpi_pool *alpi_context_pool(alp_context *context)

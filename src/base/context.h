@@ -32,6 +32,9 @@ void alpi_warn(alp_context *context, const char *code, const char *object, const
     ALP_PRINTF(4, 5);
 void alpi_note(alp_context *context, const char *code, const char *object, const char *format, ...)
     ALP_PRINTF(4, 5);
+/// From now on, until it is called with false as often, what is sent is not told: what is made only
+/// to be looked at will be made again, and tell then. By one thread.
+void alpi_hush(alp_context *context, bool hushed);
 
 struct alpi_pool;
 /// The context's thread pool, started at its first use; NULL when threads cannot be started.

@@ -224,10 +224,12 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     if (lighting->sky != NULL) {
         ALP_TRY(alpi_sky_split(context, lighting->sky, &skies[0], &skies[1]));
     }
+    alpi_hush(context, true); // of its lights the whole has told
     alp_result result = alpi_lighting_create(lighting->scene, &without, soft);
     if (result == ALP_OK) {
         result = alpi_lighting_create(lighting->scene, &without, spots);
     }
+    alpi_hush(context, false);
     if (result != ALP_OK) {
         alpi_sky_destroy(context, skies[0]);
         alpi_sky_destroy(context, skies[1]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Layers of light: they add up to the whole, each is what its light gives alone, and they have
 // names that files can have.
+#include "base/image.h"
 #include "base/memory.h"
 #include "maps/lightmap.h"
 #include "test_lit.h"
@@ -299,6 +300,38 @@ static void what_has_no_layers_is_refused(void **state)
     alp_context_destroy(context);
 }
 
+/// Skies and lights are made for an estimate, for the plan of layers, for the bake and apart.
+static void warnings_are_told_once(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alpi_light lamp = {.kind = ALPI_LIGHT_POINT, .intensity = -1.0f};
+    test_lit_set_lamps(scene, &lamp, 1);
+    const alp_image_info info = {8, 4, 3, ALP_COMPONENT_FLOAT};
+    alp_image *picture = NULL;
+    ASSERT_OK(context, alp_image_create(context, info, &picture));
+    for (uint32_t i = 0; i < 8 * 4 * 3; i++) {
+        alp_image_floats(picture)[i] = i == 30 ? -1.0f : i == 36 ? 90.0f : 1.0f;
+    }
+    alp_bake_options o = layer_options(NULL, 0);
+    o.light.lighting.sky.kind = ALP_SKY_IMAGE;
+    o.light.lighting.sky.image = picture;
+    alp_bake_work work;
+    test_log_clear();
+    ASSERT_OK(context, alp_bake_estimate(scene, &o, &work));
+    alp_lightmap_destroy(bake(context, scene, &o));
+    const char *expected[2] = {"sky-image", "light 0 is left out"};
+    for (int i = 0; i < 2; i++) {
+        const char *found = strstr(test_log_text(), expected[i]);
+        assert_non_null(found);
+        assert_null(strstr(found + 1, expected[i]));
+    }
+    alp_image_destroy(picture);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +340,7 @@ int main(void)
         cmocka_unit_test(names_are_fit_for_files),
         cmocka_unit_test(the_last_of_many_is_all_others),
         cmocka_unit_test(what_has_no_layers_is_refused),
+        cmocka_unit_test(warnings_are_told_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
