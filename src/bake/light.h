@@ -36,7 +36,7 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress);
 /// Where light is gathered, and what it becomes.
 typedef struct alpi_light_task {
     const alpi_lighting *lighting;
-    const alpi_lighting *near; // NULL, or that of paths from near surfaces
+    const alpi_lighting *near_lighting; // NULL, or that of paths from near surfaces
     const alpi_tracer *tracer;
     const alpi_receivers *receivers; // texels of the job's atlas
     const uint32_t *order;           // [count] those with light of their own

@@ -163,40 +163,40 @@ static uint32_t samples_of(int k)
 }
 
 /// Some of the listed texels, of which each stands for as many others.
-typedef struct some_needs {
+typedef struct asked_needs {
     texel_need needs[ASKED];
     uint32_t count;
-    double each;      // listed texels that one stands for
-    double low, high; // scales by which none of them gets any, and all get the most
-} some_needs;
+    double stands_for; // listed texels, of each
+    double low, high;  // scales by which none of them gets any, and all get the most
+} asked_needs;
 
-static void ask_some(const direct_deal *deal, some_needs *some)
+static void ask_some(const direct_deal *deal, asked_needs *asked)
 {
-    const uint32_t step = deal->count / ASKED + 1, asked = (deal->count + step - 1) / step;
-    *some = (some_needs){.low = HUGE_VAL, .high = -HUGE_VAL};
+    const uint32_t step = deal->count / ASKED + 1, few = (deal->count + step - 1) / step;
+    *asked = (asked_needs){.low = HUGE_VAL, .high = -HUGE_VAL};
     for (uint32_t i = 0; i < deal->count; i += step) {
         const texel_need n = find_need(deal, deal->list[i]);
         if (n.variance > 0.0 && isfinite(n.variance)) {
-            some->low = fmin(some->low, log2(n.had) - n.rate);
-            some->high = fmax(some->high, log2(n.had * (1.0 + MOST_TIMES)) - n.rate);
-            some->needs[some->count++] = n;
+            asked->low = fmin(asked->low, log2(n.had) - n.rate);
+            asked->high = fmax(asked->high, log2(n.had * (1.0 + MOST_TIMES)) - n.rate);
+            asked->needs[asked->count++] = n;
         }
     }
-    some->each = deal->count / fmax(asked, 1.0);
+    asked->stands_for = deal->count / fmax(few, 1.0);
 }
 
 /// What the scale leads to: the variance of the listed texels, over all there are.
 /// @param samples out: of all together
-static double foresee(const direct_deal *deal, const some_needs *some, double *samples)
+static double foresee(const direct_deal *deal, const asked_needs *asked, double *samples)
 {
     double sum = 0.0;
     *samples = 0.0;
-    for (uint32_t i = 0; i < some->count; i++) {
-        const double had = some->needs[i].had, more = samples_of(class_of(deal, &some->needs[i]));
-        sum += some->needs[i].variance * pow(had / (had + more), 2.0 * deal->direct->power);
-        *samples += some->each * more;
+    for (uint32_t i = 0; i < asked->count; i++) {
+        const double had = asked->needs[i].had, more = samples_of(class_of(deal, &asked->needs[i]));
+        sum += asked->needs[i].variance * pow(had / (had + more), 2.0 * deal->direct->power);
+        *samples += asked->stands_for * more;
     }
-    return sum * some->each / fmax(deal->direct->task->count, 1.0);
+    return sum * asked->stands_for / fmax(deal->direct->task->count, 1.0);
 }
 
 /// Mean over all texels of the variance of those that are not listed.
@@ -221,13 +221,13 @@ static void find_scale(direct_deal *deal)
     static const double FURTHER = 0.88; // of the squared error
     const alpi_light_goal *goal = deal->goal;
     const double others = mean_of_others(deal);
-    some_needs some;
-    ask_some(deal, &some);
-    double low = some.low, samples;
-    double high = goal->each ? 0.0 : some.high; // of each: as its rate has it, or less
-    for (int i = 0; i < STEPS && some.count > 0; i++) {
+    asked_needs asked;
+    ask_some(deal, &asked);
+    double low = asked.low, samples;
+    double high = goal->each ? 0.0 : asked.high; // of each: as its rate has it, or less
+    for (int i = 0; i < STEPS && asked.count > 0; i++) {
         deal->scale = 0.5 * (low + high);
-        const double squared = foresee(deal, &some, &samples) + others;
+        const double squared = foresee(deal, &asked, &samples) + others;
         const bool good = !goal->each && squared <= FURTHER * goal->wanted * goal->wanted;
         if (good || samples > goal->most) {
             high = deal->scale;
@@ -236,7 +236,7 @@ static void find_scale(direct_deal *deal)
         }
     }
     deal->scale = high;
-    deal->direct->foreseen = sqrt(foresee(deal, &some, &samples) + others);
+    deal->direct->foreseen = sqrt(foresee(deal, &asked, &samples) + others);
 }
 
 // --- gathering -----------------------------------------------------------------------------------

@@ -219,7 +219,7 @@ static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, const 
     ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
     with_soft_sky.lighting = soft;
     // A sky that cannot be parted is asked as it is: that about a sun is bright.
-    with_soft_sky.near = alpi_lighting_sky(direct) != NULL ? direct : t->lighting;
+    with_soft_sky.near_lighting = alpi_lighting_sky(direct) != NULL ? direct : t->lighting;
     const alp_result result = gather_light(job, &with_soft_sky, g, direct);
     t->values = with_soft_sky.values;
     alpi_lighting_destroy(job->context, soft);

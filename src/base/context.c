@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 
 #include <alpenglow/version.h>
+#include <assert.h>
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -223,6 +224,7 @@ void alpi_hush(alp_context *context, bool hushed)
     if (hushed) {
         context->hushed++;
     } else {
+        assert(context->hushed > 0);
         context->hushed--;
     }
 }

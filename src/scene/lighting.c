@@ -4,12 +4,14 @@
 // A draw asks one of four classes, in proportion to what each may give at the point, and within it
 // one light. Sky and suns are seen in the same directions, so that a direction to either counts all
 // that comes from there, over the density of drawing it in any way (the balance heuristic of Eric
-// Veach, Leonidas Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995).
+// Veach, Leonidas Guibas. Optimally Combining Sampling Techniques. SIGGRAPH 1995). Not so the spots
+// of a sky that was parted (sky_spots.h), which are drawn alone, nor its soft part, met alone.
 #include "scene/lighting.h"
 
 #include "base/memory.h"
 #include "base/random.h"
 #include "scene/lighting_emitters.h"
+#include "scene/lighting_list.h"
 #include "scene/lighting_options.h"
 #include "scene/lighting_punctual.h"
 #include "scene/lighting_suns.h"
@@ -18,21 +20,15 @@
 
 #include <stdio.h>
 
-enum { LAMP_NAME_SIZE = 16 }; // "lamp 4294967295"
-
 struct alpi_lighting {
     const alp_scene *scene;
-    alpi_light *lights; // file first, then lamps and sun of the options; names of the file's are
-                        // borrowed
-    uint32_t light_count;
-    char (*lamp_names)[LAMP_NAME_SIZE]; // [lamps of the options]; NULL = none
-    char *sun_name;
+    alpi_light_list list;
     alpi_punctual punctual;
     alpi_sun *suns;
     uint32_t sun_count;
     alpi_emitters emitters;
     alpi_sky *sky;        // may be NULL
-    const alpi_sky *soft; // borrowed, where the sky's spots are apart: that rays meet
+    const alpi_sky *soft; // borrowed, where the sky is spots: what rays meet instead; else NULL
     double sky_average;   // π × mean radiance, mean of the channels
     int only;             // the one class of which there is light; −1: several, or none
 };
@@ -52,89 +48,18 @@ static bool is_lit(vec3 v)
 
 // --- making --------------------------------------------------------------------------------------
 
-static bool is_strength(float value)
-{
-    return value >= 0.0f && isfinite(value);
-}
-
-/// A scene made by hand may hold what readers refuse.
-static bool light_is_sound(const alpi_light *light)
-{
-    bool aimed =
-        light->kind == ALPI_LIGHT_POINT || fabsf(vec3_length(light->direction) - 1) < 1e-3f;
-    bool placed = light->kind == ALPI_LIGHT_DIRECTIONAL || vec3_is_finite(light->position);
-    return aimed && placed && is_strength(light->intensity) && is_strength(light->color.x) &&
-           is_strength(light->color.y) && is_strength(light->color.z);
-}
-
-static alp_result add_sun(alpi_lighting *lighting, const alp_sun_options *sun)
-{
-    if (!(sun->illuminance > 0.0f)) {
-        return ALP_OK;
-    }
-    lighting->sun_name = alpi_copy_string(lighting->scene->context, "sun");
-    if (lighting->sun_name == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    lighting->lights[lighting->light_count++] =
-        (alpi_light){.name = lighting->sun_name,
-                     .kind = ALPI_LIGHT_DIRECTIONAL,
-                     .color = vec3_load(sun->color),
-                     .intensity = sun->illuminance,
-                     .direction = vec3_scale(alpi_sun_direction(sun), -1.0f),
-                     .range = INFINITY,
-                     .size = sun->size};
-    return ALP_OK;
-}
-
-static alp_result add_lamps(alpi_lighting *lighting, const alp_lighting_options *options)
-{
-    if (options->lamp_count == 0) {
-        return ALP_OK;
-    }
-    ALPI_TRY_NEW(lighting->scene->context, lighting->lamp_names, options->lamp_count);
-    for (uint32_t i = 0; i < options->lamp_count; i++) {
-        snprintf(lighting->lamp_names[i], LAMP_NAME_SIZE, "lamp %u", i);
-        lighting->lights[lighting->light_count++] =
-            alpi_lamp_light(&options->lamps[i], lighting->lamp_names[i]);
-    }
-    return ALP_OK;
-}
-
-static alp_result gather_lights(alpi_lighting *lighting, const alp_lighting_options *options)
-{
-    const alp_scene *scene = lighting->scene;
-    ALPI_TRY_NEW(scene->context, lighting->lights,
-                 (size_t)scene->light_count + options->lamp_count + 1);
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        alpi_light *light = &lighting->lights[i];
-        *light = scene->lights[i];
-        if (light->kind == ALPI_LIGHT_DIRECTIONAL && !(light->size > 0.0f)) {
-            light->size = options->file_sun_size;
-        }
-        if (!light_is_sound(light)) {
-            alpi_warn(scene->context, "light", light->name,
-                      "light %u is left out: a value of it is negative or no number", i);
-            light->intensity = 0.0f;
-        }
-    }
-    lighting->light_count = scene->light_count;
-    ALP_TRY(add_lamps(lighting, options));
-    return add_sun(lighting, &options->sun);
-}
-
 /// Tells disks from points.
 static alp_result sort_lights(alpi_lighting *lighting)
 {
     alp_context *context = lighting->scene->context;
-    ALPI_TRY_NEW(context, lighting->suns, lighting->light_count);
-    uint32_t *points = ALPI_NEW(context, uint32_t, lighting->light_count);
+    ALPI_TRY_NEW(context, lighting->suns, lighting->list.count);
+    uint32_t *points = ALPI_NEW(context, uint32_t, lighting->list.count);
     uint32_t count = 0;
     if (points == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t i = 0; i < lighting->light_count; i++) {
-        alpi_light *light = &lighting->lights[i];
+    for (uint32_t i = 0; i < lighting->list.count; i++) {
+        alpi_light *light = &lighting->list.lights[i];
         bool disk = light->kind == ALPI_LIGHT_DIRECTIONAL && light->size >= ALPI_SUN_LEAST_SIZE;
         light->size = disk ? light->size : 0.0f;
         if (!(light->intensity > 0.0f && is_lit(light->color))) {
@@ -147,7 +72,7 @@ static alp_result sort_lights(alpi_lighting *lighting)
         }
     }
     alp_result result =
-        alpi_punctual_collect(context, lighting->lights, points, count, &lighting->punctual);
+        alpi_punctual_collect(context, lighting->list.lights, points, count, &lighting->punctual);
     alpi_release(context, points);
     return result;
 }
@@ -183,7 +108,7 @@ static void set_sky(alpi_lighting *lighting, alpi_sky *sky)
 static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
 {
     alp_context *context = lighting->scene->context;
-    ALP_TRY(gather_lights(lighting, options));
+    ALP_TRY(alpi_light_list_gather(lighting->scene, options, &lighting->list));
     ALP_TRY(sort_lights(lighting));
     ALP_TRY(alpi_emitters_collect(lighting->scene, &lighting->emitters));
     alpi_sky *sky = NULL;
@@ -239,7 +164,7 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     }
     set_sky(*soft, skies[0]);
     set_sky(*spots, skies[1]);
-    (*spots)->soft = skies[0];
+    (*spots)->soft = skies[1] != NULL ? skies[0] : NULL;
     return ALP_OK;
 }
 
@@ -252,9 +177,7 @@ void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting)
     alpi_emitters_clear(context, &lighting->emitters);
     alpi_punctual_clear(context, &lighting->punctual);
     alpi_release(context, lighting->suns);
-    alpi_release(context, lighting->lights);
-    alpi_release(context, lighting->lamp_names);
-    alpi_release(context, lighting->sun_name);
+    alpi_light_list_clear(context, &lighting->list);
     alpi_release(context, lighting);
 }
 
@@ -278,12 +201,12 @@ bool alpi_lighting_is_dark(const alpi_lighting *lighting)
 
 uint32_t alpi_lighting_light_count(const alpi_lighting *lighting)
 {
-    return lighting->light_count;
+    return lighting->list.count;
 }
 
 const alpi_light *alpi_lighting_light(const alpi_lighting *lighting, uint32_t index)
 {
-    return &lighting->lights[index];
+    return &lighting->list.lights[index];
 }
 
 const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting)
@@ -322,7 +245,7 @@ vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction)
 bool alpi_lighting_sample_light(const alpi_lighting *lighting, uint32_t index, vec3 point, vec2 u,
                                 alpi_light_sample *sample)
 {
-    const alpi_light *light = &lighting->lights[index];
+    const alpi_light *light = &lighting->list.lights[index];
     *sample = (alpi_light_sample){.kind = ALPI_LIGHT_CLASS_PUNCTUAL,
                                   .distance = INFINITY,
                                   .density = 1.0f,
@@ -473,7 +396,7 @@ static bool sample_punctual(const place *p, double pick, alpi_light_sample *samp
     uint32_t light = 0;
     double part = alpi_punctual_sample(&p->lighting->punctual, p->point, p->normal, pick, &light);
     alpi_punctual_light at;
-    if (!(part > 0.0) || !alpi_punctual_at(&p->lighting->lights[light], p->point, &at)) {
+    if (!(part > 0.0) || !alpi_punctual_at(&p->lighting->list.lights[light], p->point, &at)) {
         return false;
     }
     sample->direction = at.direction;

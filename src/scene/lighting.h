@@ -25,8 +25,9 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
                                 alpi_lighting **lighting);
 /// All light as two that add up to it: a soft sky alone with all else, and the bright spots of the
 /// sky with all else. Each has the lights and emissive triangles whole: who asks for both takes
-/// only the sky of the first. Paths that have the second alone find all light: its spots are drawn
-/// and never met, and rays that leave meet the soft sky, of the first, which is never drawn.
+/// only the sky of the first. Paths that have the second alone find all light, if there are spots:
+/// these are drawn and never met, and rays that leave meet the soft sky, which is never drawn. It
+/// is that of the first, which must live as long.
 /// @param lighting made of the same scene and options
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
@@ -41,7 +42,7 @@ void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting);
 
 /// A way from a point to light.
 typedef struct alpi_light_sample {
-    alpi_light_class kind; // PUNCTUAL: no ray meets it; a spot of a sky too
+    alpi_light_class kind; // PUNCTUAL: no ray meets it, of a sky's spots too
     vec3 direction;        // unit, from the point
     float distance;        // metres to the light, INFINITY for sun, directional and sky
     vec3 light;        // radiance that comes from there; PUNCTUAL: E on a surface that faces it.
@@ -76,7 +77,8 @@ bool alpi_lighting_sample_by_area(const alpi_lighting *lighting, vec3 point, vec
 float alpi_lighting_density_by_area(const alpi_lighting *lighting, vec3 point, vec3 normal,
                                     vec3 direction, uint32_t triangle, float distance);
 
-/// Radiance of sky and sun disks in a direction that leaves the scene.
+/// Radiance of sky and sun disks in a direction that leaves the scene; of a sky of spots, of the
+/// soft one in its place.
 vec3 alpi_lighting_escaped(const alpi_lighting *lighting, vec3 direction);
 
 /// The parts, for gathering each light alone: PUNCTUAL and SUN lights, file first, then the lamps

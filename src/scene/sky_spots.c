@@ -29,11 +29,11 @@ static double unevenness_below(const alpi_sky_table *t, double level)
     return sum > 0.0 ? squares * all / (sum * sum) : 0.0;
 }
 
-/// What is black makes any sky uneven: over a black ground, twice. A level that leaves the rest
-/// this much more uneven than if it were even does.
-static const double BESIDE_BLACK = 1.2;
+/// What is black makes any sky uneven. A level that leaves the rest this much more uneven than if
+/// it were even does, up to half of the sphere: rays hardly find what little is lit beyond.
+static const double BESIDE_BLACK = 1.2, HALF_BLACK = 2.0;
 
-/// The highest level that leaves what is below it even; it is found to 1 %.
+/// The highest level that leaves what is below it even; it is found to 1 %. 0: none does.
 static double find_level(const alpi_sky_table *t, double unevenness)
 {
     double low = HUGE_VAL, high = 0.0;
@@ -42,7 +42,11 @@ static double find_level(const alpi_sky_table *t, double unevenness)
         high = b > high ? b : high;
         low = b > 0.0 && b < low ? b : low;
     }
-    unevenness = fmax(unevenness, BESIDE_BLACK * unevenness_below(t, low));
+    const double least = unevenness_below(t, low);
+    unevenness = fmax(unevenness, BESIDE_BLACK * fmin(least, HALF_BLACK));
+    if (least > unevenness) {
+        return 0.0;
+    }
     if (unevenness_below(t, high) <= unevenness) {
         return high;
     }

@@ -27,7 +27,7 @@ typedef struct alpi_sky_looks {
 /// pixel's colour, a spot. The two radiances add up to the table's in every direction.
 /// The level is the highest that leaves the soft part even: its mean square is `unevenness` times
 /// its squared mean, or what is black makes it so. 1 would be the same from everywhere, 2 an even
-/// sky over a black ground.
+/// sky over a black ground. Of a sky that is mostly black nothing is soft.
 /// @param soft, spots made here and finished; without spots (`total` 0) the table was soft already
 /// @return ALP_OK; OUT_OF_MEMORY. On failure too the caller releases both
 alp_result alpi_sky_spots_part(alp_context *context, const alpi_sky_table *table, double unevenness,

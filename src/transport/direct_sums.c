@@ -63,31 +63,26 @@ void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves
     alpi_release(d->options.context, halves->shares);
 }
 
-static double sum_variances(const alpi_reference_value *v)
-{
-    return (double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2];
-}
-
 /// @param sums of the joined parts together  @param all that there is
 static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_reference_value *all,
                            uint32_t place, const alpi_direct_halves *halves)
 {
     alpi_reference_value joined;
     alpi_reference_mean(sums, R, each, &joined);
-    double apart = 0.0;
+    double apart = 0.0, variance = 0.0;
     for (int k = 0; k < 3; k++) {
         double half[2] = {0.0, 0.0};
         for (int r = 0; r < R; r++) {
             half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
         }
         apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
+        variance += (double)joined.variance[k];
+        if (halves->shares != NULL) { // all may have less than a part of it, by chance
+            halves->shares[place][k] = fminf(joined.variance[k] / all->variance[k], 1.0f);
+        }
     }
-    const double variance = sum_variances(&joined);
     halves->sums[place / ALPI_PACKET][0] += (float)apart;
     halves->sums[place / ALPI_PACKET][1] += (float)variance;
-    if (halves->shares != NULL) { // together they may have less than this part alone, by chance
-        halves->shares[place] = (float)fmin(variance / sum_variances(all), 1.0);
-    }
 }
 
 void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t receiver,
@@ -155,8 +150,8 @@ alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *lis
     const float scale = find_scale(sums);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t receiver = list != NULL ? list[i] : i;
-        const float share = halves->shares != NULL ? halves->shares[i] : 1.0f;
         for (int k = 0; k < 3; k++) {
+            const float share = halves->shares != NULL ? halves->shares[i][k] : 1.0f;
             output->values[receiver].variance[k] *= 1.0f + share * (scale - 1.0f);
         }
         scale_parts(d, receiver, scale, output);

@@ -24,7 +24,8 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
 typedef struct alpi_direct_halves {
     float (*sums)[2]; // [(count + 7) / 8] (a − b)² / 4 and V of what is not of polygons, over the
                       // channels and the receivers of a block
-    float *shares; // [count] that V over that of all; NULL where polygons are none, or all there is
+    float (*shares)[3]; // [count] that V over that of all, by channel; NULL where polygons are
+                        // none, or all there is
 } alpi_direct_halves;
 
 /// @param count of receivers listed  @return ALP_OK; OUT_OF_MEMORY. Release on failure too

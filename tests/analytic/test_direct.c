@@ -480,10 +480,8 @@ static void an_even_sky(void **state)
     ASSERT_NEAR(v.mean[0], 3.0 * ALPI_PI, 1e-5); // every ray brings the same
     test_stage_close(&s);
     o = sky_of(ALP_SKY_HEMISPHERE);
-    for (int k = 0; k < 3; k++) {
-        o.sky.up[k] = 1.0f;
-        o.sky.down[k] = 0.0f;
-    }
+    o.sky.up[0] = o.sky.up[1] = o.sky.up[2] = 1.0f;
+    o.sky.down[0] = o.sky.down[1] = o.sky.down[2] = 0.0f;
     s = test_stage_open(context, make_floor(NULL, 0.0f), NULL, 0, &o);
     enum { COPIES = 64 };
     static test_patch copies[COPIES];
@@ -497,9 +495,8 @@ static void an_even_sky(void **state)
         }
         test_stage_gather(&s, &all, 4096, 1, values);
         for (int i = 0; i < COPIES; i++) {
-            const double apart = (double)values[i].mean[0] - truth;
             ASSERT_LIGHT(values[i], truth);
-            squares += apart * apart / COPIES;
+            squares += pow((double)values[i].mean[0] - truth, 2.0) / COPIES;
         }
         assert_true(sqrt(squares) < 4e-3);
     }

@@ -73,18 +73,28 @@ static alp_scene *make_floor(bool roof)
     return scene;
 }
 
-static stage start(bool roof)
+/// @param others a sun and a lamp too
+static stage start_with(bool roof, bool others)
 {
     stage s = {.picture = make_picture()};
     alp_lighting_options o = alp_lighting_options_default();
     o.sky.kind = ALP_SKY_IMAGE;
     o.sky.image = s.picture;
-    s.all = test_stage_open(context, make_floor(roof), NULL, 0, &o);
+    o.sun.illuminance = others ? 0.5f : 0.0f;
+    o.sun.elevation = 0.8f;
+    o.sun.size = 0.2f;
+    const alpi_light lamp = test_lamp((vec3){1, 2, 3}, 2.0f);
+    s.all = test_stage_open(context, make_floor(roof), &lamp, others ? 1 : 0, &o);
     s.whole = s.all.lighting;
     ASSERT_OK(context, alpi_lighting_split_sky(s.whole, &o, &s.soft, &s.all.lighting));
     s.looks = alpi_sky_spot_looks(alpi_lighting_sky(s.all.lighting));
     assert_non_null(s.looks);
     return s;
+}
+
+static stage start(bool roof)
+{
+    return start_with(roof, false);
 }
 
 static void finish(stage *s)
@@ -300,11 +310,12 @@ static void a_curved_receiver_misses_nothing(void **state)
     finish(&s);
 }
 
-/// Paths that draw spots and meet the soft sky find what paths find that draw from the picture.
+/// Paths that draw spots and meet the soft sky find what paths find that draw from the picture:
+/// beside other lights, and where light is asked for after a bounce.
 static void paths_find_all_light(void **state)
 {
     (void)state;
-    stage s = start(true);
+    stage s = start_with(true, true);
     alpi_lighting *spots = s.all.lighting;
     for (int i = 0; i <= 4; i++) {
         const test_patch p = test_point((vec3){2.0f * (float)i - 4.0f, 0, 0.3f}, UP);
@@ -313,7 +324,8 @@ static void paths_find_all_light(void **state)
         alpi_reference_value values[2];
         for (int k = 0; k < 2; k++) {
             s.all.lighting = k == 0 ? s.whole : spots;
-            const alpi_reference r = test_stage_reference(&s.all, 1 << 14);
+            alpi_reference r = test_stage_reference(&s.all, 1 << 14);
+            r.bounces = 2;
             ASSERT_OK(context,
                       alpi_reference_irradiance(&r, &receivers, NULL, 1, NULL, &values[k]));
         }

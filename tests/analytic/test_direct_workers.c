@@ -79,8 +79,8 @@ static void workers_change_nothing(void **state)
     alp_context_destroy(context);
 }
 
-/// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: variances of
-/// sequences and of what knows nothing of its neighbours, in one value.
+/// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: of variances
+/// a part is scaled by what all receivers tell.
 static void nor_with_spots(void **state)
 {
     (void)state;

@@ -4,6 +4,7 @@
 // that texel from close by, and little of the lit half.
 #include "test_scenes.h"
 
+#include "base/image.h"
 #include "maps/lightmap.h"
 #include "scene/mesh_builder.h"
 
@@ -146,6 +147,43 @@ static void the_foot_of_a_wall(void **state)
     alp_scene_destroy(scene);
 }
 
+/// The sun's place taken by a lamp of a picture, of which paths from near surfaces draw: as paths
+/// of the reference find it, but for what arrives from farther away than a texel's side.
+static void under_a_lamp_of_the_sky(void **state)
+{
+    (void)state;
+    enum { WIDTH = 512, ROWS = WIDTH / 2 };
+    static double found[MOST][3], truth[MOST][3];
+    const alp_image_info info = {WIDTH, ROWS, 3, ALP_COMPONENT_FLOAT};
+    alp_image *picture = NULL;
+    ASSERT_OK(context, alp_image_create(context, info, &picture));
+    memset(alp_image_floats(picture), 0, sizeof(float) * 3 * WIDTH * ROWS);
+    for (uint32_t i = 0; i < 4; i++) { // about +X, at the horizon
+        const uint32_t x = WIDTH / 4 * 3 - 1 + i % 2, y = ROWS / 2 - 1 + i / 2;
+        for (uint32_t k = 0; k < 3; k++) {
+            alp_image_floats(picture)[3 * (y * WIDTH + x) + k] = 1000.0f;
+        }
+    }
+    alp_scene *scene = make_wall();
+    alp_bake_options o = wall_options();
+    o.light.lighting.sun.illuminance = 0.0f;
+    o.light.lighting.sky.kind = ALP_SKY_IMAGE;
+    o.light.lighting.sky.image = picture;
+    const uint32_t count = bake_strip(scene, &o, found);
+    o.light.gather = ALP_GATHER_PATHS;
+    o.light.samples = 4096;
+    assert_int_equal(bake_strip(scene, &o, truth), count);
+    double mean = 0.0, exact = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        mean += found[i][0] / count;
+        exact += truth[i][0] / count;
+    }
+    printf("accuracy: at the foot of a wall, under a lamp of the sky: %+.1e\n", mean / exact - 1.0);
+    ASSERT_NEAR(mean / exact, 1.0 + FAR_HITS, 0.06);
+    alp_image_destroy(picture);
+    alp_scene_destroy(scene);
+}
+
 /// The same bits where light by direction is wanted too, and for one worker.
 static void whoever_asks(void **state)
 {
@@ -177,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_foot_of_a_wall),
+        cmocka_unit_test(under_a_lamp_of_the_sky),
         cmocka_unit_test(whoever_asks),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

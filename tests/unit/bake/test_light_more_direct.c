@@ -178,7 +178,8 @@ static void nothing_is_dealt_where_nothing_may_be(void **state)
     finish(&s);
 }
 
-/// No texel has more than the limit, nor all together many more than they may.
+/// No texel has more than the limit, nor all together more than they may: few enough are listed for
+/// all of them to be asked.
 static void limits_hold(void **state)
 {
     (void)state;

@@ -210,6 +210,29 @@ static void guides_lead_to_the_cell(void **state)
     alp_context_destroy(context);
 }
 
+/// A lamp in the dark, and a window of an eighth of the sphere, are spots whole.
+static void what_is_lit_in_the_dark_is_spots(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    for (uint32_t side = 2; side <= WIDTH / 4; side += WIDTH / 4 - 2) {
+        alpi_sky_table table, soft, spots;
+        ASSERT_OK(context, alpi_sky_table_create(context, WIDTH, HEIGHT, 0.0f, &table));
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            const bool lit = i % WIDTH < side && i / WIDTH >= 8 && i / WIDTH < 8 + side;
+            const float light = lit ? 3.0f + 0.1f * (float)(i % 7) : 0.0f;
+            table.pixels[i] = (vec3){light, light, light};
+        }
+        alpi_sky_table_finish(&table);
+        ASSERT_OK(context, alpi_sky_spots_part(context, &table, 1.4, &soft, &spots));
+        assert_true(soft.total == 0.0 && spots.total == table.total);
+        alpi_sky_table_release(context, &spots);
+        alpi_sky_table_release(context, &soft);
+        alpi_sky_table_release(context, &table);
+    }
+    alp_context_destroy(context);
+}
+
 static void even_skies_have_no_spots(void **state)
 {
     (void)state;
@@ -266,6 +289,7 @@ int main(void)
         cmocka_unit_test(looks_that_follow_each_other_are_neighbours),
         cmocka_unit_test(black_ground_leaves_the_sky_soft),
         cmocka_unit_test(guides_lead_to_the_cell),
+        cmocka_unit_test(what_is_lit_in_the_dark_is_spots),
         cmocka_unit_test(even_skies_have_no_spots),
         cmocka_unit_test(every_failed_allocation_leaves_nothing),
     };
