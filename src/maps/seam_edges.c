@@ -145,11 +145,18 @@ typedef struct cell {
     int octave;
 } cell;
 
+/// What tells most of those that meet nothing, side by side in memory.
+typedef struct entry {
+    uint32_t edge;
+    float length;
+    float middle[3]; // metres
+} entry;
+
 typedef struct pair_search {
     const alp_scene *scene;
     const alpi_seam_edges *edges;
     uint32_t *first;  // [buckets + 1]
-    uint32_t *sorted; // [edges] bucket by bucket
+    entry *sorted;    // [edges] bucket by bucket
     uint8_t *settled; // [edges] 1: the surface goes on at an edge with the same ends
     uint32_t mask;
     int highest;       // octave
@@ -163,9 +170,9 @@ typedef struct found_pairs {
     uint32_t next, end; // edges that are left
 } found_pairs;
 
-static int octave_of(const alpi_seam_edge *edge)
+static int octave_of(float length)
 {
-    return ilogbf(edge->length) + 1;
+    return ilogbf(length) + 1;
 }
 
 /// The corners of an edge: vertices of the scene.
@@ -198,16 +205,29 @@ static int64_t find_cell(double coordinate, double size)
     return (int64_t)fmin(fmax(floor(coordinate / size), -limit), limit);
 }
 
-static cell cell_of(const pair_search *s, const alpi_seam_edge *edge)
+static double3 middle_of(const pair_search *s, const alpi_seam_edge *edge)
 {
     double3 ends[2];
     edge_ends(s->scene, edge, ends);
-    cell c = {.octave = octave_of(edge)};
+    return double3_scale(double3_add(ends[0], ends[1]), 0.5);
+}
+
+static cell cell_of(const pair_search *s, const alpi_seam_edge *edge)
+{
+    const double3 middle = middle_of(s, edge);
+    cell c = {.octave = octave_of(edge->length)};
     const double size = ldexp(1.0, c.octave);
-    c.x[0] = find_cell(0.5 * (ends[0].x + ends[1].x), size);
-    c.x[1] = find_cell(0.5 * (ends[0].y + ends[1].y), size);
-    c.x[2] = find_cell(0.5 * (ends[0].z + ends[1].z), size);
+    c.x[0] = find_cell(middle.x, size);
+    c.x[1] = find_cell(middle.y, size);
+    c.x[2] = find_cell(middle.z, size);
     return c;
+}
+
+static entry make_entry(const pair_search *s, uint32_t edge)
+{
+    const alpi_seam_edge *e = &s->edges->edges[edge];
+    const double3 m = middle_of(s, e);
+    return (entry){edge, e->length, {(float)m.x, (float)m.y, (float)m.z}};
 }
 
 static alp_result sort_edges(pair_search *s, uint32_t *buckets)
@@ -231,7 +251,7 @@ static alp_result sort_edges(pair_search *s, uint32_t *buckets)
     }
     s->first[s->mask + 1] = sum;
     for (uint32_t i = e->count; i-- > 0;) {
-        s->sorted[--s->first[buckets[i]]] = i;
+        s->sorted[--s->first[buckets[i]]] = make_entry(s, i);
     }
     return ALP_OK;
 }
@@ -310,6 +330,21 @@ static bool meet_nearly(const alp_scene *scene, const alpi_seam_edge *a, const a
     return true;
 }
 
+/// Whether the middles of edges are no farther apart than they would be if the edges met.
+static bool may_meet(const pair_search *s, const entry *a, const entry *b)
+{
+    double squares = 0.0, rounded = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double apart = (double)a->middle[k] - (double)b->middle[k];
+        squares += apart * apart;
+        rounded += ROUNDING * fabs((double)a->middle[k]);
+    }
+    const double texel = (double)s->edges->edges[a->edge].texel;
+    const double reach =
+        0.5 * ((double)a->length + (double)b->length) + (APART + ROUNDING_LIMIT) * texel + rounded;
+    return !(squares > reach * reach * (1.0 + ROUNDING));
+}
+
 /// Whether edges meet: with the same ends, or nearly where neither of them is settled.
 static bool meet(const pair_search *s, uint32_t own, uint32_t other, alpi_seam_pair *pair)
 {
@@ -336,24 +371,22 @@ static alp_result keep(const pair_search *s, const alpi_seam_pair *pair, found_p
 }
 
 /// Looks at the edges of one cell. @param left out: how many may still be looked at
-static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uint32_t *left,
+static alp_result look_in(const pair_search *s, const entry *own, const cell *c, uint32_t *left,
                           found_pairs *found)
 {
-    const alpi_seam_edge *edges = s->edges->edges;
-    const bool alike = octave_of(&edges[own]) == c->octave;
+    const bool alike = octave_of(own->length) == c->octave;
     const uint32_t bucket = hash_cell(s, c);
     for (uint32_t i = s->first[bucket]; i < s->first[bucket + 1] && *left > 0; i++) {
-        const uint32_t other = s->sorted[i];
-        const alpi_seam_edge *b = &edges[other];
-        if (octave_of(b) != c->octave || (alike && other <= own)) {
+        const entry *other = &s->sorted[i];
+        if (octave_of(other->length) != c->octave || (alike && other->edge <= own->edge)) {
             continue;
         }
         --*left;
         alpi_seam_pair pair;
-        if (!meet(s, own, other, &pair)) {
+        if (!may_meet(s, own, other) || !meet(s, own->edge, other->edge, &pair)) {
             continue;
         }
-        const cell at = cell_of(s, b); // other cells may share the bucket
+        const cell at = cell_of(s, &s->edges->edges[other->edge]); // others may share the bucket
         if (at.x[0] == c->x[0] && at.x[1] == c->x[1] && at.x[2] == c->x[2]) {
             ALP_TRY(keep(s, &pair, found));
         }
@@ -361,9 +394,10 @@ static alp_result look_in(const pair_search *s, uint32_t own, const cell *c, uin
     return ALP_OK;
 }
 
-static alp_result look_around(const pair_search *s, uint32_t own, int octave, found_pairs *found)
+static alp_result look_around(const pair_search *s, const entry *own, int octave,
+                              found_pairs *found)
 {
-    const alpi_seam_edge *edge = &s->edges->edges[own];
+    const alpi_seam_edge *edge = &s->edges->edges[own->edge];
     const double size = ldexp(1.0, octave);
     double3 p[2];
     edge_ends(s->scene, edge, p);
@@ -397,10 +431,14 @@ static alp_result settle_range(void *user, uint32_t begin, uint32_t end, uint32_
     for (uint32_t own = begin; own < end; own++) {
         const alpi_seam_edge *a = &e->edges[own];
         const cell c = cell_of(s, a);
+        const entry at = make_entry(s, own);
         const uint32_t bucket = hash_cell(s, &c);
         uint32_t left = LOOK_LIMIT;
         for (uint32_t i = s->first[bucket]; i < s->first[bucket + 1] && left > 0; i++, left--) {
-            const alpi_seam_edge *b = &e->edges[s->sorted[i]];
+            if (!is_same_place(at.middle, s->sorted[i].middle)) {
+                continue;
+            }
+            const alpi_seam_edge *b = &e->edges[s->sorted[i].edge];
             if (a->half_edge / 3 != b->half_edge / 3 && has_same_ends(s->scene, a, b) &&
                 is_smooth(s->scene, a, b)) {
                 s->settled[own] = 1;
@@ -414,14 +452,15 @@ static alp_result settle_range(void *user, uint32_t begin, uint32_t end, uint32_
 /// Looks for all partners of an edge.
 static alp_result look_for_partners(const pair_search *s, uint32_t own, found_pairs *found)
 {
+    const entry at = make_entry(s, own);
     if (s->settled[own]) {
         const cell c = cell_of(s, &s->edges->edges[own]);
         uint32_t left = LOOK_LIMIT;
-        return look_in(s, own, &c, &left, found);
+        return look_in(s, &at, &c, &left, found);
     }
-    for (int octave = octave_of(&s->edges->edges[own]); octave <= s->highest; octave++) {
+    for (int octave = octave_of(at.length); octave <= s->highest; octave++) {
         if (s->octaves[octave + 256]) {
-            ALP_TRY(look_around(s, own, octave, found));
+            ALP_TRY(look_around(s, &at, octave, found));
         }
     }
     return ALP_OK;
@@ -506,7 +545,7 @@ alp_result alpi_seam_pairs_visit(const alp_scene *scene, const alpi_seam_edges *
     }
     pair_search s = {.scene = scene, .edges = edges, .mask = size - 1};
     s.first = ALPI_NEW(edges->context, uint32_t, (size_t)size + 1);
-    s.sorted = ALPI_NEW(edges->context, uint32_t, edges->count);
+    s.sorted = ALPI_NEW(edges->context, entry, edges->count);
     s.settled = ALPI_NEW(edges->context, uint8_t, edges->count);
     uint32_t *buckets = ALPI_NEW(edges->context, uint32_t, edges->count);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
