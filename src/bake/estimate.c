@@ -213,11 +213,8 @@ static alp_result run_pilot(const alpi_bake_job *job, double area, pilot *p, uin
     *p = (pilot){.mean = 0.0};
     ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
                                   &tracer, NULL));
-    alpi_hush(job->context, true);
-    alp_result result = alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting);
-    alpi_hush(job->context, false);
-    ALP_TRY(result);
-    result = alpi_point_array_create(job->context, POINTS, &points);
+    ALP_TRY(alpi_lighting_create_quietly(job->scene, &job->options.light.lighting, &lighting));
+    alp_result result = alpi_point_array_create(job->context, POINTS, &points);
     alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, POINTS);
     if (result == ALP_OK && values != NULL) {
         place_points(job, area, &points);

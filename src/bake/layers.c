@@ -158,14 +158,10 @@ alp_result alpi_bake_find_layers(alpi_bake_job *job, uint32_t *lights)
     alpi_direct *direct = NULL;
     job->layers.light.context = job->context;
     job->layers.sky = ALPI_NONE;
-    alpi_hush(job->context, true);
-    alp_result result = alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting);
-    alpi_hush(job->context, false);
+    ALP_TRY(alpi_lighting_create_quietly(job->scene, &job->options.light.lighting, &lighting));
     const alpi_direct_options options = {
         .context = job->context, .scene = job->scene, .lighting = lighting, .samples = 1};
-    if (result == ALP_OK) {
-        result = alpi_direct_create(&options, &direct);
-    }
+    alp_result result = alpi_direct_create(&options, &direct);
     if (result == ALP_OK) {
         const alpi_direct_part *parts = alpi_direct_parts(direct, lights);
         result = plan_parts(job, lighting, parts, *lights);

@@ -32,8 +32,7 @@ void alpi_warn(alp_context *context, const char *code, const char *object, const
     ALP_PRINTF(4, 5);
 void alpi_note(alp_context *context, const char *code, const char *object, const char *format, ...)
     ALP_PRINTF(4, 5);
-/// From now on, until it is called with false as often, what is sent is not told: of what is made
-/// only to be looked at, who makes it to use it tells. By one thread.
+/// From now on, until it is called with false as often, what is sent is not told. By one thread.
 void alpi_hush(alp_context *context, bool hushed);
 
 struct alpi_pool;

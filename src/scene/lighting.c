@@ -137,6 +137,15 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
     return ALP_OK;
 }
 
+alp_result alpi_lighting_create_quietly(const alp_scene *scene, const alp_lighting_options *options,
+                                        alpi_lighting **lighting)
+{
+    alpi_hush(scene->context, true);
+    const alp_result result = alpi_lighting_create(scene, options, lighting);
+    alpi_hush(scene->context, false);
+    return result;
+}
+
 alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
                                    const alp_lighting_options *options, alpi_lighting **soft,
                                    alpi_lighting **spots)
@@ -149,12 +158,10 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     if (lighting->sky != NULL) {
         ALP_TRY(alpi_sky_split(context, lighting->sky, &skies[0], &skies[1]));
     }
-    alpi_hush(context, true); // of its lights the whole has told
-    alp_result result = alpi_lighting_create(lighting->scene, &without, soft);
+    alp_result result = alpi_lighting_create_quietly(lighting->scene, &without, soft);
     if (result == ALP_OK) {
-        result = alpi_lighting_create(lighting->scene, &without, spots);
+        result = alpi_lighting_create_quietly(lighting->scene, &without, spots);
     }
-    alpi_hush(context, false);
     if (result != ALP_OK) {
         alpi_sky_destroy(context, skies[0]);
         alpi_sky_destroy(context, skies[1]);

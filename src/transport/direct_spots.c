@@ -105,15 +105,11 @@ void alpi_spots_choose(const alpi_sky_looks *looks, vec3 normal, float slack,
 /// The first block that ends beyond a place, of those from `from` on up to one that does.
 static uint32_t find_block(const alpi_spot_choice *c, double place, uint32_t from, uint32_t last)
 {
-    enum { NARROW = 8 }; // few steps on, which a processor foresees better than halves
-    while (last - from > NARROW) {
+    while (from < last) {
         const uint32_t middle = from + (last - from) / 2;
         const bool before = c->ends[middle] <= place;
         from = before ? middle + 1 : from;
         last = before ? last : middle;
-    }
-    while (from < last && c->ends[from] <= place) {
-        from++;
     }
     return from;
 }
