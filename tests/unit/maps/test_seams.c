@@ -382,6 +382,25 @@ static alp_lightmap *make_stacks(alp_context *context, alp_scene **scene)
     return test_tiles_lightmap(*scene, SIZE);
 }
 
+/// Edges that share a tenth of their lengths, at their ends, and a short one at the end of a long.
+static void ends_of_edges_meet(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        test_tile tiles[2] = {pair[0], pair[1]};
+        tiles[1].p[2] = 0.9f;
+        if (kind == 1) {
+            tiles[1].p[2] = 0.95f;
+            tiles[1].u[2] = 0.05f;
+        }
+        fixture f;
+        set_up(&f, tiles, 2);
+        assert_int_equal(f.seams.count, 1);
+        ASSERT_NEAR(f.seams.length, kind == 0 ? 0.1 : 0.05, 1e-6);
+        tear_down(&f);
+    }
+}
+
 static void any_workers_find_the_same(void **state)
 {
     (void)state;
@@ -499,6 +518,7 @@ int main(void)
         cmocka_unit_test(coordinates_that_go_on_make_no_seam),
         cmocka_unit_test(tiles_with_walls_meet_once),
         cmocka_unit_test(it_can_be_cancelled),
+        cmocka_unit_test(ends_of_edges_meet),
         cmocka_unit_test(any_workers_find_the_same),
         cmocka_unit_test(the_search_can_be_cancelled),
         cmocka_unit_test(memory_that_ends_is_said),
