@@ -4,58 +4,36 @@
 #include "bake/layers.h"
 #include "bake/light.h"
 #include "bake/light_plan.h"
+#include "bake/pilot.h"
 
 #include "atlas/factors.h"
 #include "base/memory.h"
-#include "base/random.h"
-#include "base/tasks.h"
-#include "transport/direct.h"
 
 #include <math.h>
 
-enum { POINTS = 128, DIRECT_SAMPLES = 16, PATHS = 16, STREAM_PILOT = 90 };
 // Measured on the truth table (docs/conventions.md, "Estimates").
-static const double PAGE_SHARE = 0.9; // of a page that its charts leave for texels
+static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
-static const double BOUNCED_ERROR = 0.037; // of 64 rays, over the mean of all light
-static const double BOUNCED_POWER = 1.6;   // of what is asked less, that rays grow with
-static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
-static const double PACKET_SHARE = 0.22;   // time of a ray in a packet, over that of a path
-static const double TEXEL_SECONDS = 1e-6;  // atlas, files
-
-/// What a few points tell of a scene.
-typedef struct pilot {
-    double variances[POINTS]; // of direct light by DIRECT_SAMPLES, mean of the channels
-    double mean;              // of direct light
-    double rays;              // of each direct sample
-    double direct_seconds;    // of each of those
-    double ray_seconds;       // of a ray that gathers bounced light or occlusion
-} pilot;
+static const double BOUNCED_OVER_PATHS = 0.5;    // error of 64 rays of a texel, over that of paths
+static const double BOUNCED_POWER = 1.6;         // of what is asked less, that rays grow with
+static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
+static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
+static const double ERROR_OVER_POINTS = 1.3;     // of occlusion; rounds are not cut to measure
+// What it does that there is a triangle for each texel: charts leave gaps, errors and what is
+// traced grow.
+static const double LOST_TO_GAPS = 0.3, ERROR_OF_DETAIL = 1.5, TRACED_OF_DETAIL = 1.0;
+static const double NEAR_OF_DETAIL = 1.5;    // of a ray's time: more texels have surfaces near
+static const double PROBE_SHARE = 1.0 / 8.0; // of traced texels' rays, to state the error
+// Seconds of what is not rays: with charts, by triangles and texels; by pixels of a map.
+static const double ATLAS_SECONDS = 0.05, TRIANGLE_SECONDS = 14e-6, TEXEL_SECONDS = 0.6e-6;
+static const double KEPT_TRIANGLE_SECONDS = 1e-6, SEAM_SECONDS = 8e-6; // by triangles
+static const double PIXEL_SECONDS = 0.6e-6;
+static const double LIT_SECONDS = 2e-6, SHADED_SECONDS = 0.5e-6; // of a texel, besides its rays
 
 // --- texels --------------------------------------------------------------------------------------
-
-static bool is_chosen(const alpi_bake_job *job, uint32_t triangle)
-{
-    const alp_scene *s = job->scene;
-    return s->triangle_usable[triangle] &&
-           (job->only == NULL || job->only[s->triangle_surface[triangle]]);
-}
-
-static double area_of(const alp_scene *s, uint32_t triangle, vec3 *normal)
-{
-    vec3 p[3];
-    for (int k = 0; k < 3; k++) {
-        const float *v = s->positions[s->triangles[triangle][k]];
-        p[k] = (vec3){v[0], v[1], v[2]};
-    }
-    const vec3 n = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
-    const double length = sqrt((double)vec3_dot(n, n));
-    *normal = length > 0.0 ? vec3_scale(n, (float)(1.0 / length)) : (vec3){0.0f, 0.0f, 1.0f};
-    return 0.5 * length;
-}
 
 /// Share of the unit square of the second coordinates that a triangle takes.
 static double uv_area_of(const alp_scene *s, uint32_t triangle)
@@ -69,191 +47,75 @@ static double uv_area_of(const alp_scene *s, uint32_t triangle)
     return 0.5 * fabs(a[0] * b[1] - a[1] * b[0]);
 }
 
+/// What is known of a bake before it.
+typedef struct work_guess {
+    const alp_bake_options *options;
+    alpi_pilot pilot;
+    double area;   // of the surfaces, m²
+    double texels; // at least 1
+    double detail; // triangles in the area of a texel, at most 1
+} work_guess;
+
+static bool keeps(const alp_bake_options *o, const alp_scene *s)
+{
+    return s->uvs[1] != NULL && alpi_atlas_may_keep(&o->atlas);
+}
+
 /// An atlas as it will about be. Whether it keeps a second set of coordinates is not looked at:
 /// where there is one for all of the page, it is taken to.
-static alp_atlas_info guess_atlas(const alpi_bake_job *job, double *area)
+static alp_atlas_info guess_atlas(const alpi_bake_job *job, work_guess *g)
 {
     const alp_atlas_options *o = &job->options.atlas;
     const alp_scene *s = job->scene;
-    double uv_area = 0.0;
-    *area = 0.0;
+    double uv_area = 0.0, triangles = 0.0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        if (is_chosen(job, t)) {
+        if (alpi_pilot_is_chosen(job, t)) {
             vec3 normal;
-            *area += area_of(s, t, &normal);
+            g->area += alpi_pilot_area(s, t, &normal);
             uv_area += s->uvs[1] != NULL ? uv_area_of(s, t) : 0.0;
+            triangles += 1.0;
         }
     }
     const double page = (double)o->size * o->size;
-    const bool keep = s->uvs[1] != NULL && alpi_atlas_may_keep(o);
-    const bool fits = o->texels_per_metre == 0.0;
+    const bool keep = keeps(&job->options, s), fits = o->texels_per_metre == 0.0;
     const double texels = keep   ? fmin(uv_area, 1.0) * page
                           : fits ? PAGE_SHARE * page
-                                 : *area * o->texels_per_metre * o->texels_per_metre;
+                                 : g->area * o->texels_per_metre * o->texels_per_metre;
+    g->detail = fmin(triangles / fmax(texels, 1.0), 1.0);
+    g->texels = fmax(texels * (keep || !fits ? 1.0 : 1.0 - LOST_TO_GAPS * g->detail), 1.0);
     alp_atlas_info info = {.width = o->size, .height = o->size, .pages = 1};
-    info.texels = (uint64_t)fmax(texels, 1.0);
+    info.texels = (uint64_t)g->texels;
     info.charts = (uint32_t)fmin(texels / TEXELS_PER_CHART + 1.0, s->usable_count);
     info.pages = (uint32_t)ceil(fmax(keep || fits ? 1.0 : texels / (PAGE_SHARE * page), 1.0));
     return info;
 }
 
-// --- the pilot -----------------------------------------------------------------------------------
-
-/// Points on the chosen surfaces, evenly by area.
-static void place_points(const alpi_bake_job *job, double area, alpi_point_array *points)
-{
-    const alp_scene *s = job->scene;
-    const uint64_t seed = job->options.occlusion.seed;
-    double end = 0.0;
-    uint32_t placed = 0;
-    for (uint32_t t = 0; t < s->triangle_count && placed < points->count; t++) {
-        vec3 normal;
-        end += is_chosen(job, t) ? area_of(s, t, &normal) : 0.0;
-        for (; placed < points->count && end >= area * (placed + 0.5) / points->count; placed++) {
-            const float u = alpi_unit_float(alpi_random_key(seed, placed, STREAM_PILOT));
-            const float v = alpi_unit_float(alpi_random_key(seed, placed, STREAM_PILOT + 1));
-            const float w[3] = {1.0f - sqrtf(u), sqrtf(u) * (1.0f - v), sqrtf(u) * v};
-            vec3 corners[3], p = {0.0f, 0.0f, 0.0f};
-            for (int k = 0; k < 3; k++) {
-                const float *c = s->positions[s->triangles[t][k]];
-                corners[k] = (vec3){c[0], c[1], c[2]};
-                p = vec3_add(p, vec3_scale(corners[k], w[k]));
-            }
-            area_of(s, t, &normal);
-            const float n[3] = {normal.x, normal.y, normal.z}, at[3] = {p.x, p.y, p.z};
-            for (int k = 0; k < 3; k++) {
-                points->positions[placed][k] = at[k];
-                points->geometric_normals[placed][k] = points->shading_normals[placed][k] = n[k];
-            }
-            points->offsets[placed] = alpi_receiver_offset(p, corners);
-        }
-    }
-    points->count = placed;
-}
-
-/// Direct light of the points.
-static alp_result gather_direct(const alpi_bake_job *job, const alpi_receivers *receivers,
-                                const alpi_tracer *tracer, const alpi_lighting *lighting,
-                                alpi_direct_output *output)
-{
-    const alpi_direct_options options = {.context = job->context,
-                                         .scene = job->scene,
-                                         .tracer = tracer,
-                                         .lighting = lighting,
-                                         .filter = {.one_sided = job->options.occlusion.one_sided},
-                                         .samples = DIRECT_SAMPLES,
-                                         .seed = job->options.occlusion.seed};
-    alpi_direct *direct = NULL;
-    ALP_TRY(alpi_direct_create(&options, &direct));
-    const alp_result result = alpi_direct_irradiance(direct, receivers, NULL, 0, NULL, output);
-    alpi_direct_destroy(direct);
-    return result;
-}
-
-/// What samples of direct light are for: all of it, but for the soft part of a sky.
-static alp_result time_direct(const alpi_bake_job *job, const alpi_receivers *receivers,
-                              const alpi_tracer *tracer, const alpi_lighting *lighting,
-                              alpi_reference_value *values, pilot *p)
-{
-    alpi_direct_output output = {.values = values};
-    alpi_lighting *soft = NULL, *spots = NULL;
-    const bool parted = alpi_lighting_sky(lighting) != NULL && !alpi_tracer_has_panes(tracer);
-    if (parted) {
-        ALP_TRY(alpi_lighting_split_sky(lighting, &job->options.light.lighting, &soft, &spots));
-    }
-    const double began = alpi_seconds();
-    const alp_result result =
-        gather_direct(job, receivers, tracer, parted ? spots : lighting, &output);
-    const double samples = (double)receivers->count * DIRECT_SAMPLES;
-    p->direct_seconds = (alpi_seconds() - began) / samples;
-    p->rays = (double)output.rays / samples;
-    alpi_lighting_destroy(job->context, soft);
-    alpi_lighting_destroy(job->context, spots);
-    for (uint32_t i = 0; i < receivers->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            p->variances[i] += (double)values[i].variance[k] / 3.0;
-        }
-    }
-    return result;
-}
-
-static alp_result light_points(const alpi_bake_job *job, const alpi_receivers *receivers,
-                               const alpi_tracer *tracer, const alpi_lighting *lighting,
-                               alpi_reference_value *values, pilot *p)
-{
-    const alp_bake_options *o = &job->options;
-    alpi_direct_output output = {.values = values};
-    ALP_TRY(gather_direct(job, receivers, tracer, lighting, &output));
-    for (uint32_t i = 0; i < receivers->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            p->mean += (double)values[i].mean[k] / (3.0 * receivers->count);
-        }
-    }
-    ALP_TRY(time_direct(job, receivers, tracer, lighting, values, p));
-    const alpi_reference paths = {.context = job->context,
-                                  .scene = job->scene,
-                                  .tracer = tracer,
-                                  .lighting = lighting,
-                                  .filter = {.one_sided = o->occlusion.one_sided},
-                                  .samples = PATHS,
-                                  .bounces = 1,
-                                  .seed = o->occlusion.seed};
-    const double began = alpi_seconds();
-    ALP_TRY(alpi_reference_irradiance(&paths, receivers, NULL, 0, NULL, values));
-    const double rays = (double)receivers->count * PATHS;
-    p->ray_seconds = PACKET_SHARE * (alpi_seconds() - began) / rays;
-    return ALP_OK;
-}
-
-static alp_result run_pilot(const alpi_bake_job *job, double area, pilot *p, uint32_t *count)
-{
-    alpi_tracer *tracer = NULL;
-    alpi_lighting *lighting = NULL;
-    alpi_point_array points;
-    *p = (pilot){.mean = 0.0};
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->options.progress, job->options.progress_user,
-                                  &tracer, NULL));
-    ALP_TRY(alpi_lighting_create_quietly(job->scene, &job->options.light.lighting, &lighting));
-    alp_result result = alpi_point_array_create(job->context, POINTS, &points);
-    alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, POINTS);
-    if (result == ALP_OK && values != NULL) {
-        place_points(job, area, &points);
-        const alpi_receivers receivers = alpi_point_array_receivers(&points);
-        result = light_points(job, &receivers, tracer, lighting, values, p);
-        *count = points.count;
-    }
-    result = values == NULL ? ALP_ERROR_OUT_OF_MEMORY : result;
-    alpi_release(job->context, values);
-    alpi_point_array_destroy(job->context, &points);
-    alpi_lighting_destroy(job->context, lighting);
-    return result;
-}
-
 // --- rays ----------------------------------------------------------------------------------------
 
-/// Samples of a texel with a variance, known by DIRECT_SAMPLES.
+/// Samples of a texel with a variance, known by ALPI_PILOT_DIRECT_SAMPLES.
 static double deal_samples(double variance, double scale)
 {
     enum { MOST = 65536 };
-    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER, had = DIRECT_SAMPLES;
+    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER, had = ALPI_PILOT_DIRECT_SAMPLES;
     const double all = scale * pow(variance * pow(had, power), 1.0 / (power + 1.0));
     return fmin(fmax(all, had), MOST);
 }
 
 /// Samples of direct light for each texel, as light_more_direct.c would deal them out to texels
 /// like these; what is added for the worst of a hundred is little, and left out.
-static double count_direct(const alp_light_options *o, const pilot *p, uint32_t count)
+static double count_direct(const work_guess *g)
 {
-    const double wanted = 0.75 * (double)o->error * ALL_OVER_DIRECT * p->mean;
+    const alpi_pilot *p = &g->pilot;
+    const double wanted = 0.75 * (double)g->options->light.error * ALL_OVER_DIRECT * p->mean;
     const double power = 2.0 * ALPI_LIGHT_FIRST_POWER;
-    double low = -100.0, high = 100.0, mean = DIRECT_SAMPLES; // log2 of the scale
+    double low = -100.0, high = 100.0, mean = ALPI_PILOT_DIRECT_SAMPLES; // log2 of the scale
     for (int i = 0; i < 40 && wanted > 0.0; i++) {
         const double scale = exp2(0.5 * (low + high));
         double square = 0.0, samples = 0.0;
-        for (uint32_t k = 0; k < count; k++) {
+        for (uint32_t k = 0; k < p->count; k++) {
             const double dealt = deal_samples(p->variances[k], scale);
-            square += p->variances[k] * pow(DIRECT_SAMPLES / dealt, power) / count;
-            samples += dealt / count;
+            square += p->variances[k] * pow(ALPI_PILOT_DIRECT_SAMPLES / dealt, power) / p->count;
+            samples += dealt / p->count;
         }
         const bool good = square <= wanted * wanted;
         mean = good ? samples : mean;
@@ -262,49 +124,79 @@ static double count_direct(const alp_light_options *o, const pilot *p, uint32_t 
     return mean;
 }
 
-static double find_traced_share(const alp_bake_options *o, double texels)
+/// Of errors, by texels that many triangles share.
+static double find_growth(const work_guess *g)
 {
-    return o->sampling.accuracy == ALP_ADAPTIVE_OFF
+    return 1.0 + ERROR_OF_DETAIL * g->detail;
+}
+
+static double find_traced_share(const work_guess *g)
+{
+    const double share = LATTICE_SHARE + EDGE_TEXELS / sqrt(g->texels);
+    return g->options->sampling.accuracy == ALP_ADAPTIVE_OFF
                ? 1.0
-               : fmin(LATTICE_SHARE + EDGE_TEXELS / sqrt(fmax(texels, 1.0)), 1.0);
+               : fmin(share * (1.0 + TRACED_OF_DETAIL * g->detail), 1.0);
 }
 
-static void add_light(const alp_bake_options *o, const pilot *p, uint32_t count, alp_bake_work *w)
+/// Rays of a traced texel for bounced light.
+static double count_bounced(const work_guess *g)
 {
-    const alp_light_options *l = &o->light;
-    const double texels = (double)w->texels;
-    double rays = l->samples;
-    double direct = alpi_light_has_rounds(o) ? count_direct(l, p, count) : 4.0 * DIRECT_SAMPLES;
+    const alp_light_options *l = &g->options->light;
+    const alpi_pilot *p = &g->pilot;
+    const double wanted = (double)l->error * ALL_OVER_DIRECT * p->mean;
     if (l->bounces == 0) {
-        direct = l->samples;
-        rays = 0.0;
-    } else if (l->gather == ALP_GATHER_HEMICUBE) {
-        rays = 3.0 * l->hemicube * l->hemicube;
-        rays *= l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
-    } else if (l->gather == ALP_GATHER_RAYS && l->error > 0.0f) {
-        rays = 64.0 * fmax(pow(BOUNCED_ERROR / (double)l->error, BOUNCED_POWER), 1.0);
+        return 0.0;
     }
-    const double share = find_traced_share(o, (double)w->texels);
-    rays = rays * share + (l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0);
-    w->rays += (uint64_t)(texels * (rays + direct * p->rays));
-    w->seconds += texels * (rays * p->ray_seconds + direct * p->direct_seconds);
+    if (l->gather == ALP_GATHER_HEMICUBE) {
+        const double faces = l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
+        return faces * 3.0 * l->hemicube * l->hemicube;
+    }
+    if (l->gather == ALP_GATHER_PATHS || !(l->error > 0.0f)) {
+        return l->samples;
+    }
+    const double error = BOUNCED_OVER_PATHS * find_growth(g) * p->bounced_error;
+    const double over = wanted > 0.0 ? error / wanted : 0.0;
+    return ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0);
 }
 
-static void add_occlusion(const alp_bake_options *o, const pilot *p, alp_bake_work *w)
+static void add_light(const work_guess *g, alp_bake_work *w)
 {
+    const alp_light_options *l = &g->options->light;
+    const double direct = l->bounces == 0                     ? l->samples
+                          : alpi_light_has_rounds(g->options) ? count_direct(g)
+                                                              : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
+    double rays = count_bounced(g) * find_traced_share(g);
+    rays += l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0;
+    w->rays += (uint64_t)(g->texels * (rays + direct * g->pilot.rays));
+    const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;
+    w->seconds += g->texels * (LIT_SECONDS + rays * ray_seconds + direct * g->pilot.direct_seconds);
+}
+
+static void add_occlusion(const work_guess *g, alp_bake_work *w)
+{
+    const alp_bake_options *o = g->options;
     const double wanted = (double)o->sampling.error;
-    const double share = find_traced_share(o, (double)w->texels);
+    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g);
     double rays = o->occlusion.samples;
-    if (wanted > 0.0) { // the error of these sequences falls as samples^−0.7
-        rays = fmin(rays, 64.0 * fmax(pow(0.03 / wanted, 1.0 / 0.7), 1.0));
+    if (wanted > 0.0) {
+        const double over = ERROR_OVER_POINTS * find_growth(g) * g->pilot.occlusion_error / wanted;
+        rays = fmin(rays, ALPI_PILOT_RAYS * fmax(pow(over, OCCLUSION_POWER), 1.0));
     }
-    const double each = (double)w->texels * share * rays;
+    const bool colours = (o->maps & ALP_MAP_OBSCURANCE) != 0; // with rays of its own, of all texels
+    const double each = g->texels * rays * (share + (colours ? 1.0 : 0.0));
     w->rays += (uint64_t)each;
-    w->seconds += each * p->ray_seconds;
-    if ((o->maps & ALP_MAP_OBSCURANCE) != 0) {
-        w->rays += (uint64_t)((double)w->texels * rays);
-        w->seconds += (double)w->texels * rays * p->ray_seconds;
-    }
+    w->seconds += g->texels * SHADED_SECONDS + each * g->pilot.occlusion_seconds;
+}
+
+/// Seconds before and after the rays.
+static double find_other_seconds(const work_guess *g, const alp_scene *s,
+                                 const alp_atlas_info *atlas)
+{
+    const bool keep = keeps(g->options, s);
+    const double pixels = (double)atlas->pages * atlas->width * atlas->height;
+    const double each = keep ? KEPT_TRIANGLE_SECONDS : TRIANGLE_SECONDS;
+    return (keep ? 0.0 : ATLAS_SECONDS) + (each + SEAM_SECONDS) * s->usable_count +
+           TEXEL_SECONDS * g->texels + PIXEL_SECONDS * pixels;
 }
 
 static alp_result check_densities(const alpi_bake_job *job)
@@ -319,29 +211,28 @@ static alp_result check_densities(const alpi_bake_job *job)
 static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
 {
     const alp_bake_options *o = &job->options;
-    double area;
-    uint32_t count = 0;
-    pilot p;
+    work_guess g = {.options = o};
     uint32_t lights;
     ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
     ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
-    const alp_atlas_info atlas = guess_atlas(job, &area);
-    ALP_TRY(run_pilot(job, area, &p, &count));
+    const alp_atlas_info atlas = guess_atlas(job, &g);
+    ALP_TRY(alpi_pilot_run(job, g.area, sqrt(g.area / g.texels), &g.pilot));
     work->texels = atlas.texels;
     work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
-    work->seconds = (double)atlas.texels * TEXEL_SECONDS;
     if (alpi_bake_wants_occlusion(job)) {
-        add_occlusion(o, &p, work);
+        add_occlusion(&g, work);
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
-        add_light(o, &p, count, work);
+        add_light(&g, work);
     }
-    if (o->sampling.time_limit > 0.0 && work->seconds > o->sampling.time_limit) {
-        work->rays = (uint64_t)((double)work->rays * o->sampling.time_limit / work->seconds);
-        work->seconds = o->sampling.time_limit;
+    const double limit = o->sampling.time_limit;
+    if (limit > 0.0 && work->seconds > limit) {
+        work->rays = (uint64_t)((double)work->rays * limit / work->seconds);
+        work->seconds = limit;
     }
+    work->seconds += find_other_seconds(&g, job->scene, &atlas);
     return ALP_OK;
 }
 

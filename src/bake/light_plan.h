@@ -3,6 +3,7 @@
 #ifndef ALPI_BAKE_LIGHT_PLAN_H
 #define ALPI_BAKE_LIGHT_PLAN_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /// What was done so far.
@@ -12,6 +13,7 @@ typedef struct alpi_light_effort {
     double texels;       // whose direct light is looked for
     double traced;       // that send rays
     double direct_power; // of samples, that direct light's error falls with
+    bool drawn;          // of direct light; see alpi_direct_output
 } alpi_light_effort;
 
 /// Errors of the two kinds of light, over a mean: those of the whole map, or of the texels that err

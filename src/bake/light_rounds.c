@@ -308,6 +308,7 @@ static alpi_light_plan cheapest(const rounds *r, const alpi_light_noise *noise, 
                                       .most = most_rays(&r->job->options.light),
                                       .texels = r->task->count,
                                       .direct_power = r->direct.power,
+                                      .drawn = r->solution->direct_drawn,
                                       .traced = (double)r->job->report.light_traced};
     return alpi_light_cheapest(&effort, noise, aim);
 }

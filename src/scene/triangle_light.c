@@ -10,17 +10,42 @@
 /// spherical triangle are all straight.
 static const double LEAST_SOLID_ANGLE = 1e-7, LARGEST_SOLID_ANGLE = 2.0 * ALPI_PI * (1.0 - 1e-7);
 
+/// Edges over distance. Of a triangle that is smaller, parts of the same area fill the same solid
+/// angle to a tenth, but where it is grazed and gives next to nothing: drawing from the one is as
+/// good as from the other, and takes a fifth of the time.
+static const double SMALL = 1.0 / 32.0;
+
+/// @param view corners, cross and determinant are known; the rest is filled in if so
+static bool is_small(alpi_triangle_view *view)
+{
+    const double3 *c = view->corner;
+    const double3 a = double3_sub(c[1], c[0]), b = double3_sub(c[2], c[0]);
+    const double near = double3_dot(c[0], c[0]);
+    if (!(fmax(double3_dot(a, a), double3_dot(b, b)) < SMALL * SMALL * near)) {
+        return false;
+    }
+    const double three = double3_length(double3_add(c[0], double3_add(c[1], c[2])));
+    view->solid_angle = 13.5 * fabs(view->determinant) / (three * three * three);
+    view->by_area = true;
+    return isfinite(view->solid_angle);
+}
+
 alpi_triangle_view alpi_triangle_view_from(vec3 point, const vec3 corner[3])
 {
     alpi_triangle_view view;
     double3 unit[3];
     for (int k = 0; k < 3; k++) {
         view.corner[k] = double3_between(point, corner[k]);
-        unit[k] = double3_unit(view.corner[k]);
     }
     view.cross =
         double3_cross(double3_between(corner[0], corner[1]), double3_between(corner[0], corner[2]));
     view.determinant = double3_dot(view.corner[0], view.cross);
+    if (is_small(&view)) {
+        return view;
+    }
+    for (int k = 0; k < 3; k++) {
+        unit[k] = double3_unit(view.corner[k]);
+    }
     // Of unit vectors, so that nothing overflows.
     double volume = double3_dot(
         unit[0], double3_cross(double3_sub(unit[1], unit[0]), double3_sub(unit[2], unit[0])));

@@ -10,8 +10,9 @@ typedef struct alpi_triangle_view {
     double3 corner[3];  // from the point
     double3 cross;      // (corner 1 − corner 0) × (corner 2 − corner 0): twice the area
     double determinant; // of the corners: six times the volume; 0 where the point is in the plane
-    double solid_angle; // steradians
-    bool by_area;       // too small, or too close to half the sphere, for the solid angle's formula
+    double solid_angle; // steradians; of a small triangle to a few thousandths
+    bool by_area;       // small beside its distance, or too close to half the sphere for the solid
+                        // angle's formula
 } alpi_triangle_view;
 
 alpi_triangle_view alpi_triangle_view_from(vec3 point, const vec3 corner[3]);

@@ -100,6 +100,11 @@ static void work_is_known_within_a_half(void **state)
     } cases[] = {{"builtin:cornell", 256, ALP_MAP_AO, 0.0f},
                  {"builtin:cornell", 512, ALP_MAP_AO, 0.0f},
                  {"builtin:teapot-room", 256, ALP_MAP_AO, 0.0f},
+                 {"builtin:windows", 256, ALP_MAP_AO, 0.0f},
+                 {"builtin:terrain", 256, ALP_MAP_AO, 0.0f},
+                 {"builtin:cornell", 256, ALP_MAP_AO, 0.01f},
+                 {"builtin:teapot-room", 256, ALP_MAP_AO, 0.015f},
+                 {"builtin:torus-plane", 512, ALP_MAP_AO, 0.01f},
                  {"builtin:cornell", 256, ALP_MAP_LIGHT, 0.01f},
                  {"builtin:cornell", 512, ALP_MAP_LIGHT, 0.02f},
                  {"builtin:teapot-room", 256, ALP_MAP_LIGHT, 0.01f}};
@@ -112,7 +117,8 @@ static void work_is_known_within_a_half(void **state)
         alp_bake_options options = alp_bake_options_default();
         options.atlas.size = cases[i].size;
         options.maps = cases[i].maps;
-        options.light.error = cases[i].error;
+        options.occlusion.samples = cases[i].error > 0.0f ? 65536 : 512;
+        options.light.error = options.sampling.error = cases[i].error;
         ASSERT_OK(context, alp_bake_estimate(scene, &options, &work));
         const double peak = find_peak(context, scene, &options, &report);
         const double rays = (double)work.rays / (double)report.rays;

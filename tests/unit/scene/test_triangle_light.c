@@ -23,6 +23,35 @@ static void an_octant_is_an_eighth(void **state)
                 1e-12);
 }
 
+/// Just small enough to be drawn from by area: their solid angles are those of the exact formula.
+static void small_triangles_have_the_exact_angle(void **state)
+{
+    (void)state;
+    const vec3 triangles[][3] = {
+        {{-0.6f, -0.4f, 50}, {0.8f, -0.4f, 50}, {0, 0.9f, 50}}, // faced
+        {{0, 0, 48}, {1, 0, 49}, {0, 1, 49}},
+        {{48, 1, 0}, {49, 1, 0}, {48, 1, 1}}, // grazed at a fiftieth
+    };
+    for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++) {
+        const vec3 *c = triangles[i];
+        // Van Oosterom and Strackee's formula, in long double: it takes differences of numbers that
+        // are alike to a part in a thousand.
+        long double length[3], dots[3], volume = 0.0L;
+        for (int k = 0; k < 3; k++) {
+            const vec3 a = c[k], b = c[(k + 1) % 3], n = c[(k + 2) % 3];
+            length[k] =
+                sqrtl((long double)a.x * a.x + (long double)a.y * a.y + (long double)a.z * a.z);
+            dots[k] = (long double)a.x * b.x + (long double)a.y * b.y + (long double)a.z * b.z;
+            volume += a.x * ((long double)b.y * n.z - (long double)b.z * n.y);
+        }
+        const long double below = length[0] * length[1] * length[2] + dots[0] * length[2] +
+                                  dots[1] * length[0] + dots[2] * length[1];
+        const double exact = (double)(2.0L * atan2l(fabsl(volume), below));
+        assert_true(alpi_triangle_view_from(ORIGIN, c).by_area);
+        ASSERT_NEAR(solid_angle(c[0], c[1], c[2]) / exact, 1.0, 1e-3);
+    }
+}
+
 /// Middle of two corners as seen from the point, so that four parts share the triangle.
 static vec3 between(vec3 a, vec3 b)
 {
@@ -74,8 +103,9 @@ static void as_many_in_each_part(void **state)
         {{1, 0, 1}, {0, 1, 1}, {-1, -1, 1}},
         {{1, 0, 0.01f}, {-1, 1, 0.01f}, {-1, -1, 0.01f}},       // nearly half the sphere
         {{3, 0, 0.1f}, {0.1f, 0, 2}, {0, 0.1f, 0.1f}},          // one corner near
-        {{1, 0, 300}, {0, 1, 300}, {0, 0, 301}},                // 5e-6 sr
-        {{1, 0, 3000}, {0, 1, 3000}, {0, 0, 3001}},             // 5e-8 sr: by area
+        {{1, 0, 20}, {0, 1, 20}, {0, 0, 21}},                   // 1e-3 sr
+        {{1, 0, 60}, {0, 1, 60}, {0, 0, 61}},                   // 1e-4 sr: by area
+        {{1, 0, 3000}, {0, 1, 3000}, {0, 0, 3001}},             // 5e-8 sr
         {{100, 0, 0.001f}, {100, 1, 0.001f}, {101, 0, 0.001f}}, // grazed: 5e-10 sr
     };
     for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++) {
@@ -105,6 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_octant_is_an_eighth),
+        cmocka_unit_test(small_triangles_have_the_exact_angle),
         cmocka_unit_test(as_many_in_each_part),
         cmocka_unit_test(the_point_in_the_plane_sees_nothing),
     };
