@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/inside.h"
 
 #include <math.h>
 #include <string.h>
@@ -157,58 +158,6 @@ static alp_result find_near(validity_job *job, const alpi_task_progress *progres
                              progress);
 }
 
-// --- rays ----------------------------------------------------------------------------------------
-
-/// Where rays that look around start: higher than rays usually do, as a tangent one must not graze
-/// its own, slightly bent surface.
-static vec3 lift_point(const alpi_receiver_point *p, float side)
-{
-    return vec3_mad(p->position, p->offset + 0.02f * side, p->geometric_normal);
-}
-
-/// Eight rays from above a point: 4 tangent ones of a length, then 4 at 55° without end, or,
-/// all_tangent, 4 more tangent ones between the first.
-static void aim_around(const alpi_receiver_point *p, float length, bool all_tangent,
-                       alpi_rays *rays)
-{
-    vec3 t, b, n = p->geometric_normal;
-    vec3_frame(n, &t, &b);
-    const vec3 origin = lift_point(p, length);
-    alpi_rays_clear(rays);
-    for (int i = 0; i < 4; i++) {
-        const vec3 axes[4] = {t, b, vec3_scale(t, -1.0f), vec3_scale(b, -1.0f)};
-        const vec3 axis = axes[i], other = axes[(i + 1) % 4];
-        const vec3 diagonal = vec3_add(axis, other);
-        const vec3 between = all_tangent ? diagonal : vec3_add(diagonal, n);
-        alpi_rays_set(rays, i, origin, axis, length);
-        alpi_rays_set(rays, i + 4, origin, vec3_normalize_or(between, n),
-                      all_tangent ? length : INFINITY);
-    }
-}
-
-/// Whether a triangle is of glass, or of another thing that one sees into: it ends no solid.
-static bool is_pane(const alp_scene *scene, uint32_t triangle)
-{
-    return alpi_surface_is_pane(scene, scene->triangle_surface[triangle]);
-}
-
-/// Whether a lane met the inside of a single-sided surface.
-static bool met_back_face(const alp_scene *scene, const alpi_rays *rays, const alpi_hits *hits,
-                          int lane)
-{
-    const uint32_t triangle = hits->triangle[lane];
-    if (triangle == ALPI_NONE || alpi_surface_is_double_sided(scene, triangle) ||
-        is_pane(scene, triangle)) {
-        return false;
-    }
-    vec3 c[3];
-    alpi_triangle_corners(scene, triangle, c);
-    const vec3 none = {0.0f, 0.0f, 0.0f};
-    const vec3 direction = {rays->direction_x[lane], rays->direction_y[lane],
-                            rays->direction_z[lane]};
-    return vec3_dot(vec3_triangle_normal(c[0], c[1], c[2], none), direction) > 0.0f;
-}
-
 // --- texels --------------------------------------------------------------------------------------
 
 /// Middles of `count` strata.
@@ -277,75 +226,9 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
     }
 }
 
-/// Sends lanes 4 to 7 of a look around on to the end of the scene, and as many rays back along
-/// them, and counts the fronts that each meets: those on the way back are the backs on the way out,
-/// which are told apart so even where two surfaces lie in one place. Panes are passed uncounted.
-/// @return false: too many to tell
-static bool count_crossings(const validity_job *job, const alpi_rays *look, int fronts[ALPI_PACKET])
-{
-    enum { CROSSINGS = 32 };
-    const alp_scene *scene = job->texels->atlas->scene;
-    const float length = 2.0f * vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
-    const float step = 0.5e-5f * length; // past what was met, by more than rounding
-    alpi_rays rays;
-    alpi_hits hits;
-    alpi_rays_clear(&rays);
-    for (int i = 0; i < 4; i++) {
-        const vec3 from = {look->origin_x[i + 4], look->origin_y[i + 4], look->origin_z[i + 4]};
-        const vec3 way = {look->direction_x[i + 4], look->direction_y[i + 4],
-                          look->direction_z[i + 4]};
-        alpi_rays_set(&rays, i, from, way, length);
-        alpi_rays_set(&rays, i + 4, vec3_mad(from, length, way), vec3_scale(way, -1.0f), length);
-    }
-    uint32_t active = 0xffu;
-    for (int crossing = 0; active != 0 && crossing < CROSSINGS; crossing++) {
-        alpi_trace_nearest(job->setup->tracer, &rays, active,
-                           (alpi_trace_filter){.one_sided = true}, &hits);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            const bool met = (active >> i & 1u) != 0 && hits.triangle[i] != ALPI_NONE;
-            fronts[i] += met && !is_pane(scene, hits.triangle[i]);
-            rays.minimum[i] = met ? hits.distance[i] + step : length;
-            active &= met && rays.minimum[i] < length ? UINT32_MAX : ~(1u << i);
-        }
-    }
-    return active == 0;
-}
-
-/// Whether a look around began inside solids: along each of its lines, backs met less fronts met
-/// are then as many as there are solids around it. Open surfaces give other numbers from line to
-/// line. One of four may differ: where three surfaces lie in one place, one is not counted.
-static bool is_enclosed(const validity_job *job, const alpi_rays *look)
-{
-    int fronts[ALPI_PACKET] = {0}, alike[4] = {0};
-    const bool counted = count_crossings(job, look, fronts);
-    for (int i = 0; i < 4; i++) {
-        for (int k = 0; k < 4; k++) {
-            const int deep = fronts[i + 4] - fronts[i];
-            alike[i] += deep > 0 && fronts[k + 4] - fronts[k] == deep;
-        }
-    }
-    const int most = alike[0] > alike[1] ? alike[0] : alike[1]; // three alike are one of these
-    return counted && most >= 3;
-}
-
-/// Whether a point lies inside other geometry: a back face is the first thing beside it within a
-/// texel, or above it in three of four directions. Where something is near in all four, surfaces
-/// are counted.
 static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
 {
-    enum { CAVE = 4 }; // texels
-    const alp_scene *scene = job->texels->atlas->scene;
-    alpi_rays rays;
-    alpi_hits hits;
-    aim_around(point, side, false, &rays);
-    alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
-    int tangent = 0, upward = 0, closed = 0;
-    for (int k = 0; k < 4; k++) {
-        tangent += met_back_face(scene, &rays, &hits, k);
-        upward += met_back_face(scene, &rays, &hits, k + 4);
-        closed += hits.triangle[k + 4] != ALPI_NONE && hits.distance[k + 4] < CAVE * side;
-    }
-    return tangent > 0 || upward >= 3 || (closed == 4 && is_enclosed(job, &rays));
+    return alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, point, 1u, side) != 0;
 }
 
 /// Which strata of a texel lie inside other geometry: those that are seen from its middle, where
@@ -358,23 +241,20 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
     alpi_receiver_point points[STRATA], middle;
     alpi_texels_point(job->texels, texel, &middle);
     place_strata(job, texel, all, STRATA, points);
-    const vec3 above = lift_point(&middle, side);
+    const vec3 above = alpi_look_start(&middle, side);
     const bool middle_inside = is_inside(job, &middle, side);
-    uint32_t inside = 0;
+    uint32_t asked = 0;
     for (int first = 0; first < STRATA; first += ALPI_PACKET) {
         vec3 from[ALPI_PACKET], to[ALPI_PACKET];
         for (int i = 0; i < ALPI_PACKET; i++) {
             from[i] = above;
-            to[i] = lift_point(&points[first + i], side);
+            to[i] = alpi_look_start(&points[first + i], side);
         }
-        const uint32_t hidden = find_blocked(job, from, to, none);
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            const bool outside = !middle_inside && (hidden >> i & 1u) == 0;
-            const bool is = !outside && is_inside(job, &points[first + i], side);
-            inside |= (is ? 1u : 0u) << (first + i);
-        }
+        const uint32_t seen = middle_inside ? 0u : ~find_blocked(job, from, to, none) & 0xffu;
+        asked |= (~seen & 0xffu) << first;
     }
-    return (uint16_t)inside;
+    return (uint16_t)alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, points, asked,
+                                     side);
 }
 
 /// Whether anything is within 1.6 texels of a texel's middle (a filter reads it up to one away, and
@@ -385,7 +265,10 @@ static bool is_suspicious(const validity_job *job, uint32_t texel)
     alpi_receiver_point point;
     alpi_rays rays;
     alpi_texels_point(job->texels, texel, &point);
-    aim_around(&point, 1.6f * alpi_texels_side(job->texels, texel), true, &rays);
+    const float reach = 1.6f * alpi_texels_side(job->texels, texel);
+    alpi_rays_clear(&rays);
+    alpi_look_aim(&point, reach, ALPI_LOOK_ALONG, reach, 0, &rays);
+    alpi_look_aim(&point, reach, ALPI_LOOK_BETWEEN, reach, 4, &rays);
     alpi_trace_occluded(job->setup->tracer, &rays, 1, 0xffu, (alpi_trace_filter){0},
                         ALPI_RAYS_NEAR);
     bool suspicious = false;
