@@ -366,10 +366,12 @@ typedef struct alp_bake_work {
 
 /// Estimates the work of a bake before it: a guess, within ±50 % where charts, light and noise are
 /// like those of the truth table; all 0 with ALP_ATLAS_VERTEX or where there is nothing to bake.
-/// Lights 128 points, and makes the tracer, which the bake takes over. What there is to warn of in
+/// Lights 128 points, for light, and shades 2,048, for occlusion; makes the tracer, which the bake
+/// takes over unless surfaces are chosen to occlude. What there is to warn of in
 /// lights and sky, the bake tells.
 /// @param options NULL = default; `maps_folder` is not looked at
-/// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match); OUT_OF_MEMORY; CANCELLED; what
+/// @return ALP_OK; INVALID_ARGUMENT (an option of occlusion out of its range, a pattern without a
+///         match); OUT_OF_MEMORY; CANCELLED; UNSUPPORTED (the ray tracer does not start); what
 ///         alp_bake says of an `output` that cannot be written
 ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
                                                    const alp_bake_options *options,

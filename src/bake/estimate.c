@@ -11,7 +11,8 @@
 
 #include <math.h>
 
-// Measured on the truth table (docs/conventions.md, "Estimates").
+enum { MOST_RAYS = 65536 }; // of a texel
+// Measured on the truth table (docs/conventions.md, "Limits and estimates").
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
@@ -21,7 +22,7 @@ static const double BOUNCED_OVER_PATHS = 0.5;    // error of 64 rays of a texel,
 static const double BOUNCED_POWER = 1.6;         // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
 static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
-static const double ERROR_OVER_POINTS = 1.3;     // of occlusion; rounds are not cut to measure
+static const double ERROR_OVER_POINTS = 1.3;     // of occlusion, of texels over that of points
 // What it does that there is a triangle for each texel: charts leave gaps, errors and what is
 // traced grow.
 static const double LOST_TO_GAPS = 0.3, ERROR_OF_DETAIL = 1.5, TRACED_OF_DETAIL = 1.0;
@@ -54,7 +55,14 @@ typedef struct work_guess {
     double area;   // of the surfaces, m²
     double texels; // at least 1
     double detail; // triangles in the area of a texel, at most 1
+    uint32_t triangles;
 } work_guess;
+
+/// What no bake comes near is told as that.
+static uint64_t to_count(double number)
+{
+    return number < 0x1p62 ? (uint64_t)fmax(number, 0.0) : (uint64_t)1 << 62;
+}
 
 static bool keeps(const alp_bake_options *o, const alp_scene *s)
 {
@@ -67,13 +75,12 @@ static alp_atlas_info guess_atlas(const alpi_bake_job *job, work_guess *g)
 {
     const alp_atlas_options *o = &job->options.atlas;
     const alp_scene *s = job->scene;
-    double uv_area = 0.0, triangles = 0.0;
+    double uv_area = 0.0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         if (alpi_pilot_is_chosen(job, t)) {
-            vec3 normal;
-            g->area += alpi_pilot_area(s, t, &normal);
+            g->area += alpi_pilot_area(s, t);
             uv_area += s->uvs[1] != NULL ? uv_area_of(s, t) : 0.0;
-            triangles += 1.0;
+            g->triangles++;
         }
     }
     const double page = (double)o->size * o->size;
@@ -81,12 +88,13 @@ static alp_atlas_info guess_atlas(const alpi_bake_job *job, work_guess *g)
     const double texels = keep   ? fmin(uv_area, 1.0) * page
                           : fits ? PAGE_SHARE * page
                                  : g->area * o->texels_per_metre * o->texels_per_metre;
-    g->detail = fmin(triangles / fmax(texels, 1.0), 1.0);
+    g->detail = fmin(g->triangles / fmax(texels, 1.0), 1.0);
     g->texels = fmax(texels * (keep || !fits ? 1.0 : 1.0 - LOST_TO_GAPS * g->detail), 1.0);
     alp_atlas_info info = {.width = o->size, .height = o->size, .pages = 1};
-    info.texels = (uint64_t)g->texels;
-    info.charts = (uint32_t)fmin(texels / TEXELS_PER_CHART + 1.0, s->usable_count);
-    info.pages = (uint32_t)ceil(fmax(keep || fits ? 1.0 : texels / (PAGE_SHARE * page), 1.0));
+    const double pages = keep || fits ? 1.0 : ceil(texels / (PAGE_SHARE * fmax(page, 1.0)));
+    info.texels = to_count(g->texels);
+    info.charts = (uint32_t)fmin(texels / TEXELS_PER_CHART + 1.0, g->triangles);
+    info.pages = (uint32_t)fmin(fmax(pages, 1.0), 65536.0);
     return info;
 }
 
@@ -95,10 +103,9 @@ static alp_atlas_info guess_atlas(const alpi_bake_job *job, work_guess *g)
 /// Samples of a texel with a variance, known by ALPI_PILOT_DIRECT_SAMPLES.
 static double deal_samples(double variance, double scale)
 {
-    enum { MOST = 65536 };
     const double power = 2.0 * ALPI_LIGHT_FIRST_POWER, had = ALPI_PILOT_DIRECT_SAMPLES;
     const double all = scale * pow(variance * pow(had, power), 1.0 / (power + 1.0));
-    return fmin(fmax(all, had), MOST);
+    return fmin(fmax(all, had), MOST_RAYS);
 }
 
 /// Samples of direct light for each texel, as light_more_direct.c would deal them out to texels
@@ -143,7 +150,8 @@ static double count_bounced(const work_guess *g)
 {
     const alp_light_options *l = &g->options->light;
     const alpi_pilot *p = &g->pilot;
-    const double wanted = (double)l->error * ALL_OVER_DIRECT * p->mean;
+    const double light = fmax(ALL_OVER_DIRECT * p->mean, p->once_bounced);
+    const double wanted = (double)l->error * light;
     if (l->bounces == 0) {
         return 0.0;
     }
@@ -151,23 +159,29 @@ static double count_bounced(const work_guess *g)
         const double faces = l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
         return faces * 3.0 * l->hemicube * l->hemicube;
     }
-    if (l->gather == ALP_GATHER_PATHS || !(l->error > 0.0f)) {
+    if (!(l->error > 0.0f)) {
         return l->samples;
     }
     const double error = BOUNCED_OVER_PATHS * find_growth(g) * p->bounced_error;
     const double over = wanted > 0.0 ? error / wanted : 0.0;
-    return ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0);
+    return fmin(ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0), MOST_RAYS);
 }
 
 static void add_light(const work_guess *g, alp_bake_work *w)
 {
     const alp_light_options *l = &g->options->light;
+    if (l->gather == ALP_GATHER_PATHS && l->bounces > 0) { // from every texel, which asks all light
+        const double paths = g->texels * l->samples;
+        w->rays += to_count(paths);
+        w->seconds += paths * g->pilot.path_seconds;
+        return;
+    }
     const double direct = l->bounces == 0                     ? l->samples
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
     double rays = count_bounced(g) * find_traced_share(g);
     rays += l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0;
-    w->rays += (uint64_t)(g->texels * (rays + direct * g->pilot.rays));
+    w->rays += to_count(g->texels * (rays + direct * g->pilot.rays));
     const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;
     w->seconds += g->texels * (LIT_SECONDS + rays * ray_seconds + direct * g->pilot.direct_seconds);
 }
@@ -184,7 +198,7 @@ static void add_occlusion(const work_guess *g, alp_bake_work *w)
     }
     const bool colours = (o->maps & ALP_MAP_OBSCURANCE) != 0; // with rays of its own, of all texels
     const double each = g->texels * rays * (share + (colours ? 1.0 : 0.0));
-    w->rays += (uint64_t)each;
+    w->rays += to_count(each);
     w->seconds += g->texels * SHADED_SECONDS + each * g->pilot.occlusion_seconds;
 }
 
@@ -195,7 +209,7 @@ static double find_other_seconds(const work_guess *g, const alp_scene *s,
     const bool keep = keeps(g->options, s);
     const double pixels = (double)atlas->pages * atlas->width * atlas->height;
     const double each = keep ? KEPT_TRIANGLE_SECONDS : TRIANGLE_SECONDS;
-    return (keep ? 0.0 : ATLAS_SECONDS) + (each + SEAM_SECONDS) * s->usable_count +
+    return (keep ? 0.0 : ATLAS_SECONDS) + (each + SEAM_SECONDS) * g->triangles +
            TEXEL_SECONDS * g->texels + PIXEL_SECONDS * pixels;
 }
 
@@ -214,6 +228,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     work_guess g = {.options = o};
     uint32_t lights;
     ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
+    ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
@@ -229,7 +244,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     }
     const double limit = o->sampling.time_limit;
     if (limit > 0.0 && work->seconds > limit) {
-        work->rays = (uint64_t)((double)work->rays * limit / work->seconds);
+        work->rays = to_count((double)work->rays * limit / work->seconds);
         work->seconds = limit;
     }
     work->seconds += find_other_seconds(&g, job->scene, &atlas);

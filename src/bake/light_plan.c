@@ -21,9 +21,9 @@ double alpi_light_power(double had, double foreseen, double error)
 static alpi_light_plan plan_for(const alpi_light_effort *e, const alpi_light_noise *noise,
                                 double aim, double share)
 {
-    // A bounced ray takes as long as two or three of shadow, about as long as one whose direction
-    // is drawn before. The error of rays, which are one sequence, falls faster than with their root
-    // (measured, .6 to .7).
+    // A bounced ray takes as long as two or three of shadow, about as long as one into a sky whose
+    // direction is drawn before. The error of rays, which are one sequence, falls faster than with
+    // their root (measured, .6 to .7).
     const double dear = e->drawn ? 1.2 : 2.5;
     const double falls[2] = {e->direct_power, 0.62};
     alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim, .noisy = noise->noisy};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bake/pilot.h"
 
+#include "bake/objects.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
@@ -10,6 +11,7 @@
 #include "transport/reference.h"
 
 #include <math.h>
+#include <time.h>
 
 enum {
     STREAM_PLACE = 90,
@@ -24,25 +26,35 @@ static const double SPREAD_OVER_ERROR = 1.8;
 bool alpi_pilot_is_chosen(const alpi_bake_job *job, uint32_t triangle)
 {
     const alp_scene *s = job->scene;
-    return s->triangle_usable[triangle] &&
-           (job->only == NULL || job->only[s->triangle_surface[triangle]]);
+    const uint32_t surface = s->triangle_surface[triangle];
+    return s->triangle_usable[triangle] && (job->only == NULL || job->only[surface]) &&
+           (job->originals == NULL || job->originals[surface] == surface);
 }
 
-static void load_corners(const alp_scene *s, uint32_t triangle, vec3 corners[3])
+double alpi_pilot_area(const alp_scene *scene, uint32_t triangle)
 {
-    for (int k = 0; k < 3; k++) {
-        corners[k] = vec3_load(s->positions[s->triangles[triangle][k]]);
-    }
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    return vec3_triangle_area(c[0], c[1], c[2]);
 }
 
-double alpi_pilot_area(const alp_scene *scene, uint32_t triangle, vec3 *normal)
+// --- time ----------------------------------------------------------------------------------------
+
+typedef struct stopwatch {
+    double wall;
+    clock_t processor; // of all threads
+} stopwatch;
+
+static stopwatch start_watch(void)
 {
-    vec3 p[3];
-    load_corners(scene, triangle, p);
-    const vec3 n = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
-    const double length = sqrt((double)vec3_dot(n, n));
-    *normal = length > 0.0 ? vec3_scale(n, (float)(1.0 / length)) : (vec3){0.0f, 0.0f, 1.0f};
-    return 0.5 * length;
+    return (stopwatch){alpi_seconds(), clock()};
+}
+
+/// Seconds since, had all workers had as much to do: points are too few to keep them busy.
+static double read_watch(const alpi_bake_job *job, const stopwatch *from)
+{
+    const double processor = (double)(clock() - from->processor) / CLOCKS_PER_SEC;
+    return fmin(alpi_seconds() - from->wall, processor / alp_context_worker_count(job->context));
 }
 
 // --- points --------------------------------------------------------------------------------------
@@ -61,12 +73,13 @@ static void put_point(alpi_point_array *points, uint32_t i, vec3 at, vec3 normal
 static void place_block(const alp_scene *s, uint32_t triangle, uint64_t seed, double spacing,
                         uint32_t block, uint32_t first, alpi_point_array *points)
 {
-    vec3 corners[3], normal, along, across;
+    vec3 corners[3], along, across;
     const float u = alpi_unit_float(alpi_random_key(seed, first, STREAM_PLACE));
     const float v = alpi_unit_float(alpi_random_key(seed, first, STREAM_PLACE + 1));
     const float w[3] = {1.0f - sqrtf(u), sqrtf(u) * (1.0f - v), sqrtf(u) * v};
-    load_corners(s, triangle, corners);
-    (void)alpi_pilot_area(s, triangle, &normal);
+    alpi_triangle_corners(s, triangle, corners);
+    const vec3 up = {0.0f, 1.0f, 0.0f};
+    const vec3 normal = vec3_triangle_normal(corners[0], corners[1], corners[2], up);
     vec3_frame(normal, &along, &across);
     const vec3 at =
         vec3_mad(vec3_mad(vec3_scale(corners[0], w[0]), w[1], corners[1]), w[2], corners[2]);
@@ -86,8 +99,10 @@ static void place_points(const alpi_bake_job *job, double area, double spacing, 
     double end = 0.0;
     uint32_t placed = 0;
     for (uint32_t t = 0; t < s->triangle_count && placed < blocks; t++) {
-        vec3 normal;
-        end += alpi_pilot_is_chosen(job, t) ? alpi_pilot_area(s, t, &normal) : 0.0;
+        if (!alpi_pilot_is_chosen(job, t)) {
+            continue;
+        }
+        end += alpi_pilot_area(s, t);
         for (; placed < blocks && end >= area * (placed + 0.5) / blocks; placed++) {
             place_block(s, t, job->options.occlusion.seed, spacing, block, placed * block, points);
         }
@@ -132,8 +147,8 @@ static alp_result gather_direct(const light_pilot *l, const alpi_lighting *light
     return result;
 }
 
-/// All of direct light, for its mean; then what samples of it are for: all but the soft part of a
-/// sky.
+/// All of direct light, for its mean; then, where a sky is parted, what samples of it are for: all
+/// but the soft part. Once before, as what is asked first waits for memory.
 static alp_result light_directly(const light_pilot *l)
 {
     alpi_pilot *p = l->pilot;
@@ -142,10 +157,10 @@ static alp_result light_directly(const light_pilot *l)
     for (uint32_t i = 0; i < p->count; i++) {
         p->mean += mean_of(l->values[i].mean) / p->count;
     }
-    const double began = alpi_seconds();
+    const stopwatch began = start_watch();
     ALP_TRY(gather_direct(l, l->spots != NULL ? l->spots : l->lighting, &rays));
     const double samples = (double)p->count * ALPI_PILOT_DIRECT_SAMPLES;
-    p->direct_seconds = (alpi_seconds() - began) / samples;
+    p->direct_seconds = read_watch(l->job, &began) / samples;
     p->rays = (double)rays / samples;
     for (uint32_t i = 0; i < p->count; i++) {
         p->variances[i] = mean_of(l->values[i].variance);
@@ -179,10 +194,11 @@ static alp_result add_variances(const light_pilot *l, const alpi_lighting *light
 static alp_result time_rays(const light_pilot *l)
 {
     double unused[ALPI_PILOT_POINTS] = {0.0};
-    const double began = alpi_seconds();
+    const stopwatch began = start_watch();
     ALP_TRY(add_variances(l, l->lighting, 1, false, 0.0, unused));
-    const double rays = (double)l->pilot->count * ALPI_PILOT_RAYS;
-    l->pilot->ray_seconds = PACKET_SHARE * (alpi_seconds() - began) / rays;
+    const double paths = (double)l->pilot->count * ALPI_PILOT_RAYS;
+    l->pilot->path_seconds = read_watch(l->job, &began) / paths;
+    l->pilot->ray_seconds = PACKET_SHARE * l->pilot->path_seconds;
     return ALP_OK;
 }
 
@@ -194,6 +210,9 @@ static alp_result light_by_bounces(const light_pilot *l)
     double variances[ALPI_PILOT_POINTS] = {0.0}, sum = 0.0;
     ALP_TRY(time_rays(l));
     ALP_TRY(add_variances(l, l->lighting, 1, true, 1.0, variances));
+    for (uint32_t i = 0; i < p->count; i++) {
+        p->once_bounced += mean_of(l->values[i].mean) / p->count;
+    }
     ALP_TRY(add_variances(l, l->lighting, 0, true, -1.0, variances));
     if (l->soft != NULL) {
         ALP_TRY(add_variances(l, l->soft, 0, false, 1.0, variances));
@@ -207,9 +226,10 @@ static alp_result light_by_bounces(const light_pilot *l)
 
 static alp_result light_points(light_pilot *l)
 {
-    if (alpi_lighting_sky(l->lighting) != NULL && !alpi_tracer_has_panes(l->tracer)) {
-        ALP_TRY(alpi_lighting_split_sky(l->lighting, &l->job->options.light.lighting, &l->soft,
-                                        &l->spots));
+    const alp_light_options *o = &l->job->options.light;
+    const bool gathered = o->bounces > 0 && o->gather != ALP_GATHER_PATHS && l->job->only == NULL;
+    if (gathered && alpi_lighting_sky(l->lighting) != NULL && !alpi_tracer_has_panes(l->tracer)) {
+        ALP_TRY(alpi_lighting_split_sky(l->lighting, &o->lighting, &l->soft, &l->spots));
     }
     ALP_TRY(light_directly(l));
     return light_by_bounces(l);
@@ -225,7 +245,8 @@ static alp_result run_light(const alpi_bake_job *job, const alpi_tracer *tracer,
     alpi_reference_value *values = ALPI_NEW(job->context, alpi_reference_value, ALPI_PILOT_POINTS);
     if (result == ALP_OK && values != NULL) {
         place_points(job, area, 0.0, 1, &points);
-        const alpi_receivers receivers = alpi_point_array_receivers(&points);
+        alpi_receivers receivers = alpi_point_array_receivers(&points);
+        receivers.extended = true; // each sample asks lamps, as one of a texel does
         light_pilot l = {.job = job,
                          .receivers = &receivers,
                          .tracer = tracer,
@@ -246,15 +267,16 @@ static alp_result run_light(const alpi_bake_job *job, const alpi_tracer *tracer,
 
 // --- occlusion -----------------------------------------------------------------------------------
 
-static alp_result shade_points(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
-                               alpi_pilot *p)
+static alp_result shade_points(const alpi_bake_job *job, const alpi_occlusion_setup *setup,
+                               const alpi_receivers *receivers, alpi_pilot *p)
 {
     alpi_occlusion_sums sums;
     ALP_TRY(alpi_occlusion_sums_create(setup->context, receivers->count, false, &sums));
-    const double began = alpi_seconds();
+    const stopwatch began = start_watch();
     const alp_result result = alpi_occlusion_add(setup, receivers, NULL, receivers->count, 0,
                                                  setup->samples, setup->samples, NULL, &sums);
-    p->occlusion_seconds = (alpi_seconds() - began) / ((double)receivers->count * setup->samples);
+    const double rays = (double)receivers->count * setup->samples;
+    p->occlusion_seconds = read_watch(job, &began) / rays;
     double mean = 0.0, variance = 0.0;
     for (uint32_t i = 0; i < receivers->count; i++) {
         mean += (double)alpi_occlusion_value(&sums, i) / receivers->count;
@@ -272,13 +294,12 @@ static alp_result run_occlusion(const alpi_bake_job *job, const alpi_tracer *tra
     alpi_occlusion_setup setup;
     alp_occlusion_options options = job->options.occlusion;
     options.samples = ALPI_PILOT_RAYS;
-    ALP_TRY(alpi_occlusion_check(job->scene, &options));
     ALP_TRY(alpi_point_array_create(job->context, BLOCKS * BLOCK, &points));
     place_points(job, area, texel, BLOCK, &points);
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &options, &setup);
     if (result == ALP_OK) {
         const alpi_receivers receivers = alpi_point_array_receivers(&points);
-        result = points.count > 0 ? shade_points(&setup, &receivers, pilot) : ALP_OK;
+        result = points.count > 0 ? shade_points(job, &setup, &receivers, pilot) : ALP_OK;
         alpi_occlusion_release(&setup);
     }
     alpi_point_array_destroy(job->context, &points);
@@ -288,11 +309,16 @@ static alp_result run_occlusion(const alpi_bake_job *job, const alpi_tracer *tra
 alp_result alpi_pilot_run(const alpi_bake_job *job, double area, double texel, alpi_pilot *pilot)
 {
     const alp_bake_options *o = &job->options;
-    alpi_tracer *tracer = NULL;
+    alpi_tracer *tracer = NULL, *owned = NULL;
     *pilot = (alpi_pilot){.count = 0};
-    ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &tracer, NULL));
+    ALP_TRY(alpi_bake_tracer(job, o->progress, o->progress_user, &tracer, &owned));
+    alp_result result = ALP_OK;
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
-        ALP_TRY(run_light(job, tracer, area, pilot));
+        result = run_light(job, tracer, area, pilot);
     }
-    return alpi_bake_wants_occlusion(job) ? run_occlusion(job, tracer, area, texel, pilot) : ALP_OK;
+    if (result == ALP_OK && alpi_bake_wants_occlusion(job)) {
+        result = run_occlusion(job, tracer, area, texel, pilot);
+    }
+    alpi_tracer_destroy(owned);
+    return result;
 }

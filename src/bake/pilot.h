@@ -16,6 +16,8 @@ typedef struct alpi_pilot {
     double mean;                         // of direct light, W·m⁻²
     double rays;                         // of a direct sample
     double direct_seconds;               // of a direct sample
+    double once_bounced;                 // mean of light that was reflected once at most
+    double path_seconds;                 // of a path of two rays
     double ray_seconds;                  // of a ray that gathers bounced light
     double bounced_error; // of what such rays find, by RAYS paths of a point, W·m⁻²
     // Occlusion.
@@ -26,12 +28,13 @@ typedef struct alpi_pilot {
 /// Shades points. What is not asked for stays 0.
 /// @param area  of the surfaces that are chosen, m²
 /// @param texel edge of a texel, metres
-/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED (the tracer is made here, where there is none yet)
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED (the tracer is made here, where there is none yet);
+///         UNSUPPORTED, the tracer does not start
 alp_result alpi_pilot_run(const alpi_bake_job *job, double area, double texel, alpi_pilot *pilot);
 
-/// Area of a triangle of a scene, m². @param normal out: unit
-double alpi_pilot_area(const alp_scene *scene, uint32_t triangle, vec3 *normal);
-/// Whether a bake's maps show a triangle.
+/// Area of a triangle of a scene, m².
+double alpi_pilot_area(const alp_scene *scene, uint32_t triangle);
+/// Whether a bake's maps have texels of their own for a triangle.
 bool alpi_pilot_is_chosen(const alpi_bake_job *job, uint32_t triangle);
 
 #endif

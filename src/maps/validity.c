@@ -250,8 +250,8 @@ static uint16_t find_inside(const validity_job *job, uint32_t texel)
             from[i] = above;
             to[i] = alpi_look_start(&points[first + i], side);
         }
-        const uint32_t seen = middle_inside ? 0u : ~find_blocked(job, from, to, none) & 0xffu;
-        asked |= (~seen & 0xffu) << first;
+        const uint32_t hidden = middle_inside ? 0xffu : find_blocked(job, from, to, none);
+        asked |= hidden << first;
     }
     return (uint16_t)alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, points, asked,
                                      side);

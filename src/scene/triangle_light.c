@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Directions from a point to a triangle, uniform in its solid angle.
+// Directions from a point to a triangle, uniform in its solid angle, or, where it is
+// small, in its area.
 // Based on: James Arvo. Stratified Sampling of Spherical Triangles. SIGGRAPH 1995;
 //           A. van Oosterom, J. Strackee. The Solid Angle of a Plane Triangle. IEEE Trans. Biomed.
 //           Eng. 30(2), 1983.
@@ -10,9 +11,9 @@
 /// spherical triangle are all straight.
 static const double LEAST_SOLID_ANGLE = 1e-7, LARGEST_SOLID_ANGLE = 2.0 * ALPI_PI * (1.0 - 1e-7);
 
-/// Edges over distance. Of a triangle that is smaller, parts of the same area fill the same solid
-/// angle to a tenth, but where it is grazed and gives next to nothing: drawing from the one is as
-/// good as from the other, and takes a fifth of the time.
+/// Edges at a corner over its distance. Of a triangle that is smaller, parts of the same area fill
+/// the same solid angle to a tenth, (1 ± SMALL)³: drawing from the one is as good as from the
+/// other, and takes a fifth of the time.
 static const double SMALL = 1.0 / 32.0;
 
 /// @param view corners, cross and determinant are known; the rest is filled in if so

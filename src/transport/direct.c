@@ -365,6 +365,6 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     }
     alpi_direct_halves_release(direct, &job.halves);
     output->rays += atomic_load(&job.rays);
-    output->drawn = alpi_direct_draws(direct);
+    output->drawn = direct->sky_drawn || direct->sky_spots;
     return result;
 }

@@ -47,12 +47,6 @@ static inline bool alpi_direct_has_others(const alpi_direct *d)
     return d->lamp_count > 0 || d->sun_count > 0 || d->emitters.all.count > 0 || d->sky != NULL;
 }
 
-/// Whether directions are drawn one by one.
-static inline bool alpi_direct_draws(const alpi_direct *d)
-{
-    return d->emitters.all.count > 0 || d->sky_drawn || d->sky_spots;
-}
-
 /// Writes one part of a receiver to the parts and groups of an output.
 void alpi_direct_put_part(const alpi_direct_output *output, uint32_t part_count, uint32_t part,
                           uint32_t receiver, const alpi_reference_value *value);

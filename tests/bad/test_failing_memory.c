@@ -104,6 +104,41 @@ static void two_workers(void **state)
     }
 }
 
+/// Loads and estimates, without that allocation. @return the allocations there were
+static long estimate_without(long failing, alp_result *result)
+{
+    test_memory memory = {.failing = failing};
+    alp_context *context = test_memory_context(&memory, 1);
+    alp_bake_options options = alp_bake_options_default();
+    options.maps = ALP_MAP_AO | ALP_MAP_LIGHT;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    options.light.lighting.sky.up[2] = 1.0f;
+    options.occluders = "*";
+    alp_scene *scene = NULL;
+    alp_bake_work work;
+    *result = alp_scene_load(context, "builtin:cornell", &scene);
+    if (*result == ALP_OK) {
+        *result = alp_bake_estimate(scene, &options, &work);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+    assert_int_equal(atomic_load(&memory.live), 0);
+    return atomic_load(&memory.count);
+}
+
+static void estimates(void **state)
+{
+    (void)state;
+    alp_result result;
+    const long total = estimate_without(-1, &result);
+    assert_int_equal(result, ALP_OK);
+    for (long i = 0; i < total; i++) {
+        (void)estimate_without(i, &result);
+        assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
+    }
+    print_message("estimate: %ld allocations failed in turn\n", total);
+}
+
 /// The page of a report, after a bake that went well.
 static void report(void **state)
 {
@@ -140,7 +175,8 @@ int main(void)
     const struct CMUnitTest threaded[] = {cmocka_unit_test(two_workers)};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gltf),          cmocka_unit_test(collada),     cmocka_unit_test(obj),
-        cmocka_unit_test(other_outputs), cmocka_unit_test(two_workers), cmocka_unit_test(report),
+        cmocka_unit_test(other_outputs), cmocka_unit_test(two_workers), cmocka_unit_test(estimates),
+        cmocka_unit_test(report),
     };
     return TWO_WORKERS_ONLY ? cmocka_run_group_tests(threaded, NULL, NULL)
                             : cmocka_run_group_tests(tests, NULL, NULL);

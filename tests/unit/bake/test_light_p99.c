@@ -146,6 +146,20 @@ static void plans_leave_alone_what_is_good(void **state)
     assert_true(p.direct == 15.0 * 8.0 && p.rays == 15.0 * 64.0);
 }
 
+/// Where directions of a sky are drawn one by one, more of the error is left to direct light.
+static void plans_know_what_draws_cost(void **state)
+{
+    (void)state;
+    alpi_light_effort effort = {
+        .direct = 8, .rays = 64, .most = 65536, .texels = 1e5, .traced = 2e4, .direct_power = 0.6};
+    const alpi_light_noise noise = {0.06, 0.06, 0.5};
+    const alpi_light_plan plain = alpi_light_cheapest(&effort, &noise, 0.03);
+    effort.drawn = true;
+    const alpi_light_plan drawn = alpi_light_cheapest(&effort, &noise, 0.03);
+    assert_true(drawn.direct < 0.9 * plain.direct && drawn.rays > 1.05 * plain.rays);
+    assert_true(drawn.for_direct > plain.for_direct);
+}
+
 /// Which of the two is too large is said.
 static void what_fell_short_is_told(void **state)
 {
@@ -180,6 +194,7 @@ int main(void)
         cmocka_unit_test(worst_texels_tell_what_they_are_made_of),
         cmocka_unit_test(powers_follow_the_error),
         cmocka_unit_test(plans_leave_alone_what_is_good),
+        cmocka_unit_test(plans_know_what_draws_cost),
         cmocka_unit_test(what_fell_short_is_told),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

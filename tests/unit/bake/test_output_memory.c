@@ -133,12 +133,54 @@ static void work_is_known_within_a_half(void **state)
     }
 }
 
+/// An estimate is of what is asked for: finite, and as much more as there is to do.
+static void estimates_follow_the_options(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_bake_options plain = alp_bake_options_default();
+    plain.atlas.size = 128;
+    plain.maps = ALP_MAP_LIGHT;
+    plain.light.error = 0.02f;
+    enum { PLAIN, SKY_ALONE, PATHS, ONLY, OCCLUDERS, LIMITED, OPTIONS };
+    alp_bake_options options[OPTIONS];
+    alp_bake_work work[OPTIONS];
+    for (int i = 0; i < OPTIONS; i++) {
+        options[i] = plain;
+    }
+    options[SKY_ALONE].light.lighting.sky.kind = ALP_SKY_CONSTANT;
+    options[SKY_ALONE].light.bounces = 0;
+    options[SKY_ALONE].light.error = 0.0f;
+    options[SKY_ALONE].light.samples = 256;
+    options[PATHS].light.gather = ALP_GATHER_PATHS;
+    options[PATHS].light.error = 0.0f;
+    options[PATHS].light.samples = 64;
+    options[ONLY].only = "*block*";
+    options[OCCLUDERS].occluders = "*block*";
+    options[LIMITED].sampling.time_limit = 1e-3;
+    for (int i = 0; i < OPTIONS; i++) {
+        ASSERT_OK(context, alp_bake_estimate(scene, &options[i], &work[i]));
+        assert_true(isfinite(work[i].seconds) && work[i].seconds > 0.0);
+    }
+    const double texels = (double)work[PLAIN].texels;
+    // Each sample asks the sky and the lamp, whose rays above the horizon count.
+    assert_true((double)work[SKY_ALONE].rays > 200.0 * texels);
+    ASSERT_NEAR((double)work[PATHS].rays / texels, 64.0, 1e-3);
+    assert_true(work[LIMITED].seconds < work[PLAIN].seconds);
+    assert_true(work[LIMITED].rays < work[PLAIN].rays);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_viewers_files_is_known_beforehand),
         cmocka_unit_test(memory_of_layers_is_estimated),
         cmocka_unit_test(work_is_known_within_a_half),
+        cmocka_unit_test(estimates_follow_the_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

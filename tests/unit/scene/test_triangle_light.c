@@ -52,6 +52,32 @@ static void small_triangles_have_the_exact_angle(void **state)
     }
 }
 
+/// From the triangle's area, a direction's density is distance² / (area cosθ): not the same all
+/// over one that leans away, which the nearest are drawn from by solid angle instead.
+static void densities_by_area_are_exact(void **state)
+{
+    (void)state;
+    const vec3 small[3] = {{0, 0, 33}, {0, 0, 34}, {0.1f, 0.1f, 33}};
+    const vec3 near[3] = {{0, 0, 31}, {0, 0, 32}, {0.1f, 0.1f, 31}};
+    const vec3 point = {0.2f, 0.0f, 0.0f};
+    const alpi_triangle_view view = alpi_triangle_view_from(point, small);
+    assert_false(alpi_triangle_view_from(point, near).by_area);
+    assert_true(view.by_area);
+    const double area = vec3_triangle_area(small[0], small[1], small[2]);
+    const double height = 0.2 * sqrt(0.5); // of the point over the plane x = y
+    double least = HUGE_VAL, most = 0.0;
+    for (uint32_t i = 0; i < 1000; i++) {
+        const double3 direction = alpi_triangle_sample(&view, test_draw_at(3, i).u);
+        const double distance = alpi_triangle_hit_at(&view, direction).distance;
+        const double exact = distance * distance * distance / (area * height);
+        const double density = alpi_triangle_density(&view, direction);
+        ASSERT_NEAR(density / exact, 1.0, 1e-5); // corners and point are floats
+        least = fmin(least, density);
+        most = fmax(most, density);
+    }
+    assert_true(most > 1.06 * least); // (34 / 33)³ is 1.09
+}
+
 /// Middle of two corners as seen from the point, so that four parts share the triangle.
 static vec3 between(vec3 a, vec3 b)
 {
@@ -136,6 +162,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_octant_is_an_eighth),
         cmocka_unit_test(small_triangles_have_the_exact_angle),
+        cmocka_unit_test(densities_by_area_are_exact),
         cmocka_unit_test(as_many_in_each_part),
         cmocka_unit_test(the_point_in_the_plane_sees_nothing),
     };
