@@ -34,19 +34,17 @@ static void small_triangles_have_the_exact_angle(void **state)
     };
     for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++) {
         const vec3 *c = triangles[i];
-        // Van Oosterom and Strackee's formula, in long double: it takes differences of numbers that
-        // are alike to a part in a thousand.
-        long double length[3], dots[3], volume = 0.0L;
+        const double3 at[3] = {double3_from(c[0]), double3_from(c[1]), double3_from(c[2])};
+        double below = 1.0, lengths[3]; // of van Oosterom and Strackee's formula
         for (int k = 0; k < 3; k++) {
-            const vec3 a = c[k], b = c[(k + 1) % 3], n = c[(k + 2) % 3];
-            length[k] =
-                sqrtl((long double)a.x * a.x + (long double)a.y * a.y + (long double)a.z * a.z);
-            dots[k] = (long double)a.x * b.x + (long double)a.y * b.y + (long double)a.z * b.z;
-            volume += a.x * ((long double)b.y * n.z - (long double)b.z * n.y);
+            lengths[k] = double3_length(at[k]);
+            below *= lengths[k];
         }
-        const long double below = length[0] * length[1] * length[2] + dots[0] * length[2] +
-                                  dots[1] * length[0] + dots[2] * length[1];
-        const double exact = (double)(2.0L * atan2l(fabsl(volume), below));
+        for (int k = 0; k < 3; k++) {
+            below += double3_dot(at[k], at[(k + 1) % 3]) * lengths[(k + 2) % 3];
+        }
+        const double volume = double3_dot(at[0], double3_cross(at[1], at[2]));
+        const double exact = 2.0 * atan2(fabs(volume), below);
         assert_true(alpi_triangle_view_from(ORIGIN, c).by_area);
         ASSERT_NEAR(solid_angle(c[0], c[1], c[2]) / exact, 1.0, 1e-3);
     }
