@@ -84,7 +84,8 @@ static void place_block(const alp_scene *s, uint32_t triangle, uint64_t seed, do
     const vec3 at =
         vec3_mad(vec3_mad(vec3_scale(corners[0], w[0]), w[1], corners[1]), w[2], corners[2]);
     for (uint32_t i = 0; i < block; i++) {
-        const float x = (float)(spacing * (i % 4)), y = (float)(spacing * (i / 4));
+        const uint32_t column = i % 4, row = i / 4;
+        const float x = (float)(spacing * column), y = (float)(spacing * row);
         put_point(points, first + i, vec3_mad(vec3_mad(at, x, along), y, across), normal, corners);
     }
 }
