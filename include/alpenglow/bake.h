@@ -364,11 +364,11 @@ typedef struct alp_bake_work {
     double seconds; ///< on this machine as busy as it is
 } alp_bake_work;
 
-/// Estimates the work of a bake before it: a guess, within ±50 % where charts, light and noise are
-/// like those of the truth table; all 0 with ALP_ATLAS_VERTEX or where there is nothing to bake.
-/// Lights 128 points, for light, and shades 2,048, for occlusion; makes the tracer, which the bake
-/// takes over unless surfaces are chosen to occlude. What there is to warn of in
-/// lights and sky, the bake tells.
+/// Estimates the work of a bake before it: a guess, mostly within ±50 %, and what errs by more is
+/// known (docs/conventions.md, "Limits and estimates"); all 0 with ALP_ATLAS_VERTEX or where there
+/// is nothing to bake. Lights 128 points, for light, and shades 2,048, for occlusion; makes the
+/// tracer, which the bake takes over unless surfaces are chosen to occlude. What there is to warn
+/// of in lights and sky, the bake tells.
 /// @param options NULL = default; `maps_folder` is not looked at
 /// @return ALP_OK; INVALID_ARGUMENT (an option of occlusion out of its range, a pattern without a
 ///         match); OUT_OF_MEMORY; CANCELLED; UNSUPPORTED (the ray tracer does not start); what

@@ -23,8 +23,8 @@ static const double BOUNCED_POWER = 1.6;         // of what is asked less, that 
 static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
 static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
 static const double ERROR_OVER_POINTS = 1.3;     // of occlusion, of texels over that of points
-// What it does that there is a triangle for each texel: charts leave gaps, errors and what is
-// traced grow.
+// Where there is a triangle for each texel charts leave more gaps, and errors and what is traced
+// grow, by this.
 static const double LOST_TO_GAPS = 0.3, ERROR_OF_DETAIL = 1.5, TRACED_OF_DETAIL = 1.0;
 static const double NEAR_OF_DETAIL = 1.5;    // of a ray's time: more texels have surfaces near
 static const double PROBE_SHARE = 1.0 / 8.0; // of traced texels' rays, to state the error
@@ -58,10 +58,10 @@ typedef struct work_guess {
     uint32_t triangles;
 } work_guess;
 
-/// What no bake comes near is told as that.
+/// Of any number: 2^62 at most, which no bake comes near; 0 of what is none.
 static uint64_t to_count(double number)
 {
-    return number < 0x1p62 ? (uint64_t)fmax(number, 0.0) : (uint64_t)1 << 62;
+    return (uint64_t)fmin(fmax(number, 0.0), 0x1p62);
 }
 
 static bool keeps(const alp_bake_options *o, const alp_scene *s)

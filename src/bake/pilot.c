@@ -90,8 +90,7 @@ static void place_block(const alp_scene *s, uint32_t triangle, uint64_t seed, do
     }
 }
 
-/// Fills the array with blocks, evenly by area; it gets fewer points where rounding leaves some
-/// out.
+/// Fills the array with blocks, evenly by area.
 static void place_points(const alpi_bake_job *job, double area, double spacing, uint32_t block,
                          alpi_point_array *points)
 {
@@ -169,11 +168,9 @@ static alp_result light_directly(const light_pilot *l)
     return ALP_OK;
 }
 
-/// Adds `factor` times the variances of points by paths.
 /// @param next_event false: light is found by cosine rays alone
-static alp_result add_variances(const light_pilot *l, const alpi_lighting *lighting,
-                                uint32_t bounces, bool next_event, double factor,
-                                double variances[ALPI_PILOT_POINTS])
+static alp_result send_paths(const light_pilot *l, const alpi_lighting *lighting, uint32_t bounces,
+                             bool next_event)
 {
     const alpi_reference paths = {.context = l->job->context,
                                   .scene = l->job->scene,
@@ -184,19 +181,23 @@ static alp_result add_variances(const light_pilot *l, const alpi_lighting *light
                                   .bounces = bounces,
                                   .next_event = next_event,
                                   .seed = l->job->options.occlusion.seed};
-    ALP_TRY(alpi_reference_irradiance(&paths, l->receivers, NULL, 0, NULL, l->values));
+    return alpi_reference_irradiance(&paths, l->receivers, NULL, 0, NULL, l->values);
+}
+
+static double mean_variance(const light_pilot *l)
+{
+    double sum = 0.0;
     for (uint32_t i = 0; i < l->pilot->count; i++) {
-        variances[i] += factor * mean_of(l->values[i].variance);
+        sum += mean_of(l->values[i].variance);
     }
-    return ALP_OK;
+    return sum / l->pilot->count;
 }
 
 /// Paths that ask no light are timed: rays of a gatherer ask none either.
 static alp_result time_rays(const light_pilot *l)
 {
-    double unused[ALPI_PILOT_POINTS] = {0.0};
     const stopwatch began = start_watch();
-    ALP_TRY(add_variances(l, l->lighting, 1, false, 0.0, unused));
+    ALP_TRY(send_paths(l, l->lighting, 1, false));
     const double paths = (double)l->pilot->count * ALPI_PILOT_RAYS;
     l->pilot->path_seconds = read_watch(l->job, &began) / paths;
     l->pilot->ray_seconds = PACKET_SHARE * l->pilot->path_seconds;
@@ -208,20 +209,19 @@ static alp_result time_rays(const light_pilot *l)
 static alp_result light_by_bounces(const light_pilot *l)
 {
     alpi_pilot *p = l->pilot;
-    double variances[ALPI_PILOT_POINTS] = {0.0}, sum = 0.0;
     ALP_TRY(time_rays(l));
-    ALP_TRY(add_variances(l, l->lighting, 1, true, 1.0, variances));
+    ALP_TRY(send_paths(l, l->lighting, 1, true));
     for (uint32_t i = 0; i < p->count; i++) {
         p->once_bounced += mean_of(l->values[i].mean) / p->count;
     }
-    ALP_TRY(add_variances(l, l->lighting, 0, true, -1.0, variances));
+    double variance = mean_variance(l);
+    ALP_TRY(send_paths(l, l->lighting, 0, true));
+    variance -= mean_variance(l);
     if (l->soft != NULL) {
-        ALP_TRY(add_variances(l, l->soft, 0, false, 1.0, variances));
+        ALP_TRY(send_paths(l, l->soft, 0, false));
+        variance += mean_variance(l);
     }
-    for (uint32_t i = 0; i < p->count; i++) {
-        sum += variances[i] / p->count;
-    }
-    p->bounced_error = sqrt(fmax(sum, 0.0));
+    p->bounced_error = sqrt(fmax(variance, 0.0));
     return ALP_OK;
 }
 

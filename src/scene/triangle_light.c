@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Directions from a point to a triangle, uniform in its solid angle, or, where it is
-// small, in its area.
+// Directions from a point to a triangle, uniform in its solid angle, or in its area where it is
+// small.
 // Based on: James Arvo. Stratified Sampling of Spherical Triangles. SIGGRAPH 1995;
 //           A. van Oosterom, J. Strackee. The Solid Angle of a Plane Triangle. IEEE Trans. Biomed.
 //           Eng. 30(2), 1983.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Directions from a point to a triangle, uniform in its solid angle, or, where it is
-// small, in its area.
+// Directions from a point to a triangle, uniform in its solid angle, or in its area where it is
+// small.
 #ifndef ALPI_SCENE_TRIANGLE_LIGHT_H
 #define ALPI_SCENE_TRIANGLE_LIGHT_H
 

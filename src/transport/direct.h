@@ -76,8 +76,7 @@ typedef struct alpi_direct_output {
     alpi_directional *directional; // [receivers] of all light together, or NULL
     uint64_t rays;                 // that were sent from receivers; what goes on behind a pane
                                    // is still the ray that met it and is not counted again
-    bool
-        drawn; // set: whether directions of a sky were drawn one by one, two shadow rays' time each
+    bool drawn; // set: directions of a sky were drawn one by one, two shadow rays' time each
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased,
