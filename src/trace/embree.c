@@ -2,6 +2,7 @@
 // Rays through Embree 3: the only file of the library that knows it.
 // Based on: Wald, Woop, Benthin, Johnson, Ernst. Embree: A Kernel Framework for Efficient CPU Ray
 // Tracing. SIGGRAPH 2014.
+#include "trace/few.h"
 #include "trace/trace.h"
 
 #include "base/memory.h"
@@ -33,6 +34,7 @@ struct alpi_tracer {
     const alp_scene *scene;
     RTCDevice device;
     RTCScene embree_scene;
+    alpi_few *few;                       // its triangles, where they are few and solid, or NULL
     RTCScene quick_scene;                // the same geometries without care for edges, or NULL
     uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
     uint32_t count[GEOMETRY_COUNT];
@@ -172,6 +174,7 @@ void alpi_tracer_destroy(alpi_tracer *tracer)
     if (tracer->device != NULL) {
         rtcReleaseDevice(tracer->device);
     }
+    alpi_release(tracer->scene->context, tracer->few);
     for (int g = 0; g < GEOMETRY_COUNT; g++) {
         alpi_release(tracer->scene->context, tracer->triangles[g]);
     }
@@ -335,6 +338,10 @@ static alp_result build(alpi_tracer *tracer, const bool *surfaces, build_progres
     // Robust: no ray slips through the edge between two triangles.
     ALP_TRY(start_scene(tracer, RTC_SCENE_FLAG_ROBUST, progress, &tracer->embree_scene));
     ALP_TRY(sort_triangles(tracer, surfaces));
+    if (tracer->count[GEOMETRY_SOLID] == alpi_tracer_triangle_count(tracer)) {
+        ALP_TRY(alpi_few_create(scene, tracer->triangles[GEOMETRY_SOLID],
+                                tracer->count[GEOMETRY_SOLID], &tracer->few));
+    }
     for (int g = 0; g < GEOMETRY_COUNT; g++) {
         ALP_TRY(attach_geometry(tracer, (geometry_kind)g));
     }
@@ -388,29 +395,6 @@ alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn
     return result;
 }
 
-static void destroy_attachment(alp_context *context, void *data)
-{
-    (void)context; // the tracer knows it
-    alpi_tracer_destroy(data);
-}
-
-alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progress,
-                                 void *progress_user, alpi_tracer **tracer, double *seconds)
-{
-    alpi_attachment *attachment = &scene->attachments[ALPI_ATTACHMENT_TRACER];
-    double started = alpi_seconds();
-    if (attachment->data == NULL) {
-        alpi_tracer *made = NULL;
-        ALP_TRY(alpi_tracer_create(scene, NULL, progress, progress_user, &made));
-        *attachment = (alpi_attachment){made, destroy_attachment};
-    }
-    *tracer = attachment->data;
-    if (seconds != NULL) {
-        *seconds = alpi_seconds() - started;
-    }
-    return ALP_OK;
-}
-
 // --- tracing -------------------------------------------------------------------------------------
 
 static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
@@ -452,11 +436,22 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer)
     return tracer->count[GEOMETRY_PANE] > 0;
 }
 
+bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach)
+{
+    return tracer->few != NULL && alpi_few_near(tracer->few, reach) <= (float)ALPI_FEW_NEAR;
+}
+
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
 {
     _Alignas(32) int some[ALPI_PACKET];
     const int *valid = spread_bits(active, some);
+    assert(!filter.few || tracer->few != NULL);
+    if (filter.few) {
+        tracer->few->loops->occluded(tracer->few, packets, count, (const uint32_t *)valid,
+                                     filter.one_sided);
+        return;
+    }
     trace_context context = start_context(tracer, filter);
     assert(!filter.quick || tracer->quick_scene != NULL);
     RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
@@ -572,6 +567,10 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits)
 {
+    if (tracer->few != NULL && tracer->few->count <= ALPI_FEW_NEAREST) {
+        tracer->few->loops->nearest(tracer->few, rays, active, filter.one_sided, hits);
+        return;
+    }
     trace_context context = start_context(tracer, filter);
     trace_nearest(tracer, rays, active, &context, hits);
 }

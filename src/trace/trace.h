@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays against a scene: nearest hit, and whether anything is hit. embree.c is the only file of the
-// library that knows Embree; brute_force.c answers the same questions by testing every triangle.
+// library that knows Embree; few.h answers for scenes of few triangles, brute_force.c, in tests, by
+// testing every triangle.
 #ifndef ALPI_TRACE_TRACE_H
 #define ALPI_TRACE_TRACE_H
 
@@ -80,6 +81,8 @@ typedef struct alpi_trace_filter {
     bool quick; // rays of random directions that are only asked whether they are blocked: one that
                 // meets the edge between two triangles may slip through. For a job of which
                 // alpi_tracer_quicken says so, no other
+    bool few; // rays that are only asked whether they are blocked meet every triangle within their
+              // reach. For a job of which alpi_tracer_meets_few says so, no other
 } alpi_trace_filter;
 
 /// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets
@@ -102,6 +105,10 @@ alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED; CANCELLED: the tracer is what it was
 alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn *progress,
                                void *progress_user, bool *quick);
+/// Whether rays that leave from the scene's surfaces and reach so far (metres, or INFINITY) come
+/// near so few triangles that to meet them all is faster than any hierarchy: up to five times. No
+/// ray slips through an edge then.
+bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach);
 void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
 
 /// How many triangles stop its rays.

@@ -173,6 +173,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .beams = alpi_tracer_triangle_count(tracer) >= BEAM_TRIANGLES,
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
+    setup->filter.few = alpi_tracer_meets_few(tracer, setup->distance);
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     setup->shift_mask = UINT32_MAX >> shared_bits(setup->samples);
     return make_sequences(setup);

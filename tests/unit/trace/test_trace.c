@@ -1,60 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The tracer against brute force: nearest hit, occlusion, alpha cuts, one-sidedness, limits.
-#include "test_scenes.h"
+#include "soup.h"
 
 #include "base/memory.h"
-#include "base/random.h"
-#include "trace/trace.h"
-
-#include <math.h>
 
 enum { PACKETS = 400 };
-
-/// A soup of triangles of all sizes, half of them with a material of its own.
-static alp_scene *make_soup(alp_context *context)
-{
-    test_mesh *mesh = test_mesh_start();
-    for (uint32_t i = 0; i < 600; i++) {
-        float center[3], edge[2][3];
-        float size = 0.02f + alpi_unit_float(alpi_hash32(7 * i)) * 0.4f;
-        for (uint32_t k = 0; k < 3; k++) {
-            center[k] = alpi_unit_float(alpi_hash32(100 * i + k)) * 2.0f - 1.0f;
-            edge[0][k] = size * (alpi_unit_float(alpi_hash32(100 * i + k + 10)) - 0.5f);
-            edge[1][k] = size * (alpi_unit_float(alpi_hash32(100 * i + k + 20)) - 0.5f);
-        }
-        uint32_t v[3];
-        for (int c = 0; c < 3; c++) {
-            double p[3];
-            for (int k = 0; k < 3; k++) {
-                p[k] = (double)center[k] + (c > 0 ? (double)edge[c - 1][k] : 0.0);
-            }
-            v[c] = test_mesh_vertex(mesh, p[0], p[1], p[2]);
-        }
-        test_mesh_triangle(mesh, v[0], v[1], v[2]);
-    }
-    return test_mesh_scene(context, mesh, 0);
-}
-
-static void fill_rays(alpi_rays *rays, uint32_t packet)
-{
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        uint32_t key = 1000 * packet + 10 * i;
-        vec3 d = {alpi_unit_float(alpi_hash32(key)) - 0.5f,
-                  alpi_unit_float(alpi_hash32(key + 1)) - 0.5f,
-                  alpi_unit_float(alpi_hash32(key + 2)) - 0.5f};
-        d = vec3_normalize_or(d, (vec3){0, 0, 1});
-        rays->origin_x[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 3)) - 1.0f;
-        rays->origin_y[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 4)) - 1.0f;
-        rays->origin_z[i] = 2.0f * alpi_unit_float(alpi_hash32(key + 5)) - 1.0f;
-        rays->direction_x[i] = d.x;
-        rays->direction_y[i] = d.y;
-        rays->direction_z[i] = d.z;
-        rays->minimum[i] = rays->time[i] = 0.0f;
-        rays->mask[i] = UINT32_MAX;
-        rays->id[i] = rays->flags[i] = 0;
-        rays->maximum[i] = i % 3 == 0 ? 0.7f : INFINITY;
-    }
-}
 
 static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, int *hit_count)
 {
@@ -64,7 +14,7 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
     for (uint32_t packet = 0; packet < PACKETS; packet++) {
         alpi_rays rays;
         alpi_hits fast, slow;
-        fill_rays(&rays, packet);
+        soup_rays(&rays, packet);
         uint32_t active = packet % 4 == 0 ? 0x5bu : 0xffu; // lanes left out too
         memset(&fast, 0x55, sizeof fast);
         memset(&slow, 0x55, sizeof slow);
@@ -93,23 +43,6 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
     }
 }
 
-/// Turns the rays of a packet towards points of the edges of a scene.
-static void aim_at_edges(const alp_scene *scene, uint32_t packet, alpi_rays *rays)
-{
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        const uint32_t key = 17 * (ALPI_PACKET * packet + i);
-        const uint32_t *corners = scene->triangles[alpi_hash32(key) % scene->triangle_count];
-        const vec3 a = vec3_load(scene->positions[corners[0]]);
-        const vec3 b = vec3_load(scene->positions[corners[1]]);
-        const vec3 at = vec3_mad(a, alpi_unit_float(alpi_hash32(key + 1)), vec3_sub(b, a));
-        const vec3 from = {rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]};
-        const vec3 d = vec3_normalize_or(vec3_sub(at, from), (vec3){0, 0, 1});
-        rays->direction_x[i] = d.x;
-        rays->direction_y[i] = d.y;
-        rays->direction_z[i] = d.z;
-    }
-}
-
 /// Rays out of a closed sphere that meet nothing.
 static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
                             alpi_trace_filter filter, uint32_t packets, bool edges)
@@ -117,7 +50,7 @@ static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
     uint32_t slips = 0;
     for (uint32_t packet = 0; packet < packets; packet++) {
         alpi_rays rays;
-        fill_rays(&rays, packet);
+        soup_rays(&rays, packet);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             rays.origin_x[i] *= 0.5f; // inside: √3 / 2 away at most
             rays.origin_y[i] *= 0.5f;
@@ -125,7 +58,7 @@ static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
             rays.maximum[i] = INFINITY;
         }
         if (edges) {
-            aim_at_edges(scene, packet, &rays);
+            soup_aim_at_edges(scene, packet, &rays);
         }
         alpi_trace_occluded(tracer, &rays, 1, 0xffu, filter, ALPI_RAYS_NEAR);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
@@ -168,7 +101,7 @@ static void random_rays_hit_what_brute_force_hits(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = make_soup(context);
+    alp_scene *scene = soup_make(context, 600, 0.4f);
     int both = 0, front = 0;
     agrees_with_brute_force(scene, (alpi_trace_filter){0}, &both);
     agrees_with_brute_force(scene, (alpi_trace_filter){.one_sided = true}, &front);
@@ -224,14 +157,14 @@ static void alpha_cuts_let_rays_through(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = make_soup(context);
+    alp_scene *scene = soup_make(context, 600, 0.4f);
     int solid = 0, cut = 0;
     if (scene->uvs[0] == NULL) {
         scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof *scene->uvs[0]);
     }
     agrees_with_brute_force(scene, (alpi_trace_filter){0}, &solid);
     alp_scene_destroy(scene);
-    scene = make_soup(context);
+    scene = soup_make(context, 600, 0.4f);
     if (scene->uvs[0] == NULL) {
         scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof *scene->uvs[0]);
     }

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// Rays against few triangles, each of which is met: against brute force, at edges, in batches.
+#include "soup.h"
+
+#include "base/memory.h"
+#include "trace/few.h"
+
+enum { PACKETS = 2000, BATCH = 24 };
+
+static const uint32_t ALL[ALPI_PACKET] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX,
+                                          UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
+
+typedef struct rig {
+    alp_context *context;
+    alp_scene *scene;
+    alpi_few *few;
+} rig;
+
+static void open_rig(alp_scene *scene, rig *r)
+{
+    uint32_t triangles[ALPI_FEW_LIMIT];
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        if (scene->triangle_usable[t]) {
+            triangles[count++] = t;
+        }
+    }
+    *r = (rig){.context = scene->context, .scene = scene};
+    ASSERT_OK(r->context, alpi_few_create(scene, triangles, count, &r->few));
+    assert_non_null(r->few);
+}
+
+static void close_rig(rig *r)
+{
+    alpi_release(r->context, r->few);
+    alp_scene_destroy(r->scene);
+    alp_context_destroy(r->context);
+}
+
+/// Loops that this machine can run.
+static int list_loops(const rig *r, const alpi_few_loops *loops[2])
+{
+    loops[0] = &alpi_few_loops_baseline;
+    loops[1] = r->few->loops;
+    return loops[1] == loops[0] ? 1 : 2;
+}
+
+static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, bool one_sided)
+{
+    const alpi_trace_filter filter = {.one_sided = one_sided};
+    int hits = 0;
+    for (uint32_t packet = 0; packet < PACKETS; packet++) {
+        alpi_rays rays;
+        alpi_hits fast, slow;
+        soup_rays(&rays, packet);
+        for (int i = 0; i < ALPI_PACKET && packet % 5 == 0; i++) {
+            rays.minimum[i] = 0.4f;
+        }
+        const uint32_t active = packet % 4 == 0 ? 0x5bu : 0xffu; // lanes left out too
+        uint32_t lanes[ALPI_PACKET];
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            lanes[i] = (active >> i & 1u) != 0 ? UINT32_MAX : 0;
+        }
+        memset(&fast, 0x55, sizeof fast);
+        memset(&slow, 0x55, sizeof slow);
+        loops->nearest(r->few, &rays, active, one_sided, &fast);
+        alpi_brute_force_nearest(r->scene, &rays, active, filter, &slow);
+        alpi_rays shadow = rays;
+        loops->occluded(r->few, &shadow, 1, lanes, one_sided);
+        assert_int_equal(fast.behind & ~active, slow.behind & ~active);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            assert_int_equal(fast.triangle[i], slow.triangle[i]);
+            if ((active >> i & 1u) == 0) {
+                assert_true(shadow.maximum[i] == rays.maximum[i]);
+                continue;
+            }
+            const bool hit = slow.triangle[i] != ALPI_NONE;
+            hits += hit;
+            assert_int_equal(shadow.maximum[i] < 0.0f, hit);
+            assert_true(hit || shadow.maximum[i] == rays.maximum[i]);
+            if (hit) {
+                ASSERT_NEAR(fast.distance[i], slow.distance[i], 2e-5);
+                ASSERT_NEAR(fast.b1[i], slow.b1[i], 2e-3);
+                ASSERT_NEAR(fast.b2[i], slow.b2[i], 2e-3);
+                assert_int_equal(fast.behind >> i & 1u, slow.behind >> i & 1u);
+            } else {
+                assert_true(isinf(fast.distance[i]));
+            }
+        }
+    }
+    return hits;
+}
+
+static void few_triangles_are_hit_as_by_brute_force(void **state)
+{
+    (void)state;
+    rig r;
+    const alpi_few_loops *loops[2];
+    open_rig(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f), &r);
+    const int count = list_loops(&r, loops);
+    for (int k = 0; k < count; k++) {
+        const int both = agree_with_brute_force(&r, loops[k], false);
+        const int front = agree_with_brute_force(&r, loops[k], true);
+        print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
+        assert_true(both > PACKETS / 5 && front > PACKETS / 10 && front < both);
+    }
+    close_rig(&r);
+}
+
+/// A closed sphere of 60 triangles: rays from inside are stopped, at edges too.
+static void no_ray_slips_between_two(void **state)
+{
+    (void)state;
+    rig r;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 6, 6, 1.0, 1);
+    open_rig(test_mesh_scene(context, mesh, 0), &r);
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(&r, loops);
+    for (uint32_t packet = 0; packet < 20000; packet++) {
+        alpi_rays rays;
+        soup_rays(&rays, packet);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            rays.origin_x[i] *= 0.4f;
+            rays.origin_y[i] *= 0.4f;
+            rays.origin_z[i] *= 0.4f;
+            rays.maximum[i] = INFINITY;
+        }
+        soup_aim_at_edges(r.scene, packet, &rays);
+        for (int k = 0; k < count; k++) {
+            alpi_rays shadow = rays;
+            alpi_hits hits = {.behind = 0};
+            loops[k]->occluded(r.few, &shadow, 1, ALL, false);
+            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                assert_true(shadow.maximum[i] < 0.0f);
+                assert_true(hits.triangle[i] != ALPI_NONE && hits.distance[i] < 2.0f);
+            }
+        }
+    }
+    close_rig(&r);
+}
+
+/// Rays within the plane of a triangle pass it, whatever their reach.
+static void planes_are_passed_within(void **state)
+{
+    (void)state;
+    rig r;
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){1, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
+    open_rig(test_mesh_scene(context, mesh, 0), &r);
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(&r, loops);
+    alpi_rays rays;
+    memset(&rays, 0, sizeof rays);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays.maximum[i] = i < 4 ? INFINITY : 5.0f;
+        rays.origin_z[i] = 0.25f;
+    }
+    for (int i = 0; i < ALPI_PACKET; i += 4) {
+        rays.direction_x[i] = 1.0f; // towards it
+        rays.direction_x[i + 1] = -1.0f;
+        rays.direction_z[i + 2] = 1.0f;
+        rays.direction_x[i + 3] = 0.8f; // from above
+        rays.direction_y[i + 3] = -0.6f;
+        rays.origin_y[i + 3] = 0.9f;
+    }
+    for (int k = 0; k < count; k++) {
+        alpi_rays shadow = rays;
+        alpi_hits hits = {.behind = 0};
+        loops[k]->occluded(r.few, &shadow, 1, ALL, false);
+        loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            assert_int_equal(shadow.maximum[i] < 0.0f, i % 4 == 3);
+            assert_int_equal(hits.triangle[i] != ALPI_NONE, i % 4 == 3);
+        }
+    }
+    close_rig(&r);
+}
+
+/// Batches of packets, some of which share their origins, with reaches of their own: what a packet
+/// gets does not depend on what is beside it, nor on the instructions.
+static void batches_are_what_packets_are(void **state)
+{
+    (void)state;
+    rig r;
+    open_rig(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f), &r);
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(&r, loops);
+    int stopped = 0, left = 0;
+    for (uint32_t batch = 0; batch < 100; batch++) {
+        alpi_rays rays[BATCH], alone[BATCH];
+        for (uint32_t p = 0; p < BATCH; p++) {
+            soup_rays(&rays[p], batch * BATCH + p);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                const float far = 0.1f + 0.1f * (float)(p % 7);
+                rays[p].maximum[i] = p % 11 == 10 ? INFINITY : far;
+            }
+            const uint32_t first = p / 5 * 5; // five packets from the same eight points
+            memcpy(rays[p].origin_x, rays[first].origin_x, sizeof rays[p].origin_x);
+            memcpy(rays[p].origin_y, rays[first].origin_y, sizeof rays[p].origin_y);
+            memcpy(rays[p].origin_z, rays[first].origin_z, sizeof rays[p].origin_z);
+        }
+        memcpy(alone, rays, sizeof rays);
+        for (uint32_t p = 0; p < BATCH; p++) {
+            alpi_few_loops_baseline.occluded(r.few, &alone[p], 1, ALL, false);
+        }
+        for (int k = 0; k < count; k++) {
+            alpi_rays together[BATCH];
+            memcpy(together, rays, sizeof rays);
+            loops[k]->occluded(r.few, together, BATCH, ALL, false);
+            assert_memory_equal(together, alone, sizeof alone);
+        }
+        for (uint32_t p = 0; p < BATCH; p++) {
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                stopped += alone[p].maximum[i] < 0.0f;
+                left += alone[p].maximum[i] >= 0.0f;
+            }
+        }
+    }
+    print_message("%d rays stopped, %d not\n", stopped, left);
+    assert_true(stopped > 200 && left > 200);
+    close_rig(&r);
+}
+
+static void add_box(test_mesh *mesh, const double low[3], double size)
+{
+    for (int k = 0; k < 3; k++) {
+        double u[3] = {0.0}, v[3] = {0.0}, far[3] = {low[0], low[1], low[2]};
+        u[(k + 1) % 3] = v[(k + 2) % 3] = size;
+        far[k] += size;
+        test_mesh_quad(mesh, low, v, u);
+        test_mesh_quad(mesh, far, u, v);
+    }
+}
+
+/// A room of 12 triangles; boxes of 12 each in it.
+static alp_scene *make_room(alp_context *context, int boxes)
+{
+    test_mesh *mesh = test_mesh_start();
+    add_box(mesh, (double[]){0, 0, 0}, 10.0);
+    for (int i = 0; i < boxes; i++) {
+        add_box(mesh, (double[]){1.0 + 2.0 * i, 0.0, 4.0}, 1.0);
+    }
+    return test_mesh_scene(context, mesh, 0);
+}
+
+static void few_is_what_is_within_reach(void **state)
+{
+    (void)state;
+    const struct {
+        int boxes;
+        float reach;
+        bool few;
+    } cases[] = {{0, INFINITY, true},  // 12 triangles
+                 {1, INFINITY, false}, // 24
+                 {4, INFINITY, false}, {4, 0.5f, true},
+                 {4, 20.0f, false},    {5, 0.5f, false}}; // 72: too many to be looked through
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = make_room(context, cases[i].boxes);
+        alpi_tracer *tracer = NULL;
+        ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+        assert_int_equal(alpi_tracer_meets_few(tracer, cases[i].reach), cases[i].few);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+/// Too many triangles, none, or too narrow ones are left to the hierarchy.
+static void others_are_refused(void **state)
+{
+    (void)state;
+    const struct {
+        double height; // of a triangle 1 m long, 10 m from the origin
+        uint32_t count;
+        bool few;
+    } cases[] = {{1.0, 0, false},    {1.0, 1, true},      {1.0, 64, true},  {1.0, 65, false},
+                 {1.1e-3, 64, true}, {0.9e-3, 64, false}, {1e-30, 1, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        alp_context *context = test_context(1);
+        test_mesh *mesh = test_mesh_start();
+        uint32_t triangles[ALPI_FEW_LIMIT + 1];
+        for (uint32_t t = 0; t < ALPI_FEW_LIMIT + 1; t++) {
+            const double z = 0.1 * t, v = cases[i].height;
+            triangles[t] = 2 * t; // one of a quad, with both its edges
+            test_mesh_quad(mesh, (double[]){9, 0, z}, (double[]){1, 0, 0}, (double[]){0, v, 0});
+        }
+        alp_scene *scene = test_mesh_scene(context, mesh, 0);
+        alpi_few *few = NULL;
+        ASSERT_OK(context, alpi_few_create(scene, triangles, cases[i].count, &few));
+        assert_int_equal(few != NULL, cases[i].few);
+        alpi_release(context, few);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(few_triangles_are_hit_as_by_brute_force),
+        cmocka_unit_test(no_ray_slips_between_two),
+        cmocka_unit_test(planes_are_passed_within),
+        cmocka_unit_test(batches_are_what_packets_are),
+        cmocka_unit_test(few_is_what_is_within_reach),
+        cmocka_unit_test(others_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
