@@ -160,10 +160,25 @@ static float compare_probes(const bounced_job *job, const alpi_reference_value *
     return stated > 0.0 ? (float)(squares / stated) : 1.0f;
 }
 
+static void scale_traced(const bounced_job *job)
+{
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        const uint32_t t = job->options->order[i];
+        if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
+            scale_variance(job, &job->options->gather->values[t]);
+        }
+    }
+}
+
 /// Finds how far the spread of joined replicates is from the truth, and makes it true.
 static alp_result find_factor(bounced_job *job, uint32_t traced)
 {
     enum { LEAST = 64, SHARE = 8 }; // a tenth of that error is chance, and an eighth of the rays
+    if (traced < LEAST && job->report->factor > 0.0f) {
+        job->factor = job->report->factor;
+        scale_traced(job);
+        return ALP_OK;
+    }
     const uint32_t few = traced / SHARE > LEAST ? traced / SHARE : LEAST;
     const uint32_t most = few < ALPI_BOUNCED_PROBES ? few : ALPI_BOUNCED_PROBES;
     const uint32_t count = choose(job, ALPI_TEXEL_TRACED, traced, most, STREAM_PROBES);
@@ -174,12 +189,8 @@ static alp_result find_factor(bounced_job *job, uint32_t traced)
     const alp_result result = gather_beside(job, count, job->options->beside, found);
     if (result == ALP_OK) {
         job->factor = compare_probes(job, found, count);
-        for (uint32_t i = 0; i < job->options->count; i++) {
-            const uint32_t t = job->options->order[i];
-            if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
-                scale_variance(job, &job->options->gather->values[t]);
-            }
-        }
+        job->report->factor = job->factor;
+        scale_traced(job);
     }
     alpi_release(job->lattice.context, found);
     return result;
@@ -461,7 +472,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
                        .report = report,
                        .factor = 1.0f,
                        .expected = (first ? options->count : report->traced) + ALPI_HELD_OUT};
-    *report = (alpi_bounced_report){0};
+    *report = (alpi_bounced_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;
     job.lattice.straight = options->straight;

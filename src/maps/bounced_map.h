@@ -39,6 +39,7 @@ typedef struct alpi_bounced_options {
 typedef struct alpi_bounced_report {
     uint64_t traced, interpolated; // texels
     uint64_t rays;
+    float factor; // joined: true variances over those that replicates state
 } alpi_bounced_report;
 
 /// Writes the values (with variances), skies and light by direction of the gather job for the
@@ -49,7 +50,9 @@ typedef struct alpi_bounced_report {
 /// less the variance of those rays: it holds what interpolation misses, as a mean over all of them.
 /// Where a map before held some out, it is 0: means of maps are held to means of what those found.
 /// @param states [texels] out: alpi_texel_state of those in the order
-/// @param report in: traced, those of a map like it, to tell progress by, or 0; out: all of it
+/// @param report in: traced, those of a map like it, to tell progress by, or 0; factor, that of a
+/// map
+///               like it, for one of too few traced texels to find it, or 0; out: all of it
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
                             const alpi_task_progress *progress, uint8_t *states,

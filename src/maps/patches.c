@@ -83,7 +83,7 @@ static void find_material(const alpi_patches *p, uint32_t texel, bool even)
         met > 0 ? (float)((emission[0] + emission[1] + emission[2]) / (3.0 * met)) : 0.0f;
 }
 
-/// How far a hit counts as near.
+/// How far a hit counts as near, while nothing is known of the light (patch_reach.h).
 static void note_side(const alpi_patches *p, uint32_t texel)
 {
     for (int of = ALPI_FRONT; of <= (p->two_sided ? ALPI_BACK : ALPI_FRONT); of++) {

@@ -108,7 +108,7 @@ static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t 
     const alp_result result =
         alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress, &output);
     s->r->rays += output.rays;
-    s->r->direct_drawn = output.drawn;
+    s->r->direct_draw = output.draw;
     return result;
 }
 

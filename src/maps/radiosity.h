@@ -80,7 +80,7 @@ typedef struct alpi_radiosity {
     bool backs_dropped;                  // direct light of backs is known no more
     uint64_t rays;
     double direct_seconds; // that direct light took
-    bool direct_drawn;     // see alpi_direct_output
+    double direct_draw;    // see alpi_direct_output
     alpi_energy energy;
 } alpi_radiosity;
 

@@ -76,7 +76,8 @@ typedef struct alpi_direct_output {
     alpi_directional *directional; // [receivers] of all light together, or NULL
     uint64_t rays;                 // that were sent from receivers; what goes on behind a pane
                                    // is still the ray that met it and is not counted again
-    bool drawn; // set: directions of a sky were drawn one by one, two shadow rays' time each
+    double draw; // set: the time of a sample, in that of a plain shadow ray: what is drawn takes
+                 // more
 } alpi_direct_output;
 
 /// Irradiance E [W·m⁻²] of the receivers in `list` (NULL = all), means over their points. Unbiased,

@@ -22,7 +22,7 @@ typedef struct alpi_gather_scene {
     alpi_surface_light light;
     bool emitters, sky; // that they count
     // NULL, or how rays go on that meet surface light in cells nearer than near_reach of the cell's
-    // sides (near_rays.h): paths of two bounces that end with that light. Of all light there is,
+    // sides (near_rays.h): paths of a few bounces that end with that light. Of all light there is,
     // the sky's and emitters' too. Of gather jobs whose `lost` is NULL.
     const alpi_reference *near;
     float near_reach;

@@ -3,7 +3,7 @@
 // the mean over a texel, and changes within it where surfaces meet, a shadow's edge falls, or part
 // of it is covered: from afar nobody sees that, but who is near sees one end of the texel and not
 // the other. So such rays go on from where they arrive by one path: light there is asked for, and
-// what one further ray meets is looked up.
+// what one further ray meets is looked up, or, where that is near too, the path goes on.
 #ifndef ALPI_TRANSPORT_NEAR_RAYS_H
 #define ALPI_TRANSPORT_NEAR_RAYS_H
 

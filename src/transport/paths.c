@@ -231,27 +231,35 @@ static void meet(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint32_
     add_met(r, w, i, alpi_surface_emission(r->scene, triangle, b1, b2, back), triangle, distance);
 }
 
-/// Path i, bounced once, ends with light that is known.
+/// Whether path i, bounced once, ends with light that is known: it does but where it meets that
+/// from so near that one light for a whole cell is too coarse, and may bounce there.
 /// @param kept what alpi_panes_pass left of a pane's own share, which is in that light already
-static void meet_known(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float kept)
+static bool meet_known(const alpi_reference *r, alpi_path_wave *w, uint32_t i, float kept,
+                       float distance)
 {
     const alpi_hits *hits = &w->hits[i / ALPI_PACKET];
     const int lane = (int)(i % ALPI_PACKET);
     const vec3 direction = at(&w->direction, i), throughput = at(&w->throughput, i);
-    alpi_surface_point point = {hits->triangle[lane], hits->b1[lane], hits->b2[lane],
-                                vec3_scale(direction, -1.0f), false};
-    alpi_hit_point(r->scene, hits, lane, direction, &point.from_behind);
-    if (point.from_behind && !alpi_surface_is_double_sided(r->scene, point.triangle)) {
-        return;
+    const uint32_t triangle = hits->triangle[lane], met = 1u << lane;
+    uint32_t cells[1][ALPI_PACKET];
+    bool behind = false;
+    alpi_hit_point(r->scene, hits, lane, direction, &behind);
+    if (behind && !alpi_surface_is_double_sided(r->scene, triangle)) {
+        return true;
+    }
+    r->known->find(r->known->user, hits, &met, 1, cells);
+    const float *cell = r->known->cells[cells[0][lane]];
+    if (distance < r->known_reach * cell[ALPI_CELL_SIDE] && w->depth[i] + 1 < (int32_t)r->bounces) {
+        return false;
     }
     if (r->filter.panes) {
-        const float own = alpi_surface_pane(r->scene, point.triangle, point.b1, point.b2).kept;
+        const float own =
+            alpi_surface_pane(r->scene, triangle, hits->b1[lane], hits->b2[lane]).kept;
         kept = own > 0.0f ? kept / own : 0.0f;
     }
-    vec3 known;
-    r->known->reflected(r->known->user, &point, 1, &known);
-    known = vec3_scale(known, (float)ALPI_PI * kept);
+    const vec3 known = vec3_scale(vec3_load(cell), (float)ALPI_PI * kept);
     bring(w, i, (vec3){throughput.x * known.x, throughput.y * known.y, throughput.z * known.z});
+    return true;
 }
 
 /// Path i meets a surface. @param to where it goes on @return false: it ends here
@@ -273,8 +281,7 @@ static bool arrive(const alpi_reference *r, alpi_path_wave *w, uint32_t i, uint3
     if (w->depth[i] >= (int32_t)r->bounces) {
         return false;
     }
-    if (r->known != NULL && w->depth[i] >= 0) {
-        meet_known(r, w, i, kept);
+    if (r->known != NULL && w->depth[i] >= 0 && meet_known(r, w, i, kept, distance)) {
         return false;
     }
     const vec3 albedo = vec3_scale(alpi_surface_albedo(r->scene, triangle, b1, b2), kept);

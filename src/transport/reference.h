@@ -37,7 +37,9 @@ typedef struct alpi_reference {
                       // alike in all eight. Pixels do not
     // NULL, or light that surfaces reflect, as somebody knows already: from the first vertex on a
     // surface a path goes to what it meets next and ends there with this, if it may bounce there.
-    const alpi_surface_light *known;
+    // Where it meets a cell nearer than known_reach of its sides it goes on, while it may.
+    const alpi_surface_light *known; // with cells
+    float known_reach;
     uint64_t seed;
 } alpi_reference;
 

@@ -24,7 +24,8 @@ typedef void alpi_reflected_fn(const void *user, const alpi_surface_point *point
 
 /// Cells of surface light that are none: what a ray meets that leaves the scene, and what is black.
 enum { ALPI_CELL_ESCAPED = 0, ALPI_CELL_BLACK = 1, ALPI_CELL_FIRST = 2 };
-/// Where a cell tells the length of its sides on the surface, metres.
+/// Where a cell tells how near is near: the length of its sides on the surface, metres, or more
+/// where light changes much within it.
 enum { ALPI_CELL_SIDE = 3 };
 /// The cells of points that rays of some packets met, CELL_FIRST or more, or CELL_BLACK. Points of
 /// many rays at once, since waiting for memory is what takes the time: what one step reads for all

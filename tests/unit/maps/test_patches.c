@@ -5,9 +5,11 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "maps/patch_reach.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static const vec3 ONE = {1, 1, 1}, ZERO = {0, 0, 0}, HALF = {0.5f, 0.5f, 0.5f};
 
@@ -390,6 +392,47 @@ static void pictures_count_by_their_mean(void **state)
     }
 }
 
+/// Where light is even, cells tell the sides of their texels. About one that is brighter by c
+/// times the mean of all, d = (c / .1)^(1/3) of them, at most 8, and at least 1.
+static void uneven_light_reaches_farther(void **state)
+{
+    (void)state;
+    setting s;
+    open_setting(&s, make_ball(test_context(2), 8, 4), 64, 0.5f, 4, 1);
+    const alpi_patches *p = &s.patches;
+    float(*cells)[4] = p->cells + ALPI_CELL_FIRST;
+    const uint32_t floor = alpi_patches_find(p, p->scene->triangle_count - 1, 0.3f, 0.3f);
+    assert_true(floor != ALPI_NONE);
+    static const float brighter[] = {0.0f, 0.05f, 2.7f, 1e6f};
+    for (size_t i = 0; i < sizeof brighter / sizeof *brighter; i++) {
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            cells[t][0] = cells[t][1] = cells[t][2] = 0.5f;
+        }
+        cells[floor][1] += 1.5f * brighter[i];
+        ASSERT_OK(s.context, alpi_patches_set_reach(p, &(alpi_task_progress){0}));
+        const double contrast = (double)brighter[i] / (1.0 + (double)brighter[i] / s.texels.count);
+        const double wanted = fmin(fmax(cbrt(contrast / 0.1), 1.0), 8.0);
+        uint32_t longer = 0;
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            const uint16_t *at = s.texels.pixels[t], *of = s.texels.pixels[floor];
+            const bool beside = s.texels.charts[t] == s.texels.charts[floor] &&
+                                s.texels.pages[t] == s.texels.pages[floor] &&
+                                abs(at[0] - of[0]) <= 1 && abs(at[1] - of[1]) <= 1;
+            const double side = (double)alpi_texels_side(&s.texels, t);
+            ASSERT_NEAR(cells[t][ALPI_CELL_SIDE], beside ? wanted * side : side, 1e-4 * side);
+            longer += beside && wanted > 1.0;
+        }
+        assert_int_equal(longer, wanted > 1.0 ? 9 : 0);
+    }
+    for (uint32_t t = 0; t < s.texels.count; t++) { // in the dark: as it is
+        cells[t][0] = cells[t][1] = cells[t][2] = 0.0f;
+        cells[t][ALPI_CELL_SIDE] = 7.0f;
+    }
+    ASSERT_OK(s.context, alpi_patches_set_reach(p, &(alpi_task_progress){0}));
+    assert_true(cells[floor][ALPI_CELL_SIDE] == 7.0f);
+    close_setting(&s);
+}
+
 /// Backs: cells and receivers of their own, turned over, and seen only when a ray says so.
 static void backs_are_other_cells(void **state)
 {
@@ -431,6 +474,7 @@ int main(void)
         cmocka_unit_test(blocks_hold_every_texel_once),
         cmocka_unit_test(blocks_are_placed_by_area),
         cmocka_unit_test(pictures_count_by_their_mean),
+        cmocka_unit_test(uneven_light_reaches_farther),
         cmocka_unit_test(backs_are_other_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
