@@ -18,6 +18,7 @@ typedef struct bench_question {
     const uint32_t *list;              // [count] texels
     const alpi_reference_value *truth; // [count], for what a user would set by hand: models with
                                        // free colours get those that fit it best
+    uint64_t seed;
 } bench_question;
 
 /// @param paths  as the table says, less in a quick run; of no meaning to most
@@ -33,6 +34,7 @@ typedef struct bench_technique {
     bool exact; // its mean over seeds is the truth and its stated error true: a bias beyond it is a
                 // fault in one of the two
     bool partial; // it leaves out light on purpose, and its stated error is not about that
+    int seeds;    // that it is asked with, 1 or more
 } bench_technique;
 /// Those that there are, from 0. @return NULL past the last
 const bench_technique *bench_technique_at(int index);

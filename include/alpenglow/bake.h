@@ -167,8 +167,8 @@ typedef struct alp_light_options {
     uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map, with the
     /// 99th percentile of its texels' at most four times as much. Rounds of more and more samples
-    /// until both are stated. 0 (default): `samples` in one round; with a time_limit or
-    /// keep_partial in rounds that double.
+    /// until both are stated, the last of them for the texels that err most. 0 (default): `samples`
+    /// in one round; with a time_limit or keep_partial in rounds that double.
     float error;
     uint32_t samples; ///< [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple
                       ///< of 32; PATHS: its paths, to a multiple of 16; without bounces rays to
@@ -345,8 +345,8 @@ typedef struct alp_bake_report {
     /// radiosity and of the texels that gathered; of ALP_GATHER_PATHS its paths, each of which is
     /// several rays. A ray that goes on behind a pane is not counted again.
     uint64_t rays;
-    /// Of ALP_MAP_LIGHT: rays of a texel that gathered; PATHS: its paths; light_direct: its samples
-    /// of each light.
+    /// Of ALP_MAP_LIGHT: rays of a texel that gathered, but of the few that err most and got more;
+    /// PATHS: its paths; light_direct: its samples of each light.
     uint32_t light_samples;
     unsigned maps;           ///< that were made: bits of alp_map
     uint32_t surfaces_baked; ///< of scene.surfaces: those of `only`

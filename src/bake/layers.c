@@ -221,17 +221,18 @@ alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
 }
 
 static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution,
-                              alpi_bounced_again *again, double share,
+                              alpi_bounced_again *again, const uint32_t *had, uint32_t rays,
                               const alpi_task_progress *progress)
 {
     const alpi_bounced_options *o = &again->options;
-    const float b = (float)share;
     for (uint32_t layer = 0; layer < job->layers.light.count; layer++) {
         float(*bounced)[3] = job->layers.light.bounced[layer];
         ALP_TRY(alpi_radiosity_show(solution, layer, NULL, progress));
         ALP_TRY(alpi_bounced_again_gather(again, progress));
         for (uint32_t i = 0; i < o->count; i++) {
             const uint32_t t = o->order[i];
+            const double before = had != NULL ? had[t] : 0.0;
+            const float b = (float)(rays / (before + rays));
             for (int k = 0; k < 3; k++) {
                 bounced[t][k] += b * (o->gather->values[t].mean[k] - bounced[t][k]);
             }
@@ -243,7 +244,7 @@ static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution
 
 alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
                                    const alpi_bounced_options *options, const alpi_lattice *lattice,
-                                   uint8_t *states, double share,
+                                   uint8_t *states, const uint32_t *had, uint32_t rays,
                                    const alpi_task_progress *progress)
 {
     if (job->layers.light.count == 0) {
@@ -264,7 +265,7 @@ alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *sol
     alp_result result = alpi_bounced_again_create(&own, lattice, states,
                                                   solution->options.kept_limit, progress, &again);
     if (result == ALP_OK) {
-        result = gather_each(job, solution, &again, share, progress);
+        result = gather_each(job, solution, &again, had, rays, progress);
     }
     alpi_bounced_again_destroy(&again);
     alpi_release(job->context, gather.values);

@@ -23,10 +23,11 @@ uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info 
 alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky);
 /// What texels gather of each by the rays that found all of it, as options and states say; averaged
 /// with what they gathered before.
-/// @param share of the new in the average
+/// @param had  [texels] rays of each before, or NULL: none
+/// @param rays of each now
 alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
                                    const alpi_bounced_options *options, const alpi_lattice *lattice,
-                                   uint8_t *states, double share,
+                                   uint8_t *states, const uint32_t *had, uint32_t rays,
                                    const alpi_task_progress *progress);
 /// Puts each together, and makes their sum, as floats in their order, the mean of the values.
 /// @param skies  [texels] or NULL: what of the light is a sky's that is gathered with what bounces

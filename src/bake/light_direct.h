@@ -29,9 +29,10 @@ double alpi_light_typical_samples(const alpi_light_direct *direct);
 
 /// What more samples are for.
 typedef struct alpi_light_goal {
-    double wanted; // root mean square of the errors that would do, W·m⁻²
-    bool each;     // of each texel alone, not of all together
-    double most;   // samples of all texels together, about
+    double wanted;        // root mean square of the errors that would do, W·m⁻²
+    bool each;            // of each texel alone, not of all together
+    double most;          // samples of all texels together, about
+    const uint8_t *among; // [texels] NULL, or not 0: of those that may count as noisy
     uint64_t seed;
 } alpi_light_goal;
 

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
 static double sum_variances(const alpi_reference_value *v)
 {
@@ -41,16 +42,27 @@ alp_result alpi_light_find_error(alp_context *context, const alpi_reference_valu
     return result;
 }
 
+/// Squared errors of texels at the limit, channels summed.
+static double square_at(const alpi_light_error *error, double limit)
+{
+    return 3.0 * pow(limit * error->mean, 2.0);
+}
+
+/// Of it: that of half the limit.
+static const double HALF = 0.25;
+/// Of a texel's squared error: what is bounced light's is worth rays from here on.
+static const double BOUNCED = 0.25;
+
 double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *error, double limit,
                        alpi_light_noise *noise)
 {
-    const double above = 3.0 * pow(limit * error->mean, 2.0);
+    const double above = square_at(error, limit);
     double all = 0.0, direct = 0.0, bounced = 0.0;
     uint32_t noisy = 0;
     for (uint32_t i = 0; i < whole->count; i++) {
         const uint32_t t = whole->order[i];
         const double square = sum_variances(&whole->values[t]);
-        noisy += square > 0.25 * above ? 1u : 0u;
+        noisy += square > HALF * above ? 1u : 0u;
         if (square > above) {
             all += square;
             direct += whole->direct != NULL ? sum_variances(&whole->direct[t]) : 0.0;
@@ -64,6 +76,31 @@ double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *er
     noise->direct = error->over_mean.p99 * sqrt(direct / all);
     noise->bounced = error->over_mean.p99 * sqrt(bounced / all);
     return error->over_mean.p99 * sqrt(fmax(all - direct - bounced, 0.0) / all);
+}
+
+void alpi_light_find_worst(const alpi_light_whole *whole, const alpi_light_error *error,
+                           uint32_t texels, double limit, const uint8_t *between,
+                           alpi_light_worst *worst)
+{
+    const double above = square_at(error, limit);
+    uint32_t beyond = 0, beyond_between = 0;
+    memset(worst->marks, 0, texels);
+    worst->count = 0;
+    for (uint32_t i = 0; i < whole->count; i++) {
+        const uint32_t t = whole->order[i];
+        const double square = sum_variances(&whole->values[t]);
+        const bool bounced = sum_variances(&whole->bounced[t]) > BOUNCED * square;
+        worst->marks[t] = square > HALF * above;
+        if (worst->marks[t] != 0 && bounced) {
+            worst->list[worst->count] = t;
+            worst->count += between[t] == 0;
+        }
+        beyond += square > above && bounced;
+        beyond_between += square > above && bounced && between[t] != 0;
+    }
+    if (2 * beyond_between > beyond) {
+        worst->count = 0;
+    }
 }
 
 void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, bool cut_off,
@@ -82,11 +119,11 @@ void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error,
                   "of each light, wanted %.2g %%",
                   100.0 * error->rms, rays, direct, 100.0 * wanted);
     } else if (wanted > 0.0 && error->p99 > ALPI_P99_LIMIT * wanted) {
-        alpi_warn(job->context, "error-not-reached", job->scene->name,
-                  "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred "
-                  "has more than %.2g %% after %u rays a texel and up to %u samples of each light, "
-                  "wanted at most %.2g %%",
-                  100.0 * error->rms, 100.0 * error->p99, rays, direct,
-                  100.0 * ALPI_P99_LIMIT * wanted);
+        alpi_warn(
+            job->context, "error-not-reached", job->scene->name,
+            "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred "
+            "has more than %.2g %% after up to %u rays a texel and up to %u samples of each light, "
+            "wanted at most %.2g %%",
+            100.0 * error->rms, 100.0 * error->p99, rays, direct, 100.0 * ALPI_P99_LIMIT * wanted);
     }
 }

@@ -36,6 +36,23 @@ typedef struct alpi_light_whole {
 double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *error, double limit,
                        alpi_light_noise *noise);
 
+/// The texels that err most: by more than half of a limit. Those between half of it and all of it
+/// too, since what more rays bring is a guess.
+typedef struct alpi_light_worst {
+    uint8_t *marks; // [texels] out: 1 of them, 0 of the others
+    // [count] out: those of them whose bounced light is noisy and that always sent rays; room for
+    // whole's count.
+    uint32_t *list;
+    // 0: none, or of those beyond the limit whose bounced light is noisy most are interpolated,
+    // which only rays of all texels make better.
+    uint32_t count;
+} alpi_light_worst;
+/// @param texels  of the map   @param limit over the mean
+/// @param between [texels] whether they were ever interpolated
+void alpi_light_find_worst(const alpi_light_whole *whole, const alpi_light_error *error,
+                           uint32_t texels, double limit, const uint8_t *between,
+                           alpi_light_worst *worst);
+
 /// Warns of light that was cut off, or whose error is larger than wanted.
 /// @param cut_off whether the light was   @param rays, direct samples of a texel
 void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error, bool cut_off,

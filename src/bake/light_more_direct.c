@@ -93,9 +93,11 @@ static void list_noisy(direct_deal *deal)
 {
     const alpi_light_task *t = deal->direct->task;
     const double wanted = deal->goal->wanted;
+    const uint8_t *among = deal->goal->among;
     for (uint32_t i = 0; i < t->count; i++) {
         const uint32_t texel = t->order[i];
-        deal->marks[texel] = noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
+        deal->marks[texel] = (among == NULL || among[texel] != 0) &&
+                             noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
     }
     for (uint32_t i = 0; i < t->count; i++) {
         uint32_t around[9];

@@ -13,7 +13,7 @@ typedef struct alpi_light_effort {
     double texels;       // whose direct light is looked for
     double traced;       // that send rays
     double direct_power; // of samples, that direct light's error falls with
-    bool drawn;          // directions of a sky are, one by one (alpi_direct_output)
+    double draw;         // time of a sample of direct light (alpi_direct_output)
 } alpi_light_effort;
 
 /// Errors of the two kinds of light, over a mean: those of the whole map, or of the texels that err

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rounds of rays: direct and bounced light are gathered apart, and get as many more samples as
 // bring both together to the error that was asked for at the least cost: bounced light as many for
-// each texel, direct light by its noise (light_more_direct.c). Rounds have random numbers of their
-// own; what they find is averaged by their numbers of samples.
+// each texel, direct light by its noise (light_more_direct.c). Then the texels that err most get
+// more alone (light_next.c). Rounds have random numbers of their own; what they find is averaged by
+// their numbers of samples.
 //
 // With shares wᵢ of the samples and errors bᵢ + eᵢ of the rounds, bᵢ the bias of interpolation and
 // eᵢ noise, a texel's squared error is
@@ -14,8 +15,7 @@
 // single rounds: some texels, held out, are gathered beside the map in each round, x̂ = Σ wᵢ yᵢ, and
 // the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
 #include "bake/layers.h"
-#include "bake/light_direct.h"
-#include "bake/light_error.h"
+#include "bake/light_next.h"
 
 #include "base/memory.h"
 #include "base/random.h"
@@ -27,56 +27,18 @@
 #include <string.h>
 
 enum {
-    REPLICATES = 4,
     FIRST_RAYS = 64,  // of a bake that goes for an error
     FIRST_DIRECT = 8, // the same
-    MOST_SAMPLES = 65536,
     ROUND_LIMIT = 12,
     TIMED_ROUND_LIMIT = 64 // each adds about as much as there is, or ends with the time
 };
 // Of the time that is left, what a round may take: how long it takes is a guess.
 static const double TIME_SHARE = 0.9;
-/// Share of the texels whose direct light more samples would go to, at least: they are counted for
-/// one way to share out the error of many.
-static const double LEAST_NOISY = 0.05;
-
-typedef struct rounds {
-    alpi_bake_job *job;
-    alpi_light_task *task;
-    const alpi_gatherer *fixed;
-    alpi_radiosity *solution;
-    float (*skies)[3]; // [texels] what of the bounced light is a soft sky's; NULL: there is none
-    alpi_reference_value *fresh;         // [texels] of a later round
-    float (*fresh_skies)[3];             // [texels], or NULL too
-    alpi_directional *fresh_directional; // [texels]; NULL: not wanted
-    uint8_t *states;                     // [texels]
-    uint8_t *between;                    // [texels] whether ever interpolated
-    alpi_held_out *held_out;             // by the rays of the last round
-    alpi_reference_value *held;          // [held_out->count] by those of all rounds
-    alpi_light_direct direct;
-    uint32_t rays;                      // of a texel so far
-    uint32_t number;                    // of the round
-    double ray_seconds;                 // of a ray more of each texel
-    double mean, map_mean;              // of all light, and of that of the map: see measure()
-    double direct_error, bounced_error; // root mean squares over a mean
-    double bounced_rms;                 // of bounced light, a soft sky's apart
-    double solved_error;                // of the solution that rays meet, over a mean too
-    double solved_noise;                // 1 / √ rays that a block of it is known by, on average
-    alpi_light_error map;               // as the map would be stated; see look_at_map()
-    bool for_worst;                     // the next round is for the worst texels alone
-    bool cut_off;                       // by the clock, or by who watches
-} rounds;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
 {
     const bool may_end = o->sampling.time_limit > 0.0 || o->sampling.keep_partial;
     return (o->light.error > 0.0f || may_end) && o->light.gather == ALP_GATHER_RAYS;
-}
-
-/// The most rays of a texel.
-static uint32_t most_rays(const alp_light_options *o)
-{
-    return o->error > 0.0f ? MOST_SAMPLES : alpi_cosine_rays_samples(o->samples, REPLICATES);
 }
 
 /// Without rounds, as many as make direct light's error the smaller one of the two by a half:
@@ -98,21 +60,69 @@ uint32_t alpi_light_first_direct(const alpi_bake_job *job)
 
 // --- one round -----------------------------------------------------------------------------------
 
-/// Bounced light by `rays` more of each texel.
-static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value *values,
-                                 float (*skies)[3], alpi_directional *directional)
+/// Texels that send rays in this round.
+static const uint32_t *senders(const alpi_light_round_state *r, uint32_t *count)
+{
+    const bool few = r->worst.count > 0;
+    *count = few ? r->worst.count : r->task->count;
+    return few ? r->worst.list : r->task->order;
+}
+
+/// Maps what the senders of this round gather, by texels that rays are traced from and others.
+static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *gather,
+                              const alpi_gatherer *beside)
 {
     alpi_bake_job *job = r->job;
     const alpi_light_task *t = r->task;
+    const bool all = r->worst.count == 0;
+    const uint32_t rays = gather->gatherer->packet_count * ALPI_PACKET;
+    uint8_t *states = all ? r->states : r->worst.marks;
+    alpi_bounced_options options = {
+        .gather = gather,
+        .near = job->validity.near,
+        .adaptive = all && r->fixed == NULL && !job->options.light.denoise &&
+                    job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .straight = true,
+        .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
+        .beside = beside,
+        .joined = r->fixed == NULL,
+        .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,
+    };
+    options.order = senders(r, &options.count);
+    if (!all) { // none but those of the list has a state
+        memset(states, 0, t->receivers->count);
+    }
+    // As in the round of all before.
+    alpi_bounced_report report = {.traced = job->report.light_traced, .factor = r->factor};
+    const double began = alpi_seconds();
+    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, states, &report));
+    if (all) {
+        const double sent = (double)rays * fmax((double)report.traced, 1.0);
+        r->ray_seconds = (alpi_seconds() - began) / sent;
+        r->factor = report.factor;
+        job->report.light_traced = report.traced;
+        job->report.light_interpolated = report.interpolated;
+    }
+    job->report.rays += report.rays;
+    return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, states, r->rays_of, rays,
+                                   &t->progress);
+}
+
+/// Bounced light by `rays` more of each texel that sends any.
+static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
+                                 alpi_reference_value *values, float (*skies)[3],
+                                 alpi_directional *directional)
+{
+    const alpi_bake_job *job = r->job;
     alpi_gather_scene from = alpi_radiosity_scene(r->solution);
     alpi_reference near;
     if (r->fixed == NULL) {
-        alpi_light_near(job, t, r->solution, &from, &near);
+        alpi_light_near(job, r->task, r->solution, &from, &near);
     }
     const alpi_cosine_rays cosine = {
         .context = job->context,
         .samples = rays,
-        .replicates = REPLICATES,
+        .replicates = ALPI_LIGHT_REPLICATES,
         .joined = true,
         .seed = alpi_hash64(job->options.occlusion.seed + r->number),
     };
@@ -123,34 +133,13 @@ static alp_result gather_bounced(rounds *r, uint32_t rays, alpi_reference_value 
     const alpi_gather_job gather = {.context = job->context,
                                     .from = &from,
                                     .gatherer = r->fixed != NULL ? r->fixed : &own,
-                                    .receivers = t->receivers,
+                                    .receivers = r->task->receivers,
                                     .values = values,
                                     .skies = skies,
                                     .directional = directional,
                                     .directional_without_sky =
                                         job->options.light.direct == ALP_DIRECT_OFF};
-    const alpi_bounced_options options = {
-        .gather = &gather,
-        .order = t->order,
-        .count = t->count,
-        .near = job->validity.near,
-        .adaptive = r->fixed == NULL && !job->options.light.denoise &&
-                    job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
-        .straight = true,
-        .held_out = r->rays == 0 || r->held_out->count > 0 ? r->held_out : NULL,
-        .beside = &beside,
-        .joined = r->fixed == NULL,
-        .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,
-    };
-    alpi_bounced_report report = {.traced = job->report.light_traced}; // as in the round before
-    const double began = alpi_seconds();
-    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, r->states, &report));
-    r->ray_seconds = (alpi_seconds() - began) / rays;
-    job->report.light_traced = report.traced;
-    job->report.light_interpolated = report.interpolated;
-    job->report.rays += report.rays;
-    return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, r->states,
-                                   (double)rays / ((double)r->rays + rays), &t->progress);
+    return map_bounced(r, &gather, &beside);
 }
 
 void alpi_light_merge(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
@@ -164,8 +153,8 @@ void alpi_light_merge(alpi_reference_value *v, const alpi_reference_value *fresh
 }
 
 /// The same of light by direction, where it is wanted.
-static void mix(const rounds *r, alpi_directional *directional, uint32_t texel, double had,
-                double more)
+static void mix(const alpi_light_round_state *r, alpi_directional *directional, uint32_t texel,
+                double had, double more)
 {
     if (directional != NULL) {
         alpi_directional_mix(&directional[texel], (float)(had / (had + more)),
@@ -173,7 +162,7 @@ static void mix(const rounds *r, alpi_directional *directional, uint32_t texel, 
     }
 }
 
-static void note_interpolated(const rounds *r)
+static void note_interpolated(const alpi_light_round_state *r)
 {
     for (uint32_t i = 0; i < r->task->count; i++) {
         const uint32_t t = r->task->order[i];
@@ -182,7 +171,7 @@ static void note_interpolated(const rounds *r)
 }
 
 /// States the squared error of what was ever interpolated; see above.
-static void merge_held_out(const rounds *r, uint32_t rays)
+static void merge_held_out(const alpi_light_round_state *r, uint32_t rays)
 {
     const alpi_held_out *h = r->held_out;
     float variance[3];
@@ -202,162 +191,52 @@ static void merge_held_out(const rounds *r, uint32_t rays)
     }
 }
 
-static alp_result add_bounced(rounds *r, uint32_t rays)
+static alp_result add_bounced(alpi_light_round_state *r, uint32_t rays)
 {
     double noise;
+    uint32_t count;
+    const uint32_t *order = senders(r, &count);
     ALP_TRY(alpi_light_show(r->job, r->task, r->solution, r->rays, &noise));
     ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
-    const float b = (float)((double)rays / ((double)r->rays + rays));
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        alpi_light_merge(&r->task->values[t], &r->fresh[t], r->rays, rays);
-        mix(r, r->task->directional, t, r->rays, rays);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t t = order[i];
+        const double had = r->rays_of[t];
+        const float b = (float)(rays / (had + rays));
+        alpi_light_merge(&r->task->values[t], &r->fresh[t], had, rays);
+        mix(r, r->task->directional, t, had, rays);
         for (int k = 0; k < 3 && r->skies != NULL; k++) {
             r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
         }
+        r->rays_of[t] += rays;
+        r->most_rays = r->rays_of[t] > r->most_rays ? r->rays_of[t] : r->most_rays;
     }
-    merge_held_out(r, rays);
-    r->solved_noise += (double)b * (noise - r->solved_noise);
-    r->rays += rays;
-    r->job->report.light_samples = r->rays;
-    return ALP_OK;
-}
-
-// --- errors --------------------------------------------------------------------------------------
-
-static void sum_errors(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
-{
-    const rounds *r = user;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = r->task->order[i];
-        const alpi_reference_value *d = &r->solution->direct[t], *b = &r->task->values[t];
-        for (int k = 0; k < 3; k++) {
-            const double bounced =
-                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
-            sums[0] += (double)d->mean[k] + (double)b->mean[k];
-            sums[1] += (double)d->variance[k];
-            sums[2] += (double)b->variance[k];
-            sums[3] += bounced * bounced;
-            sums[4] += bounced;
-        }
+    if (r->worst.count == 0) {
+        merge_held_out(r, rays);
+        r->solved_noise += rays / ((double)r->rays + rays) * (noise - r->solved_noise);
+        r->rays += rays;
+        r->job->report.light_samples = r->rays;
     }
-}
-
-/// Errors are over the mean of what the map will hold. Where that is bounced light alone, direct
-/// light is what others reflect, and errs over the mean of all.
-static alp_result measure(rounds *r)
-{
-    double sums[ALPI_SUM_LIMIT] = {0.0};
-    const double count = 3.0 * fmax((double)r->task->count, 1.0);
-    ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_errors, r, NULL, sums));
-    const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
-    r->mean = sums[0] / count;
-    r->map_mean = direct ? r->mean : sums[4] / count;
-    r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
-    r->bounced_error = r->map_mean > 0.0 ? sqrt(sums[2] / count) / r->map_mean : 0.0;
-    r->bounced_rms = sqrt(sums[3] / count);
-    const double solved =
-        r->fixed == NULL
-            ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms, r->solved_noise)
-            : 0.0;
-    r->solved_error = r->map_mean > 0.0 ? solved * r->mean / r->map_mean : 0.0;
-    r->map = (alpi_light_error){.over_mean = {(double)NAN, (double)NAN}};
     return ALP_OK;
-}
-
-/// Error of the solution over the bounced light of a texel.
-static double solved_share(const rounds *r)
-{
-    return r->bounced_rms > 0.0 ? r->solved_error * r->map_mean / r->bounced_rms : 0.0;
-}
-
-/// The map as it would be if this were all, in `fresh`, and its errors.
-static alp_result look_at_map(rounds *r)
-{
-    const alpi_light_task *t = r->task;
-    alpi_light_peek(r->job, t, r->solution, (const float(*)[3])r->skies, solved_share(r), r->fresh);
-    return alpi_light_find_error(r->job->context, r->fresh, t->receivers->count, t->order, t->count,
-                                 &r->map);
 }
 
 // --- what comes next -----------------------------------------------------------------------------
 
 /// As many of `samples` as there is time for; 0 where they would be too few to help those there
 /// are.
-static double affordable(const rounds *r, double samples, double seconds_each, double there)
+static double affordable(const alpi_light_round_state *r, double samples, double seconds_each,
+                         double there)
 {
     const double left = TIME_SHARE * (r->task->clock->deadline - alpi_seconds());
     const double most = isinf(left) ? samples : fmin(samples, fmax(left, 0.0) / seconds_each);
     return most < samples && most < there / 8.0 ? 0.0 : most;
 }
 
-/// What the next round goes for: what the solution leaves of the error that is wanted, which no
-/// rays make better, and half of that error where it leaves less; else 2^−½ of what there is.
-static double aim_of(const rounds *r)
-{
-    const double wanted = (double)r->job->options.light.error;
-    const double left = wanted * wanted - r->solved_error * r->solved_error;
-    return wanted > 0.0 ? sqrt(fmax(left, 0.25 * wanted * wanted))
-                        : sqrt(0.5) * hypot(r->direct_error, r->bounced_error);
-}
-
-static alpi_light_plan cheapest(const rounds *r, const alpi_light_noise *noise, double aim)
-{
-    const alpi_light_effort effort = {.direct = alpi_light_typical_samples(&r->direct),
-                                      .rays = r->rays,
-                                      .most = most_rays(&r->job->options.light),
-                                      .texels = r->task->count,
-                                      .direct_power = r->direct.power,
-                                      .drawn = r->solution->direct_drawn,
-                                      .traced = (double)r->job->report.light_traced};
-    return alpi_light_cheapest(&effort, noise, aim);
-}
-
-/// Where the map as a whole is good enough, its worst texels may not be yet: few of them, whose
-/// direct light is mostly what is noisy, cost little.
-static alp_result plan_for_worst(rounds *r, alpi_light_plan *p)
-{
-    const double limit = ALPI_P99_LIMIT * (double)r->job->options.light.error;
-    *p = (alpi_light_plan){0};
-    ALP_TRY(look_at_map(r));
-    if (!(r->map.over_mean.p99 > limit)) { // also where it is dark
-        return ALP_OK;
-    }
-    const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
-    const alpi_light_whole whole = {.values = r->fresh,
-                                    .bounced = r->task->values,
-                                    .direct = direct ? r->solution->direct : NULL,
-                                    .order = r->task->order,
-                                    .count = r->task->count};
-    alpi_light_noise noise;
-    const double solved = alpi_light_tail(&whole, &r->map, limit, &noise);
-    *p = cheapest(r, &noise, sqrt(fmax(limit * limit - solved * solved, 0.25 * limit * limit)));
-    return ALP_OK;
-}
-
-/// @param p out: nothing, where there is nothing to do, or nothing helps
-static alp_result plan_round(rounds *r, alpi_light_plan *p)
-{
-    const double aim = aim_of(r);
-    r->for_worst = false;
-    if (hypot(r->direct_error, r->bounced_error) > aim) {
-        const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
-        const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
-        const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
-        *p = cheapest(r, &noise, aim);
-        return ALP_OK;
-    }
-    *p = (alpi_light_plan){0};
-    r->for_worst = r->job->options.light.error > 0.0f;
-    return r->for_worst ? plan_for_worst(r, p) : ALP_OK;
-}
-
 /// One more round of what is too noisy.
 /// @param done out: nothing is, or nothing helps, or the time is over
-static alp_result improve(rounds *r, bool *done)
+static alp_result improve(alpi_light_round_state *r, bool *done)
 {
     alpi_light_plan p;
-    ALP_TRY(plan_round(r, &p));
+    ALP_TRY(alpi_light_round_plan(r, &p));
     double direct = p.direct, rays = p.rays;
     if (direct <= 0.0 && rays <= 0.0) {
         *done = true;
@@ -373,15 +252,20 @@ static alp_result improve(rounds *r, bool *done)
         const alpi_light_goal goal = {
             .wanted = p.for_direct * r->mean,
             .each = r->for_worst,
+            .among = r->for_worst ? r->worst.marks : NULL,
             .most = isinf(r->task->clock->deadline) ? HUGE_VAL : direct * listed,
             .seed = alpi_hash64(~r->job->options.occlusion.seed + r->number)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
-    rays = affordable(r, rays, r->ray_seconds, r->rays);
+    uint32_t count;
+    (void)senders(r, &count);
+    const double sending = fmin(count, (double)r->job->report.light_traced);
+    rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
-        ALP_TRY(add_bounced(r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), REPLICATES)));
+        ALP_TRY(add_bounced(
+            r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), ALPI_LIGHT_REPLICATES)));
     }
     if (direct < direct_asked || rays < rays_asked) { // the clock had a say
         r->cut_off = true;
@@ -391,7 +275,7 @@ static alp_result improve(rounds *r, bool *done)
     }
     *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
     const double before = r->direct_error * r->mean;
-    ALP_TRY(measure(r));
+    ALP_TRY(alpi_light_round_measure(r));
     if (direct > 0.0 && !r->for_worst) {
         r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
                                            r->direct_error * r->mean / before);
@@ -402,11 +286,11 @@ static alp_result improve(rounds *r, bool *done)
 // --- all of them ---------------------------------------------------------------------------------
 
 /// The first round, without which there is nothing.
-static alp_result begin(rounds *r)
+static alp_result begin(alpi_light_round_state *r)
 {
     alp_context *context = r->job->context;
     const uint32_t texels = r->task->receivers->count;
-    const uint32_t most = most_rays(&r->job->options.light);
+    const uint32_t most = alpi_light_round_most_rays(&r->job->options.light);
     const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
     ALPI_TRY_NEW(context, r->task->values, texels);
     if (alpi_radiosity_scene(r->solution).sky) {
@@ -420,6 +304,7 @@ static alp_result begin(rounds *r)
     r->rays = more ? FIRST_RAYS : most;
     r->job->report.light_samples =
         r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
+    r->most_rays = r->rays;
     r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
     const uint32_t direct = r->solution->options.direct_samples;
     r->direct = (alpi_light_direct){.job = r->job,
@@ -427,14 +312,14 @@ static alp_result begin(rounds *r)
                                     .solution = r->solution,
                                     .values = r->solution->direct,
                                     .most = direct,
-                                    .limit = most_rays(&r->job->options.light),
+                                    .limit = alpi_light_round_most_rays(&r->job->options.light),
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
                                                (direct * fmax(r->task->count, 1.0))};
-    return measure(r);
+    return alpi_light_round_measure(r);
 }
 
-static alp_result go_on(rounds *r)
+static alp_result go_on(alpi_light_round_state *r)
 {
     alp_context *context = r->job->context;
     const uint32_t texels = r->task->receivers->count;
@@ -451,11 +336,17 @@ static alp_result go_on(rounds *r)
     r->direct.fresh = r->fresh;
     r->direct.fresh_directional = r->fresh_directional;
     ALPI_TRY_NEW(context, r->between, texels);
+    ALPI_TRY_NEW(context, r->rays_of, texels);
+    if (!timed) {
+        ALPI_TRY_NEW(context, r->worst.marks, texels);
+        ALPI_TRY_NEW(context, r->worst.list, r->task->count + 1);
+    }
     ALPI_TRY_NEW(context, r->held, r->held_out->count);
     memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
     note_interpolated(r);
     for (uint32_t i = 0; i < r->task->count; i++) {
         r->direct.counts[r->task->order[i]] = r->direct.most;
+        r->rays_of[r->task->order[i]] = r->rays;
     }
     for (bool done = false; !done && r->number < limit;) {
         ALP_TRY(improve(r, &done));
@@ -464,24 +355,24 @@ static alp_result go_on(rounds *r)
 }
 
 /// Whether a round that was cut off may be left out.
-static bool may_be_dropped(const rounds *r)
+static bool may_be_dropped(const alpi_light_round_state *r)
 {
     const alpi_light_clock *c = r->task->clock;
     return c->refused ? r->job->options.sampling.keep_partial : alpi_light_clock_is_late(c);
 }
 
-static alp_result warn_of_error(rounds *r)
+static alp_result warn_of_error(alpi_light_round_state *r)
 {
     const bool wanted = r->job->options.light.error > 0.0f;
     if (r->cut_off || (wanted && isnan(r->map.over_mean.p99))) {
-        ALP_TRY(look_at_map(r));
+        ALP_TRY(alpi_light_round_look(r));
     }
     r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
-    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->rays, r->direct.most);
+    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->most_rays, r->direct.most);
     return ALP_OK;
 }
 
-static alp_result run_rounds(rounds *r)
+static alp_result run_rounds(alpi_light_round_state *r)
 {
     ALP_TRY(begin(r));
     if (!alpi_light_has_rounds(&r->job->options)) {
@@ -491,7 +382,7 @@ static alp_result run_rounds(rounds *r)
     if (result == ALP_ERROR_CANCELLED && may_be_dropped(r)) {
         r->cut_off = true;
         r->task->clock->ended = true; // asked again it would cancel what it wanted kept
-        result = measure(r);
+        result = alpi_light_round_measure(r);
     }
     if (result == ALP_OK) {
         const bool ended = r->task->clock->ended;
@@ -505,7 +396,7 @@ static alp_result run_rounds(rounds *r)
 // --- the end -------------------------------------------------------------------------------------
 
 /// What only rounds need.
-static void release_rounds(rounds *r)
+static void release_rounds(alpi_light_round_state *r)
 {
     alp_context *context = r->job->context;
     alpi_release(context, r->fresh);
@@ -513,9 +404,14 @@ static void release_rounds(rounds *r)
     alpi_release(context, r->fresh_directional);
     alpi_release(context, r->direct.counts);
     alpi_release(context, r->between);
+    alpi_release(context, r->rays_of);
+    alpi_release(context, r->worst.marks);
+    alpi_release(context, r->worst.list);
     alpi_release(context, r->held);
     alpi_release(context, r->held_out);
     r->between = NULL;
+    r->rays_of = NULL;
+    r->worst = (alpi_light_worst){0};
     r->held = NULL;
     r->held_out = NULL;
     r->fresh_directional = NULL;
@@ -527,14 +423,15 @@ static void release_rounds(rounds *r)
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
                              alpi_radiosity *solution)
 {
-    rounds r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
+    alpi_light_round_state r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
     alp_result result = run_rounds(&r);
     release_rounds(&r);
     if (result == ALP_OK && job->options.light.denoise) {
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        alpi_light_state_solved(task, (const float(*)[3])r.skies, solved_share(&r));
+        alpi_light_state_solved(task, (const float(*)[3])r.skies,
+                                alpi_light_round_solved_share(&r));
         result = alpi_light_sum(job, task, solution, r.skies);
     }
     alpi_release(job->context, r.skies);

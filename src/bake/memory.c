@@ -64,8 +64,9 @@ enum {
     GATHER_BYTES = 26, // values, states 1, marks 1
     LEVEL_BYTES = 4,   // where those of occlusion may not be written over
     SKY_BYTES = 12,    // a soft sky's part of the values, and of those of later rounds
-    // Of later rounds: fresh 24, counts 4, lists 8, noisy 1, halves of samples 1, between 1.
-    ROUND_BYTES = 39,
+    // Of later rounds: fresh 24, counts 4, lists 8, noisy 1, halves of samples 1, between 1;
+    // rays of each 4, the worst 5.
+    ROUND_BYTES = 48,
     SHARE_BYTES = 12, // and of those halves, where emissive polygons may stand beside other light
     // Texels held out, with what they found in a round; and in all rounds; and probes.
     HELD_OUT_BYTES = sizeof(alpi_held_out) +

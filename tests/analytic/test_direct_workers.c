@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Direct light has the same bits for any number of workers, and the same means whatever else is in
-// the list; it ends soon after it is cancelled, within one receiver too.
+// the list; it ends soon after it is cancelled, within one receiver too. It tells what a sample
+// takes.
 #include "base/image.h"
 #include "scene/sky.h"
 #include "test_direct_stage.h"
@@ -79,20 +80,27 @@ static void workers_change_nothing(void **state)
     alp_context_destroy(context);
 }
 
-/// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: of variances
-/// a part is scaled by what all receivers tell.
-static void nor_with_spots(void **state)
+/// A picture of a sky: every fifth pixel is bright.
+static alp_image *bright_pixels(alp_context *context)
 {
-    (void)state;
     enum { WIDTH = 64, HEIGHT = 32 };
-    alp_context *context = test_context(1);
     const alp_image_info info = {WIDTH, HEIGHT, 3, ALP_COMPONENT_FLOAT};
-    alp_lighting_options o = alp_lighting_options_default();
     alp_image *picture = NULL;
     ASSERT_OK(context, alp_image_create(context, info, &picture));
     for (uint32_t i = 0; i < WIDTH * HEIGHT * 3; i++) {
         alp_image_floats(picture)[i] = i / 3 % 5 == 0 ? 40.0f : 0.1f;
     }
+    return picture;
+}
+
+/// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: of variances
+/// a part is scaled by what all receivers tell.
+static void nor_with_spots(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_lighting_options o = alp_lighting_options_default();
+    alp_image *picture = bright_pixels(context);
     o.sky.kind = ALP_SKY_IMAGE;
     o.sky.image = picture;
     test_stage stage = open_cornell(context, &o);
@@ -219,12 +227,53 @@ static void every_allocation_may_fail(void **state)
     alp_context_destroy(context);
 }
 
+/// In plain shadow rays: one; two of an uneven sky; of listed triangles by their number.
+static void the_time_of_a_sample_is_told(void **state)
+{
+    (void)state;
+    const struct {
+        const char *scene;
+        alp_sky_kind sky;
+        double draw;
+    } cases[] = {{"builtin:cornell", ALP_SKY_NONE, 1.0}, // 2 emissive triangles
+                 {"builtin:sphere-plane", ALP_SKY_CONSTANT, 1.0},
+                 {"builtin:sphere-plane", ALP_SKY_IMAGE, 2.0},
+                 {"builtin:windows", ALP_SKY_NONE, 1.0 + 0.008 * 528},
+                 {"builtin:windows", ALP_SKY_IMAGE, 1.0 + 0.008 * 528}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = NULL;
+        alp_lighting_options lighting = alp_lighting_options_default();
+        alp_image *picture = bright_pixels(context);
+        lighting.sky.kind = cases[i].sky;
+        lighting.sky.image = cases[i].sky == ALP_SKY_IMAGE ? picture : NULL;
+        ASSERT_OK(context, alp_scene_load(context, cases[i].scene, &scene));
+        test_stage stage = test_stage_open(context, scene, NULL, 0, &lighting);
+        const alpi_direct_options o = test_stage_options(&stage, 8);
+        const test_patches floor = floor_patches();
+        const alpi_receivers receivers = test_patches_receivers(&floor);
+        alpi_reference_value values[POINTS];
+        alpi_direct_output output = {.values = values};
+        alpi_direct *direct = NULL;
+        ASSERT_OK(context, alpi_direct_create(&o, &direct));
+        ASSERT_OK(context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
+        ASSERT_NEAR(output.draw, cases[i].draw, 1e-12);
+        alpi_direct_destroy(direct);
+        test_stage_close(&stage);
+        alp_image_destroy(picture);
+        alp_context_destroy(context);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),        cmocka_unit_test(nor_with_spots),
-        cmocka_unit_test(one_receiver_can_be_cancelled), cmocka_unit_test(counts_are_true),
+        cmocka_unit_test(workers_change_nothing),
+        cmocka_unit_test(nor_with_spots),
+        cmocka_unit_test(one_receiver_can_be_cancelled),
+        cmocka_unit_test(counts_are_true),
         cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(the_time_of_a_sample_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

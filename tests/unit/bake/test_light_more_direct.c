@@ -127,6 +127,35 @@ static void noise_comes_down_to_what_is_wanted(void **state)
     finish(&s);
 }
 
+/// Of texels that are left out, only those beside others get any.
+static void some_texels_count_alone(void **state)
+{
+    (void)state;
+    static stage s;
+    start(1, &s);
+    const double wanted = 0.2 * find_error(&s);
+    uint8_t *among = ALPI_NEW(s.context, uint8_t, s.task.count);
+    assert_non_null(among);
+    assert_false(
+        deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
+    assert_true(count_dealt(&s) == 0);
+    uint32_t noisiest = 0;
+    for (uint32_t t = 0; t < s.task.count; t++) {
+        const bool more = s.direct.values[t].variance[0] > s.direct.values[noisiest].variance[0];
+        noisiest = more ? t : noisiest;
+    }
+    among[noisiest] = 1;
+    assert_true(
+        deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
+    uint32_t got = 0;
+    for (uint32_t t = 0; t < s.task.count; t++) {
+        got += s.direct.counts[t] > FIRST;
+    }
+    assert_true(s.direct.counts[noisiest] > FIRST && got <= 9);
+    alpi_release(s.context, among);
+    finish(&s);
+}
+
 static void workers_change_nothing(void **state)
 {
     (void)state;
@@ -233,6 +262,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_comes_down_to_what_is_wanted),
+        cmocka_unit_test(some_texels_count_alone),
         cmocka_unit_test(workers_change_nothing),
         cmocka_unit_test(nothing_is_dealt_where_nothing_may_be),
         cmocka_unit_test(limits_hold),

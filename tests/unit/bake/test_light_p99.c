@@ -5,6 +5,7 @@
 #include "test_scenes.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { SIZE = 64 };
 static const float PI = 3.14159265f;
@@ -25,14 +26,14 @@ static int teardown(void **state)
     return 0;
 }
 
-static alp_bake_report bake(const char *name, alp_light_options light)
+static alp_bake_report bake(const char *name, uint32_t size, alp_light_options light)
 {
     alp_scene *scene = NULL;
     alp_lightmap *map = NULL;
     alp_bake_report report;
     ASSERT_OK(context, alp_scene_load(context, name, &scene));
     alp_bake_options options = alp_bake_options_default();
-    options.atlas.size = SIZE;
+    options.atlas.size = size;
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.maps = ALP_MAP_LIGHT;
     options.light = light;
@@ -47,9 +48,9 @@ static alp_bake_report bake(const char *name, alp_light_options light)
 static void reaches(const char *name, alp_light_options light, float error)
 {
     light.error = 2.0f * error;
-    const alp_bake_report first = bake(name, light);
+    const alp_bake_report first = bake(name, SIZE, light);
     light.error = error;
-    const alp_bake_report then = bake(name, light);
+    const alp_bake_report then = bake(name, SIZE, light);
     print_message("%s: %.2f %% and %.2f %%, then %.2f %% and %.2f %%; %.2f times the rays\n", name,
                   100.0 * first.light_relative_error, 100.0 * first.light_p99_error,
                   100.0 * then.light_relative_error, 100.0 * then.light_p99_error,
@@ -76,6 +77,29 @@ static void small_shadows_come_down(void **state)
     reaches("builtin:torus-plane", light, 0.03f);
 }
 
+/// Beside strips of sun bounced light is what is noisy: few texels get more rays, which the map as
+/// a whole does not need. If all of them got these, they would have 256 in the end.
+static void few_texels_get_more_rays(void **state)
+{
+    (void)state;
+    alp_light_options light = alp_bake_options_default().light;
+    light.error = 0.04f;
+    const alp_bake_report r = bake("builtin:windows", 2 * SIZE, light);
+    print_message("windows: %.2f %% and %.2f %% with %u rays of each texel\n",
+                  100.0 * r.light_relative_error, 100.0 * r.light_p99_error, r.light_samples);
+    assert_true(r.light_relative_error <= 0.04 && r.light_p99_error <= 0.16);
+    assert_true(r.light_samples < 256);
+    for (uint32_t workers = 1; workers <= 7; workers += 6) { // those two are the same bits
+        alp_context *two = context;
+        context = test_context(workers);
+        const alp_bake_report same = bake("builtin:windows", 2 * SIZE, light);
+        assert_true(same.light_relative_error == r.light_relative_error);
+        assert_true(same.light_p99_error == r.light_p99_error && same.rays == r.rays);
+        alp_context_destroy(context);
+        context = two;
+    }
+}
+
 /// A map of bounced light alone is as good as it was asked to be over its own mean.
 static void bounced_light_alone_errs_over_its_own_mean(void **state)
 {
@@ -83,7 +107,7 @@ static void bounced_light_alone_errs_over_its_own_mean(void **state)
     alp_light_options light = alp_bake_options_default().light;
     light.direct = ALP_DIRECT_OFF;
     light.error = 0.03f;
-    const alp_bake_report r = bake("builtin:cornell", light);
+    const alp_bake_report r = bake("builtin:cornell", SIZE, light);
     print_message("bounced light alone: %.2f %% and %.2f %%\n", 100.0 * r.light_relative_error,
                   100.0 * r.light_p99_error);
     assert_true(r.light_relative_error <= 0.03 && r.light_p99_error <= 0.12);
@@ -119,6 +143,44 @@ static void worst_texels_tell_what_they_are_made_of(void **state)
     assert_true(noise.direct == 0.0 && noise.bounced == 0.0 && noise.noisy > 0.3);
 }
 
+/// Texels beyond half of a limit are marked; of those whose bounced light is noisy, that always
+/// sent rays are listed, unless most of those beyond the limit are interpolated.
+static void worst_texels_are_found(void **state)
+{
+    (void)state;
+    enum { TEXELS = 6 };
+    const float squares[TEXELS] = {5.0f, 0.9f, 99.0f, 4.5f, 1.1f, 4.2f};
+    const float of_rays[TEXELS] = {4.0f, 0.9f, 99.0f, 4.5f, 0.5f, 0.2f};
+    alpi_reference_value whole[TEXELS], bounced[TEXELS];
+    for (int t = 0; t < TEXELS; t++) {
+        whole[t] = (alpi_reference_value){{0}, {squares[t], squares[t], squares[t]}};
+        bounced[t] = (alpi_reference_value){{0}, {of_rays[t], of_rays[t], of_rays[t]}};
+    }
+    uint8_t between[TEXELS] = {0, 0, 0, 1, 0, 1};
+    const uint32_t order[5] = {5, 4, 3, 1, 0}; // 2 has no light of its own
+    const alpi_light_error error = {.mean = 10.0};
+    const alpi_light_whole w = {.values = whole, .bounced = bounced, .order = order, .count = 5};
+    uint8_t marks[TEXELS];
+    uint32_t list[5];
+    memset(marks, 7, sizeof marks);
+    alpi_light_worst worst = {.marks = marks, .list = list};
+    // 4 at the limit, 1 at half. What is interpolated and noisy in direct light alone, 5, says
+    // nothing: of those whose rays are noisy, 0 and 3, half are.
+    alpi_light_find_worst(&w, &error, TEXELS, 0.2, between, &worst);
+    assert_memory_equal(marks, ((uint8_t[]){1, 0, 0, 1, 1, 1}), TEXELS);
+    assert_int_equal(worst.count, 2);
+    assert_true(list[0] == 4 && list[1] == 0);
+    for (int k = 0; k < 3; k++) { // direct light's too: no rays
+        bounced[4].variance[k] = 0.2f;
+    }
+    alpi_light_find_worst(&w, &error, TEXELS, 0.2, between, &worst);
+    assert_true(worst.count == 1 && list[0] == 0 && marks[4] == 1);
+    between[0] = 1; // then all beyond the limit whose rays are noisy are interpolated
+    alpi_light_find_worst(&w, &error, TEXELS, 0.2, between, &worst);
+    assert_int_equal(worst.count, 0);
+    assert_int_equal(marks[0], 1);
+}
+
 /// A power is what the error showed, within .5 and .75; what says nothing leaves it.
 static void powers_follow_the_error(void **state)
 {
@@ -134,8 +196,13 @@ static void powers_follow_the_error(void **state)
 static void plans_leave_alone_what_is_good(void **state)
 {
     (void)state;
-    const alpi_light_effort effort = {
-        .direct = 8, .rays = 64, .most = 65536, .texels = 1e5, .traced = 2e4, .direct_power = 0.5};
+    const alpi_light_effort effort = {.direct = 8,
+                                      .rays = 64,
+                                      .most = 65536,
+                                      .texels = 1e5,
+                                      .traced = 2e4,
+                                      .direct_power = 0.5,
+                                      .draw = 1.0};
     alpi_light_plan p = alpi_light_cheapest(&effort, &(alpi_light_noise){0.3, 0.05, 0.02}, 0.16);
     assert_true(p.rays == 0.0);
     ASSERT_NEAR(p.for_direct, sqrt(0.16 * 0.16 - 0.05 * 0.05), 1e-9);
@@ -146,15 +213,20 @@ static void plans_leave_alone_what_is_good(void **state)
     assert_true(p.direct == 15.0 * 8.0 && p.rays == 15.0 * 64.0);
 }
 
-/// Where directions of a sky are drawn one by one, more of the error is left to direct light.
+/// Where samples of direct light are dear, more of the error is left to it.
 static void plans_know_what_draws_cost(void **state)
 {
     (void)state;
-    alpi_light_effort effort = {
-        .direct = 8, .rays = 64, .most = 65536, .texels = 1e5, .traced = 2e4, .direct_power = 0.6};
+    alpi_light_effort effort = {.direct = 8,
+                                .rays = 64,
+                                .most = 65536,
+                                .texels = 1e5,
+                                .traced = 2e4,
+                                .direct_power = 0.6,
+                                .draw = 1.0};
     const alpi_light_noise noise = {0.06, 0.06, 0.5};
     const alpi_light_plan plain = alpi_light_cheapest(&effort, &noise, 0.03);
-    effort.drawn = true;
+    effort.draw = 2.0;
     const alpi_light_plan drawn = alpi_light_cheapest(&effort, &noise, 0.03);
     assert_true(drawn.direct < 0.9 * plain.direct && drawn.rays > 1.05 * plain.rays);
     assert_true(drawn.for_direct > plain.for_direct);
@@ -174,10 +246,10 @@ static void what_fell_short_is_told(void **state)
                     8);
     assert_false(test_log_has("error-not-reached"));
     alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.009, .p99 = 0.051}, false, 64, 8);
-    assert_non_null(
-        strstr(test_log_text(),
-               "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
-               "after 64 rays a texel and up to 8 samples of each light, wanted at most 4 %"));
+    assert_non_null(strstr(
+        test_log_text(),
+        "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
+        "after up to 64 rays a texel and up to 8 samples of each light, wanted at most 4 %"));
     test_log_clear();
     alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.02, .p99 = 0.05}, false, 64, 8);
     assert_non_null(strstr(test_log_text(), "the light is 2 % after"));
@@ -190,8 +262,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_shadows_come_down),
+        cmocka_unit_test(few_texels_get_more_rays),
         cmocka_unit_test(bounced_light_alone_errs_over_its_own_mean),
         cmocka_unit_test(worst_texels_tell_what_they_are_made_of),
+        cmocka_unit_test(worst_texels_are_found),
         cmocka_unit_test(powers_follow_the_error),
         cmocka_unit_test(plans_leave_alone_what_is_good),
         cmocka_unit_test(plans_know_what_draws_cost),

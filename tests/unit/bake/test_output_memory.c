@@ -4,6 +4,7 @@
 #include "bake/job.h"
 #include "test_scenes.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static alp_bake_options light_options(uint32_t size)
@@ -88,7 +89,9 @@ static void memory_of_layers_is_estimated(void **state)
     ASSERT_NEAR((peaks[1] - peaks[0]) / (told[1] - told[0]), 1.0, 0.4); // so are blocks
 }
 
-/// Rays and memory within a half of what they will be; seconds are the machine's.
+/// Rays and memory within a half of what they will be, in the mean over seeds where light is for an
+/// error: its last round is a quarter of all rays, and chance whether it is needed. Seconds are the
+/// machine's.
 static void work_is_known_within_a_half(void **state)
 {
     (void)state;
@@ -112,7 +115,7 @@ static void work_is_known_within_a_half(void **state)
         alp_context *context = test_context(2);
         alp_scene *scene = NULL;
         alp_bake_work work;
-        alp_bake_report report;
+        alp_bake_report report = {0};
         ASSERT_OK(context, alp_scene_load(context, cases[i].scene, &scene));
         alp_bake_options options = alp_bake_options_default();
         options.atlas.size = cases[i].size;
@@ -120,8 +123,14 @@ static void work_is_known_within_a_half(void **state)
         options.occlusion.samples = cases[i].error > 0.0f ? 65536 : 512;
         options.light.error = options.sampling.error = cases[i].error;
         ASSERT_OK(context, alp_bake_estimate(scene, &options, &work));
-        const double peak = find_peak(context, scene, &options, &report);
-        const double rays = (double)work.rays / (double)report.rays;
+        const int seeds = cases[i].maps == ALP_MAP_LIGHT ? 3 : 1;
+        double peak = 0.0, sent = 0.0;
+        for (int k = 0; k < seeds; k++) {
+            options.occlusion.seed = 100 * (uint64_t)k;
+            peak = fmax(peak, find_peak(context, scene, &options, &report)); // of the first
+            sent += (double)report.rays / seeds;
+        }
+        const double rays = (double)work.rays / sent;
         print_message("work: %s %u, maps %u: texels %.2f, rays %.2f, bytes %.2f of the truth\n",
                       cases[i].scene, cases[i].size, cases[i].maps,
                       (double)work.texels / (double)report.atlas.texels, rays,
