@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
 static const alpi_few_loops *choose_loops(alp_context *context)
 {
@@ -18,29 +19,85 @@ static const alpi_few_loops *choose_loops(alp_context *context)
     return &alpi_few_loops_baseline;
 }
 
-static void set_triangle(const alp_scene *scene, uint32_t triangle, alpi_few *few, uint32_t t)
+// --- corners and edges, each once ----------------------------------------------------------------
+
+static vec3 corner_of(const alpi_few *few, uint32_t corner)
 {
-    const uint32_t *v = scene->triangles[triangle];
-    float(*corner)[3] = few->corner[t];
-    for (int k = 0; k < 3; k++) {
-        few->low[k][t] = INFINITY;
-        few->high[k][t] = -INFINITY;
-        for (int c = 0; c < 3; c++) {
-            const float at = scene->positions[v[c]][k];
-            corner[c][k] = at;
-            few->low[k][t] = fminf(few->low[k][t], at);
-            few->high[k][t] = fmaxf(few->high[k][t], at);
-        }
+    return vec3_load(few->corner[corner]);
+}
+
+static uint16_t add_corner(alpi_few *few, const float at[3])
+{
+    uint32_t c = 0;
+    while (c < few->corner_count && !(few->corner[c][0] == at[0] && few->corner[c][1] == at[1] &&
+                                      few->corner[c][2] == at[2])) {
+        c++;
     }
-    const vec3 a = vec3_load(corner[0]), b = vec3_load(corner[1]), c = vec3_load(corner[2]);
-    vec3_store(few->normal[t], vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
-    few->triangle[t] = triangle;
-    few->single_sided[t] = !alpi_surface_is_double_sided(scene, triangle);
+    if (c == few->corner_count) {
+        memcpy(few->corner[few->corner_count++], at, sizeof few->corner[c]);
+    }
+    return (uint16_t)c;
+}
+
+/// @return the side of a polygon from one corner to another
+static uint16_t add_side(alpi_few *few, uint16_t from, uint16_t to)
+{
+    const uint16_t low = from < to ? from : to, high = from < to ? to : from;
+    uint32_t e = 0;
+    while (e < few->edge_count && !(few->edge[e].from == low && few->edge[e].to == high)) {
+        e++;
+    }
+    if (e == few->edge_count) {
+        few->edge[few->edge_count++] = (alpi_few_edge){low, high};
+    }
+    return (uint16_t)(2 * e + (from < to ? 0 : 1));
+}
+
+// --- triangles -----------------------------------------------------------------------------------
+
+/// A triangle on its way in.
+typedef struct raw_triangle {
+    const uint16_t *corners; // [3]
+    bool single_sided, taken;
+} raw_triangle;
+
+/// (b − a) × (c − a)
+static vec3 normal_of(const alpi_few *few, const uint16_t corners[3])
+{
+    const vec3 a = corner_of(few, corners[0]);
+    return vec3_cross(vec3_sub(corner_of(few, corners[1]), a),
+                      vec3_sub(corner_of(few, corners[2]), a));
+}
+
+static void store_over(float out[3], vec3 v, double over)
+{
+    out[0] = (float)((double)v.x / over);
+    out[1] = (float)((double)v.y / over);
+    out[2] = (float)((double)v.z / over);
+}
+
+static void add_triangle(const alp_scene *scene, uint32_t triangle, alpi_few *few,
+                         raw_triangle *raw)
+{
+    uint16_t *corners = few->corners[few->count];
+    alpi_few_triangle *t = &few->triangle[few->count++];
+    for (int c = 0; c < 3; c++) {
+        corners[c] = add_corner(few, scene->positions[scene->triangles[triangle][c]]);
+    }
+    *raw = (raw_triangle){corners, !alpi_surface_is_double_sided(scene, triangle), false};
+    const vec3 a = corner_of(few, corners[0]), n = normal_of(few, corners);
+    const double square =
+        (double)n.x * (double)n.x + (double)n.y * (double)n.y + (double)n.z * (double)n.z;
+    const double over = square > 0.0 ? square : 1.0; // such are refused
+    t->triangle = triangle;
+    vec3_store(t->corner, a);
+    store_over(t->to_b1, vec3_cross(vec3_sub(corner_of(few, corners[2]), a), n), over);
+    store_over(t->to_b2, vec3_cross(n, vec3_sub(corner_of(few, corners[1]), a)), over);
 }
 
 /// Whether each triangle is wide enough for rays from anywhere in the scene to tell its edges
 /// apart: from 10^7 times its width they are one in floats, and every ray would pass between them.
-static bool are_plain(const alpi_few *few, float far)
+static bool are_plain(const alpi_few *few, const raw_triangle *raw, float far)
 {
     // Of `far`; and metres, within which cubes of lengths are floats.
     static const float NARROWEST = 1e-4f, LEAST = 1e-6f, MOST = 1e6f;
@@ -48,41 +105,144 @@ static bool are_plain(const alpi_few *few, float far)
     for (uint32_t t = 0; t < few->count; t++) {
         float longest = 0.0f;
         for (int c = 0; c < 3; c++) {
-            const vec3 edge =
-                vec3_sub(vec3_load(few->corner[t][(c + 1) % 3]), vec3_load(few->corner[t][c]));
+            const vec3 edge = vec3_sub(corner_of(few, raw[t].corners[(c + 1) % 3]),
+                                       corner_of(few, raw[t].corners[c]));
             longest = fmaxf(longest, vec3_length(edge));
         }
-        const float area = vec3_length(vec3_load(few->normal[t])); // twice
+        const float area = vec3_length(normal_of(few, raw[t].corners)); // twice
         plain = plain && area >= NARROWEST * far * longest;
     }
     return plain;
 }
 
-/// What all triangles have in common; boxes of none after the last.
-/// @return whether they are for these loops
-static bool finish(alpi_few *few)
+// --- polygons ------------------------------------------------------------------------------------
+
+/// Four corners, counter-clockwise, of two triangles that meet along the second and the fourth.
+typedef struct quadrilateral {
+    uint16_t corners[4];
+} quadrilateral;
+
+static bool share_edge(const raw_triangle *a, const raw_triangle *b, quadrilateral *q)
 {
-    float far = 0.0f; // of any coordinate
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const uint16_t from = a->corners[(i + 1) % 3], to = a->corners[(i + 2) % 3];
+            if (b->corners[(j + 1) % 3] == to && b->corners[(j + 2) % 3] == from) {
+                *q = (quadrilateral){{a->corners[i], from, b->corners[j], to}};
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Whether it lies in a plane, as far as its coordinates can tell, and has no corner that turns in.
+static bool is_flat_and_convex(const alpi_few *few, const quadrilateral *q)
+{
+    static const float HALF_STEP = 0x1p-24f; // of a coordinate: a quarter of what rays are lifted by
+    const vec3 n = normal_of(few, (const uint16_t[]){q->corners[0], q->corners[1], q->corners[3]});
+    const float length = vec3_length(n);
+    float largest = 0.0f;
+    bool convex = true;
+    for (int c = 0; c < 4; c++) {
+        const vec3 p = corner_of(few, q->corners[c]);
+        const vec3 turn = normal_of(few, (const uint16_t[]){q->corners[c], q->corners[(c + 1) % 4],
+                                                            q->corners[(c + 3) % 4]});
+        largest = fmaxf(largest, fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z))));
+        convex = convex && vec3_dot(turn, n) > 1e-5f * length * length;
+    }
+    const vec3 across = vec3_sub(corner_of(few, q->corners[2]), corner_of(few, q->corners[0]));
+    return convex && fabsf(vec3_dot(n, across)) <= HALF_STEP * largest * length;
+}
+
+static void add_polygon(alpi_few *few, const uint16_t *corners, int count, alpi_few_polygon p)
+{
+    const uint32_t place = few->polygon_count++;
+    p.corner = corners[0];
+    for (int k = 0; k < 3; k++) {
+        few->low[k][place] = INFINITY;
+        few->high[k][place] = -INFINITY;
+    }
+    for (int c = 0; c < count; c++) {
+        p.sides[c] = add_side(few, corners[c], corners[(c + 1) % count]);
+        for (int k = 0; k < 3; k++) {
+            few->low[k][place] = fminf(few->low[k][place], few->corner[corners[c]][k]);
+            few->high[k][place] = fmaxf(few->high[k][place], few->corner[corners[c]][k]);
+        }
+    }
+    few->polygon[place] = p;
+}
+
+/// The quadrilateral that a triangle makes with one after it, or the triangle itself.
+static void add_polygon_of(alpi_few *few, raw_triangle *raw, uint32_t t)
+{
+    alpi_few_polygon p = {.triangles = {t, t}, .single_sided = raw[t].single_sided};
+    for (uint32_t other = t + 1; other < few->count; other++) {
+        quadrilateral q;
+        if (!raw[other].taken && raw[other].single_sided == raw[t].single_sided &&
+            share_edge(&raw[t], &raw[other], &q) && is_flat_and_convex(few, &q)) {
+            raw[other].taken = true;
+            p.triangles[1] = other;
+            const vec3 middle = corner_of(few, q.corners[1]);
+            const vec3 along = vec3_sub(corner_of(few, q.corners[3]), middle);
+            const vec3 n = vec3_cross(
+                vec3_sub(corner_of(few, q.corners[2]), corner_of(few, q.corners[0])), along);
+            vec3_store(p.normal, n);
+            vec3_store(p.middle, middle);
+            vec3_store(p.to_first, vec3_cross(n, along));
+            add_polygon(few, q.corners, 4, p);
+            return;
+        }
+    }
+    vec3_store(p.normal, normal_of(few, raw[t].corners));
+    add_polygon(few, raw[t].corners, 3, p);
+    few->polygon[few->polygon_count - 1].sides[3] = few->polygon[few->polygon_count - 1].sides[2];
+}
+
+static void add_polygons(alpi_few *few, raw_triangle *raw)
+{
+    for (uint32_t t = 0; t < few->count; t++) {
+        if (!raw[t].taken) {
+            add_polygon_of(few, raw, t);
+        }
+    }
+    for (uint32_t p = few->polygon_count; p < ALPI_FEW_LIMIT; p++) {
+        for (int k = 0; k < 3; k++) {
+            few->low[k][p] = INFINITY; // of none
+            few->high[k][p] = -INFINITY;
+        }
+    }
+    few->all.polygon_count = few->polygon_count;
+    few->all.edge_count = few->edge_count;
+    for (uint16_t i = 0; i < ALPI_FEW_EDGES; i++) {
+        few->all.edges[i] = i;
+        few->all.polygons[i % ALPI_FEW_LIMIT] = (uint16_t)(i % ALPI_FEW_LIMIT);
+    }
+}
+
+// --- all of them ---------------------------------------------------------------------------------
+
+/// @return the largest absolute coordinate
+static float find_extent(alpi_few *few)
+{
+    float far = 0.0f;
     for (int k = 0; k < 3; k++) {
         float low = INFINITY, high = -INFINITY;
-        for (uint32_t t = 0; t < few->count; t++) {
-            low = fminf(low, few->low[k][t]);
-            high = fmaxf(high, few->high[k][t]);
-        }
-        for (uint32_t t = few->count; t < ALPI_FEW_LIMIT; t++) {
-            few->low[k][t] = INFINITY;
-            few->high[k][t] = -INFINITY;
+        for (uint32_t c = 0; c < few->corner_count; c++) {
+            low = fminf(low, few->corner[c][k]);
+            high = fmaxf(high, few->corner[c][k]);
         }
         far = fmaxf(far, fmaxf(-low, high));
         few->extent = fmaxf(few->extent, high - low);
     }
     few->slack = 1e-4f * far;
-    return are_plain(few, far);
+    return far;
 }
 
 alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, uint32_t count,
                            alpi_few **few)
 {
+    raw_triangle raw[ALPI_FEW_LIMIT];
     *few = NULL;
     if (count == 0 || count > ALPI_FEW_LIMIT) {
         return ALP_OK;
@@ -92,14 +252,14 @@ alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, ui
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     made->loops = choose_loops(scene->context);
-    made->count = count;
     for (uint32_t t = 0; t < count; t++) {
-        set_triangle(scene, triangles[t], made, t);
+        add_triangle(scene, triangles[t], made, &raw[t]);
     }
-    if (!finish(made)) {
+    if (!are_plain(made, raw, find_extent(made))) {
         alpi_release(scene->context, made);
-        made = NULL;
+        return ALP_OK;
     }
+    add_polygons(made, raw);
     *few = made;
     return ALP_OK;
 }
@@ -108,7 +268,7 @@ static uint32_t count_near(const alpi_few *few, vec3 p, float reach)
 {
     const float at[3] = {p.x, p.y, p.z};
     uint32_t count = 0;
-    for (uint32_t t = 0; t < few->count; t++) {
+    for (uint32_t t = 0; t < few->polygon_count; t++) {
         bool near = true;
         for (int k = 0; k < 3; k++) {
             near = near && few->low[k][t] <= at[k] + reach && few->high[k][t] >= at[k] - reach;
@@ -123,10 +283,11 @@ float alpi_few_near(const alpi_few *few, float reach)
     enum { STEPS = 4 }; // middles of 10 of the 16 equal parts of a triangle
     double sum = 0.0, area = 0.0;
     for (uint32_t t = 0; t < few->count; t++) {
-        const vec3 a = vec3_load(few->corner[t][0]);
-        const vec3 e1 = vec3_sub(vec3_load(few->corner[t][1]), a);
-        const vec3 e2 = vec3_sub(vec3_load(few->corner[t][2]), a);
-        const double weight = (double)vec3_length(vec3_load(few->normal[t]));
+        const uint16_t *corners = few->corners[t];
+        const vec3 a = corner_of(few, corners[0]);
+        const vec3 e1 = vec3_sub(corner_of(few, corners[1]), a);
+        const vec3 e2 = vec3_sub(corner_of(few, corners[2]), a);
+        const double weight = (double)vec3_length(normal_of(few, corners));
         for (int i = 0; i < STEPS; i++) {
             for (int j = 0; j + i < STEPS; j++) {
                 const float u = ((float)i + 1.0f / 3.0f) / STEPS;

@@ -8,6 +8,7 @@
 
 enum {
     ALPI_FEW_LIMIT = 64, // triangles at most
+    ALPI_FEW_EDGES = 3 * ALPI_FEW_LIMIT, // and corners
     // Measured in rooms of 12 to 60 triangles, for the two ways to be even: rays that are asked
     // whether they are blocked may come near 20 of them, and where they are asked where there may
     // be 50.
@@ -30,18 +31,49 @@ typedef struct alpi_few_loops {
 
 extern const alpi_few_loops alpi_few_loops_baseline, alpi_few_loops_v3;
 
+typedef struct alpi_few_edge {
+    uint16_t from, to; // corners
+} alpi_few_edge;
+
+/// A triangle, or two that make a convex quadrilateral in a plane, which is met as one.
+typedef struct alpi_few_polygon {
+    float normal[3]; // not unit: of about twice its area
+    uint16_t corner; // one of its, among the corners of all
+    uint16_t sides[4]; // counter-clockwise: twice the edge, and 1 more where that runs the other
+                       // way. A triangle's last one twice
+    uint32_t triangles[2]; // among those of all; a triangle: twice the same
+    float middle[3], to_first[3]; // of two: (p − middle) · to_first is negative where p is in the
+                                  // second; of one: never
+    bool single_sided;
+} alpi_few_polygon;
+
+/// For where a triangle is met: b1 = to_b1 · (p − corner), b2 alike.
+typedef struct alpi_few_triangle {
+    uint32_t triangle; // of the scene
+    float corner[3];   // its corner 0
+    float to_b1[3], to_b2[3];
+} alpi_few_triangle;
+
+/// Polygons that rays may reach, and the edges of these.
+typedef struct alpi_few_list {
+    uint32_t polygon_count, edge_count;
+    uint16_t polygons[ALPI_FEW_LIMIT], edges[ALPI_FEW_EDGES];
+} alpi_few_list;
+
 /// Triangles as the loops want them. All of them are solid.
 typedef struct alpi_few {
     const alpi_few_loops *loops; // those for this machine
-    uint32_t count;
+    uint32_t count, corner_count, edge_count, polygon_count; // count: of triangles
     float slack;  // metres, added to a ray's reach: far more than rounding may add to it
     float extent; // metres: the longest side of the box about all
-    float corner[ALPI_FEW_LIMIT][3][3]; // a, b, c
-    float normal[ALPI_FEW_LIMIT][3];    // (b − a) × (c − a)
-    uint32_t triangle[ALPI_FEW_LIMIT];  // of the scene
-    bool single_sided[ALPI_FEW_LIMIT];
-    float low[3][ALPI_FEW_LIMIT]; // bounding boxes; past the last triangle: empty ones
+    float corner[ALPI_FEW_EDGES][3]; // each once: so are edges, and no two polygons that have one
+    alpi_few_edge edge[ALPI_FEW_EDGES]; // in common can disagree on which side of it a ray passes
+    uint16_t corners[ALPI_FEW_LIMIT][3]; // of triangles
+    alpi_few_polygon polygon[ALPI_FEW_LIMIT];
+    alpi_few_triangle triangle[ALPI_FEW_LIMIT];
+    float low[3][ALPI_FEW_LIMIT]; // bounding boxes of polygons; past the last: empty ones
     float high[3][ALPI_FEW_LIMIT];
+    alpi_few_list all;
 } alpi_few;
 
 /// @param triangles [count] of the scene, usable and solid
@@ -51,7 +83,7 @@ typedef struct alpi_few {
 alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, uint32_t count,
                            alpi_few **few);
 
-/// Boxes of triangles within `reach` of a point of them, in the mean over their area.
+/// Boxes of polygons within `reach` of a point of them, in the mean over their area.
 float alpi_few_near(const alpi_few *few, float reach);
 
 #endif

@@ -41,75 +41,87 @@ static inline floats choose(masks which, floats a, floats b)
 
 static inline bool is_none(masks which)
 {
+#ifdef __AVX__
+    return __builtin_ia32_movmskps256((floats)which) == 0;
+#else
     uint64_t words[sizeof which / sizeof(uint64_t)], any = 0;
     memcpy(words, &which, sizeof which);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
         any |= words[k];
     }
     return any == 0;
+#endif
 }
 
-/// One triangle seen from the origins of a packet.
-typedef struct seen_triangle {
-    floats side[3][3];   // b×c, c×a, a×b: [edge][axis]
-    floats height;       // n·a
-    const float *normal; // n
-    masks from_behind;   // all ones: rays meet it from behind too
-} seen_triangle;
-
-static inline void see(const alpi_few *few, uint32_t t, const alpi_rays *rays, int i,
-                       bool one_sided, seen_triangle *seen)
+/// Corners seen from the origins of a packet.
+static inline void see_corners(const alpi_few *few, const alpi_rays *rays, int i,
+                               floats corners[][3])
 {
     const floats origin[3] = {load(rays->origin_x + i), load(rays->origin_y + i),
                               load(rays->origin_z + i)};
-    floats corner[3][3];
-    for (int c = 0; c < 3; c++) {
+    for (uint32_t c = 0; c < few->corner_count; c++) {
         for (int k = 0; k < 3; k++) {
-            corner[c][k] = few->corner[t][c][k] - origin[k];
+            corners[c][k] = few->corner[c][k] - origin[k];
         }
     }
-    for (int e = 0; e < 3; e++) {
-        const floats *from = corner[(e + 1) % 3], *to = corner[(e + 2) % 3];
-        for (int k = 0; k < 3; k++) {
-            const int y = (k + 1) % 3, z = (k + 2) % 3;
-            seen->side[e][k] = from[y] * to[z] - from[z] * to[y];
-        }
-    }
-    const float *n = few->normal[t];
-    seen->height = n[0] * corner[0][0] + n[1] * corner[0][1] + n[2] * corner[0][2];
-    seen->normal = n;
-    seen->from_behind = (masks){0} - (one_sided && few->single_sided[t] ? 0 : 1);
 }
 
-/// What rays along d do with the triangle: where they pass its edges, at what distance its plane.
-typedef struct met_triangle {
-    floats u, v, w; // over u + v + w: the weights of corners a, b, c
-    floats along;   // n·d: positive from behind
-    floats reached; // |n·d|: times the distance is `height`
-    floats height;
-    masks met;
-} met_triangle;
-
-static inline void meet(const seen_triangle *seen, const alpi_rays *rays, int i, floats maximum,
-                        met_triangle *m)
+/// p×q of an edge: on which side of it a ray passes is the sign of its product with d.
+static inline void see_edge(const alpi_few_edge *edge, floats corners[][3], floats across[3])
 {
-    const floats x = load(rays->direction_x + i), y = load(rays->direction_y + i),
-                 z = load(rays->direction_z + i);
-    const floats *side = seen->side[0];
-    m->u = side[0] * x + side[1] * y + side[2] * z;
-    m->v = side[3] * x + side[4] * y + side[5] * z;
-    m->w = side[6] * x + side[7] * y + side[8] * z;
-    m->along = seen->normal[0] * x + seen->normal[1] * y + seen->normal[2] * z;
-    // Signs, to see every ray as from behind: of n·d, as the sum of the sides, which no two of them
-    // can contradict.
-    const masks turn = (masks)(m->u + m->v + m->w) & INT32_MIN;
-    m->reached = (floats)((masks)m->along & INT32_MAX);
-    m->height = (floats)((masks)seen->height ^ turn);
-    m->met = ((floats)((masks)m->u ^ turn) >= 0.0f) & ((floats)((masks)m->v ^ turn) >= 0.0f) &
-             ((floats)((masks)m->w ^ turn) >= 0.0f) &
-             (m->height >= m->reached * load(rays->minimum + i)) &
-             (m->height < m->reached * maximum) & // never of a ray within the plane: 0 < 0
-             (seen->from_behind | (m->along < 0.0f));
+    const floats *p = corners[edge->from], *q = corners[edge->to];
+    for (int k = 0; k < 3; k++) {
+        const int y = (k + 1) % 3, z = (k + 2) % 3;
+        across[k] = p[y] * q[z] - p[z] * q[y];
+    }
+}
+
+/// n·a: n·d times the distance of a polygon's plane.
+static inline floats see_plane(const alpi_few_polygon *polygon, floats corners[][3])
+{
+    const floats *a = corners[polygon->corner];
+    return polygon->normal[0] * a[0] + polygon->normal[1] * a[1] + polygon->normal[2] * a[2];
+}
+
+/// On which side of an edge rays pass, and of the edge the other way round: positive where it runs
+/// counter-clockwise as seen from behind. Zeros are positive, so that signs tell.
+static inline void pass_edge(const floats across[3], const floats direction[3], masks sides[2])
+{
+    const floats side =
+        across[0] * direction[0] + across[1] * direction[1] + across[2] * direction[2];
+    sides[0] = (masks)(side + 0.0f);
+    sides[1] = (masks)(0.0f - side);
+}
+
+/// What rays do with a polygon.
+typedef struct met_polygon {
+    floats height, reached; // the former over the latter: the distance
+    masks met, behind;
+} met_polygon;
+
+static inline void meet(const alpi_few_polygon *p, floats height, const masks *sides,
+                        const floats direction[3], floats minimum, floats maximum, bool one_sided,
+                        met_polygon *m)
+{
+    // Signs are set where a ray does not meet it from behind, from before. They are also those of
+    // n·d then, which rounding might take for the other.
+    masks before = {0}, behind = {0};
+    for (int s = 0; s < 4; s++) {
+        const uint32_t side = p->sides[s];
+        before |= sides[side];
+        behind |= sides[side ^ 1];
+    }
+    const masks passed = before & behind;
+    const float *n = p->normal;
+    const floats along = n[0] * direction[0] + n[1] * direction[1] + n[2] * direction[2];
+    m->reached = (floats)((masks)along & INT32_MAX);
+    m->height = (floats)((masks)height ^ (before & INT32_MIN));
+    m->behind = before >= 0;
+    m->met = (passed >= 0) & (m->height >= m->reached * minimum) &
+             (m->height < m->reached * maximum); // never of a ray within the plane: 0 < 0
+    if (one_sided && p->single_sided) {
+        m->met &= ~m->behind;
+    }
 }
 
 static bool share_origins(const alpi_rays *a, const alpi_rays *b)
@@ -122,19 +134,34 @@ static bool share_origins(const alpi_rays *a, const alpi_rays *b)
     return same;
 }
 
-/// Triangles whose boxes rays from these origins can reach. Which of them are listed changes no
+/// Lists the edges of the listed polygons.
+static void list_edges(const alpi_few *few, alpi_few_list *list)
+{
+    uint8_t wanted[ALPI_FEW_EDGES] = {0};
+    for (uint32_t t = 0; t < list->polygon_count; t++) {
+        const uint16_t *sides = few->polygon[list->polygons[t]].sides;
+        for (int s = 0; s < 4; s++) {
+            wanted[sides[s] / 2] = 1;
+        }
+    }
+    list->edge_count = 0;
+    for (uint32_t e = 0; e < few->edge_count; e++) {
+        list->edges[list->edge_count] = (uint16_t)e;
+        list->edge_count += wanted[e];
+    }
+}
+
+/// Polygons whose boxes rays from these origins can reach. Which of them are listed changes no
 /// answer: what is left out, no ray meets.
-static uint32_t list_near(const alpi_few *few, const alpi_rays *rays, float reach,
-                          uint32_t list[ALPI_FEW_LIMIT])
+/// @param room for a list @return it, or that of all
+static const alpi_few_list *list_near(const alpi_few *few, const alpi_rays *rays, float reach,
+                                      alpi_few_list *room)
 {
     const float *const origin[3] = {rays->origin_x, rays->origin_y, rays->origin_z};
     uint32_t near[ALPI_FEW_LIMIT];
     float low[3], high[3];
     if (!(reach < few->extent)) {
-        for (uint32_t t = 0; t < few->count; t++) {
-            list[t] = t;
-        }
-        return few->count;
+        return &few->all;
     }
     for (int k = 0; k < 3; k++) {
         low[k] = INFINITY;
@@ -152,12 +179,13 @@ static uint32_t list_near(const alpi_few *few, const alpi_rays *rays, float reac
                   (few->low[1][t] <= high[1] ? 1u : 0u) & (few->high[1][t] >= low[1] ? 1u : 0u) &
                   (few->low[2][t] <= high[2] ? 1u : 0u) & (few->high[2][t] >= low[2] ? 1u : 0u);
     }
-    uint32_t count = 0;
-    for (uint32_t t = 0; t < few->count; t++) {
-        list[count] = t;
-        count += near[t];
+    room->polygon_count = 0;
+    for (uint32_t t = 0; t < few->polygon_count; t++) {
+        room->polygons[room->polygon_count] = (uint16_t)t;
+        room->polygon_count += near[t];
     }
-    return count;
+    list_edges(few, room);
+    return room;
 }
 
 static float longest(const alpi_rays *rays)
@@ -169,28 +197,50 @@ static float longest(const alpi_rays *rays)
     return reach;
 }
 
+static inline void load_direction(const alpi_rays *rays, int i, floats direction[3])
+{
+    direction[0] = load(rays->direction_x + i);
+    direction[1] = load(rays->direction_y + i);
+    direction[2] = load(rays->direction_z + i);
+}
+
 /// Packets that share their origins.
 static void stop_rays(const alpi_few *few, alpi_rays *packets, uint32_t count,
                       const uint32_t lanes[ALPI_PACKET], bool one_sided)
 {
-    uint32_t list[ALPI_FEW_LIMIT];
+    alpi_few_list room;
+    floats corners[ALPI_FEW_EDGES][3], across[ALPI_FEW_EDGES][3], heights[ALPI_FEW_LIMIT];
+    masks sides[2 * ALPI_FEW_EDGES];
     float reach = 0.0f;
     for (uint32_t packet = 0; packet < count; packet++) {
         reach = fmaxf(reach, longest(&packets[packet]));
     }
-    const uint32_t near = list_near(few, packets, reach, list);
-    for (uint32_t k = 0; k < near; k++) {
-        for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
-            seen_triangle seen;
-            see(few, list[k], packets, i, one_sided, &seen);
-            const masks active = load_masks(lanes + i);
-            for (alpi_rays *rays = packets; rays < packets + count; rays++) {
-                met_triangle m;
-                const floats maximum = load(rays->maximum + i);
-                meet(&seen, rays, i, maximum, &m);
-                const floats left = choose(m.met & active, (floats){0} - INFINITY, maximum);
-                memcpy(rays->maximum + i, &left, sizeof left);
+    const alpi_few_list *list = list_near(few, packets, reach, &room);
+    for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
+        const masks active = load_masks(lanes + i);
+        see_corners(few, packets, i, corners);
+        for (uint32_t e = 0; e < list->edge_count; e++) {
+            see_edge(&few->edge[list->edges[e]], corners, across[e]);
+        }
+        for (uint32_t t = 0; t < list->polygon_count; t++) {
+            heights[t] = see_plane(&few->polygon[list->polygons[t]], corners);
+        }
+        for (alpi_rays *rays = packets; rays < packets + count; rays++) {
+            const floats minimum = load(rays->minimum + i), maximum = load(rays->maximum + i);
+            masks stopped = {0};
+            floats direction[3];
+            load_direction(rays, i, direction);
+            for (uint32_t e = 0; e < list->edge_count; e++) {
+                pass_edge(across[e], direction, &sides[2 * (size_t)list->edges[e]]);
             }
+            for (uint32_t t = 0; t < list->polygon_count; t++) {
+                met_polygon m;
+                meet(&few->polygon[list->polygons[t]], heights[t], sides, direction, minimum,
+                     maximum, one_sided, &m);
+                stopped |= m.met;
+            }
+            const floats left = choose(stopped & active, (floats){0} - INFINITY, maximum);
+            memcpy(rays->maximum + i, &left, sizeof left);
         }
     }
 }
@@ -206,54 +256,84 @@ static void occluded(const alpi_few *few, alpi_rays *packets, uint32_t count,
     }
 }
 
-/// The nearest triangles of a packet so far.
+/// The nearest polygons of a packet so far.
 typedef struct nearest_hits {
     floats distance;
-    floats v, w, whole; // see met_triangle; whole: their sum with u
-    masks triangle, behind;
+    masks polygon, behind; // polygon: -1 where there is none
 } nearest_hits;
 
-static inline void find_nearest(const alpi_few *few, const alpi_rays *rays, int i, bool one_sided,
-                                const uint32_t *list, uint32_t near, nearest_hits *hits)
+static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
+                                const alpi_rays *rays, int i, bool one_sided, nearest_hits *hits)
 {
-    const masks none = (masks){0} - 1;
-    *hits = (nearest_hits){
-        .distance = load(rays->maximum + i), .whole = (floats){0} + 1.0f, .triangle = none};
-    for (uint32_t k = 0; k < near; k++) {
-        seen_triangle seen;
-        met_triangle m;
-        see(few, list[k], rays, i, one_sided, &seen);
-        meet(&seen, rays, i, hits->distance, &m);
+    floats corners[ALPI_FEW_EDGES][3], direction[3];
+    masks sides[2 * ALPI_FEW_EDGES];
+    const floats minimum = load(rays->minimum + i);
+    hits->distance = load(rays->maximum + i);
+    hits->polygon = (masks){0} - 1;
+    hits->behind = (masks){0};
+    load_direction(rays, i, direction);
+    see_corners(few, rays, i, corners);
+    for (uint32_t e = 0; e < list->edge_count; e++) {
+        floats across[3];
+        see_edge(&few->edge[list->edges[e]], corners, across);
+        pass_edge(across, direction, &sides[2 * (size_t)list->edges[e]]);
+    }
+    for (uint32_t t = 0; t < list->polygon_count; t++) {
+        const alpi_few_polygon *polygon = &few->polygon[list->polygons[t]];
+        met_polygon m;
+        meet(polygon, see_plane(polygon, corners), sides, direction, minimum, hits->distance,
+             one_sided, &m);
         if (is_none(m.met)) {
             continue; // of eight rays that part two in three times
         }
         hits->distance = choose(m.met, m.height / m.reached, hits->distance);
-        hits->v = choose(m.met, m.v, hits->v);
-        hits->w = choose(m.met, m.w, hits->w);
-        hits->whole = choose(m.met, m.u + m.v + m.w, hits->whole);
-        hits->behind = (m.met & (m.along > 0.0f)) | (~m.met & hits->behind);
-        hits->triangle = (m.met & (int32_t)few->triangle[list[k]]) | (~m.met & hits->triangle);
+        hits->behind = (m.met & m.behind) | (~m.met & hits->behind);
+        hits->polygon = (m.met & (int32_t)list->polygons[t]) | (~m.met & hits->polygon);
     }
+}
+
+/// (p − from) · along
+static inline float measure(const float p[3], const float from[3], const float along[3])
+{
+    return (p[0] - from[0]) * along[0] + (p[1] - from[1]) * along[1] + (p[2] - from[2]) * along[2];
+}
+
+/// Which triangle of a polygon a ray meets at a distance, and where.
+static inline void find_triangle(const alpi_few *few, const alpi_few_polygon *polygon,
+                                 const alpi_rays *rays, int lane, alpi_hits *hits)
+{
+    const float far = hits->distance[lane];
+    const float at[3] = {rays->origin_x[lane] + far * rays->direction_x[lane],
+                         rays->origin_y[lane] + far * rays->direction_y[lane],
+                         rays->origin_z[lane] + far * rays->direction_z[lane]};
+    const int which = measure(at, polygon->middle, polygon->to_first) < 0.0f ? 1 : 0;
+    const alpi_few_triangle *t = &few->triangle[polygon->triangles[which]];
+    const float b1 = measure(at, t->corner, t->to_b1), b2 = measure(at, t->corner, t->to_b2);
+    hits->triangle[lane] = t->triangle; // what passes the edges is inside it but for rounding
+    hits->b1[lane] = b1 < 0.0f ? 0.0f : b1;
+    hits->b2[lane] = b2 < 0.0f ? 0.0f : b2;
 }
 
 static void nearest(const alpi_few *few, const alpi_rays *rays, uint32_t active, bool one_sided,
                     alpi_hits *hits)
 {
-    uint32_t list[ALPI_FEW_LIMIT];
-    const uint32_t near = list_near(few, rays, longest(rays), list);
+    alpi_few_list room;
+    const alpi_few_list *list = list_near(few, rays, longest(rays), &room);
     hits->behind &= ~active;
     for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
         nearest_hits found;
-        find_nearest(few, rays, i, one_sided, list, near, &found);
+        find_nearest(few, list, rays, i, one_sided, &found);
         for (int k = 0; k < WIDTH; k++) {
             const int lane = i + k;
-            if ((active >> lane & 1u) != 0) {
-                const bool hit = found.triangle[k] != -1;
-                hits->distance[lane] = hit ? found.distance[k] : INFINITY;
-                hits->triangle[lane] = (uint32_t)found.triangle[k];
-                hits->b1[lane] = found.v[k] / found.whole[k];
-                hits->b2[lane] = found.w[k] / found.whole[k];
+            if ((active >> lane & 1u) == 0) {
+                continue;
+            }
+            hits->distance[lane] = INFINITY;
+            hits->triangle[lane] = ALPI_NONE;
+            if (found.polygon[k] != -1) {
+                hits->distance[lane] = found.distance[k];
                 hits->behind |= found.behind[k] != 0 ? 1u << lane : 0u;
+                find_triangle(few, &few->polygon[found.polygon[k]], rays, lane, hits);
             }
         }
     }
