@@ -104,9 +104,10 @@ void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3
 
 /// What the two make of the light so far, which stays as it is.
 /// @param whole [texels] out
-void alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
-                     const alpi_radiosity *solution, const float (*skies)[3], double share,
-                     alpi_reference_value *whole);
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
+                           const alpi_radiosity *solution, const float (*skies)[3], double share,
+                           alpi_reference_value *whole);
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
 /// @param skies [texels] or NULL: what of the bounced light is a soft sky's

@@ -91,22 +91,25 @@ static int find_around(const alpi_lattice *l, uint32_t texel, uint32_t around[9]
 /// texel, and not from all of its neighbours'.
 static void list_noisy(direct_deal *deal)
 {
+    enum { NOISY_ITSELF = 1, BESIDE_NOISY = 2 };
     const alpi_light_task *t = deal->direct->task;
     const double wanted = deal->goal->wanted;
     const uint8_t *among = deal->goal->among;
     for (uint32_t i = 0; i < t->count; i++) {
         const uint32_t texel = t->order[i];
-        deal->marks[texel] = (among == NULL || among[texel] != 0) &&
-                             noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
+        const bool noisy = noise_of(&deal->direct->values[texel]) > NOISY * wanted * wanted;
+        deal->marks[texel] = noisy && (among == NULL || among[texel] != 0) ? NOISY_ITSELF : 0;
     }
     for (uint32_t i = 0; i < t->count; i++) {
         uint32_t around[9];
-        const int count = find_around(t->lattice, t->order[i], around);
-        bool any = false;
-        for (int k = 0; k < count && !any; k++) {
-            any = deal->marks[around[k]] != 0;
+        const bool noisy = (deal->marks[t->order[i]] & NOISY_ITSELF) != 0;
+        const int count = noisy ? find_around(t->lattice, t->order[i], around) : 0;
+        for (int k = 0; k < count; k++) {
+            deal->marks[around[k]] |= BESIDE_NOISY;
         }
-        if (any) {
+    }
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (deal->marks[t->order[i]] != 0) {
             deal->list[deal->count++] = t->order[i];
         }
     }
@@ -264,7 +267,7 @@ static void scale_layers(const direct_deal *deal, uint32_t count, uint32_t more,
 static alp_result gather(const direct_deal *deal, uint32_t count, uint32_t more)
 {
     alpi_light_direct *d = deal->direct;
-    const uint64_t seed = alpi_hash64(deal->goal->seed + more);
+    const uint64_t seed = alpi_hash64(alpi_hash64(deal->goal->seed) + more);
     alpi_direct_output output = {.values = d->fresh, .directional = d->fresh_directional};
     scale_layers(deal, count, more, false);
     ALP_TRY(alpi_radiosity_direct(d->solution, deal->some, count, more, seed, &d->task->progress,

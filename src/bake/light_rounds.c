@@ -108,6 +108,13 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
                                    &t->progress);
 }
 
+/// No two rounds have the same, of this seed or any other.
+static uint64_t seed_of_round(const alpi_light_round_state *r, bool direct)
+{
+    const uint64_t seed = r->job->options.occlusion.seed;
+    return alpi_hash64(alpi_hash64(direct ? ~seed : seed) + r->number);
+}
+
 /// Bounced light by `rays` more of each texel that sends any.
 static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
                                  alpi_reference_value *values, float (*skies)[3],
@@ -124,7 +131,7 @@ static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
         .samples = rays,
         .replicates = ALPI_LIGHT_REPLICATES,
         .joined = true,
-        .seed = alpi_hash64(job->options.occlusion.seed + r->number),
+        .seed = seed_of_round(r, false),
     };
     alpi_cosine_rays others = cosine;
     others.seed = alpi_hash64(~cosine.seed);
@@ -254,7 +261,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
             .each = r->for_worst,
             .among = r->for_worst ? r->worst.marks : NULL,
             .most = isinf(r->task->clock->deadline) ? HUGE_VAL : direct * listed,
-            .seed = alpi_hash64(~r->job->options.occlusion.seed + r->number)};
+            .seed = seed_of_round(r, true)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }

@@ -4,6 +4,7 @@
 #include "bake/light.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <math.h>
 
@@ -56,18 +57,37 @@ static void add_direct(alpi_reference_value *value, const float *sky,
     }
 }
 
-void alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
-                     const alpi_radiosity *solution, const float (*skies)[3], double share,
-                     alpi_reference_value *whole)
+enum { TEXELS_PER_RANGE = 4096 };
+
+typedef struct peek_job {
+    const alpi_light_task *task;
+    const alpi_reference_value *direct; // or NULL
+    const float (*skies)[3];
+    double share;
+    alpi_reference_value *whole;
+} peek_job;
+
+static alp_result peek_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const peek_job *p = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = p->task->order[i];
+        const float *sky = p->skies != NULL ? p->skies[texel] : NULL;
+        p->whole[texel] = p->task->values[texel];
+        state_solved(&p->whole[texel], sky, p->share);
+        add_direct(&p->whole[texel], sky, p->direct != NULL ? &p->direct[texel] : NULL);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
+                           const alpi_radiosity *solution, const float (*skies)[3], double share,
+                           alpi_reference_value *whole)
 {
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < task->count; i++) {
-        const uint32_t texel = task->order[i];
-        const float *sky = skies != NULL ? skies[texel] : NULL;
-        whole[texel] = task->values[texel];
-        state_solved(&whole[texel], sky, share);
-        add_direct(&whole[texel], sky, on ? &solution->direct[texel] : NULL);
-    }
+    peek_job p = {task, on ? solution->direct : NULL, skies, share, whole};
+    return alpi_parallel_for(job->context, task->count, TEXELS_PER_RANGE, peek_range, &p, NULL);
 }
 
 alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,

@@ -301,7 +301,7 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
 
 // --- sums ----------------------------------------------------------------------------------------
 
-enum { ITEMS_PER_SUM = 1 << 12 };
+enum { ITEMS_PER_SUM = 1 << 10 };
 
 typedef struct sum_job {
     alpi_sum_fn *body;

@@ -34,7 +34,7 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
 /// Outside of a loop: true.
 bool alpi_loop_goes_on(alp_context *context);
 
-enum { ALPI_SUM_LIMIT = 5 };
+enum { ALPI_SUM_LIMIT = 8 };
 /// Adds items [begin, end) to sums that begin at 0.
 typedef void alpi_sum_fn(const void *user, uint32_t begin, uint32_t end,
                          double sums[ALPI_SUM_LIMIT]);

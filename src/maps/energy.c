@@ -2,6 +2,8 @@
 // Where the light of a solution goes, and what of it other geometry keeps from being met.
 #include "maps/radiosity.h"
 
+#include "base/tasks.h"
+
 #include <math.h>
 
 /// Share of the rays of the texels beside one, of its chart and not covered, that do not end on the
@@ -36,8 +38,13 @@ float alpi_radiosity_brighter(const alpi_radiosity *r, uint32_t texel, uint32_t 
     return fminf(fmaxf(beside / fmaxf(own, 1.0f / most), 1.0f), most);
 }
 
+/// What is summed over texels: of alpi_energy, and what surfaces emit, all of it and what of it
+/// reaches others.
+enum { RECEIVED, ABSORBED, ESCAPED, LOST_BEHIND, UNSHOT, EMITTED, EMITTED_AT_OTHERS };
+_Static_assert((int)EMITTED_AT_OTHERS < (int)ALPI_SUM_LIMIT, "all are summed at once");
+
 static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
-                             double surface_emitted[3], alpi_energy *e)
+                             double sums[ALPI_SUM_LIMIT])
 {
     const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
                                                                  r->patches.texels->triangles[t]);
@@ -54,31 +61,42 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
         const double reflected = albedo * (first + (double)before[k]);
-        e->received += share * first;
-        e->absorbed += share * (1.0 - albedo) * (first + (double)now[k]);
-        e->escaped += share * (escaped * reflected + lost[0] * emitted);
-        e->lost_behind += share * (behind * reflected + lost[1] * emitted);
-        e->unshot += share * albedo * ((double)now[k] - (double)before[k]);
-        surface_emitted[0] += share * emitted;
-        surface_emitted[1] += share * emitted * (1.0 - lost[0] - lost[1]);
+        sums[RECEIVED] += share * first;
+        sums[ABSORBED] += share * (1.0 - albedo) * (first + (double)now[k]);
+        sums[ESCAPED] += share * (escaped * reflected + lost[0] * emitted);
+        sums[LOST_BEHIND] += share * (behind * reflected + lost[1] * emitted);
+        sums[UNSHOT] += share * albedo * ((double)now[k] - (double)before[k]);
+        sums[EMITTED] += share * emitted;
+        sums[EMITTED_AT_OTHERS] += share * emitted * (1.0 - lost[0] - lost[1]);
     }
 }
 
-/// Adds up in the order of the receivers, on one thread: some nanoseconds a texel.
-void alpi_radiosity_find_energy(alpi_radiosity *r)
+static void sum_energy(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
+    const alpi_radiosity *r = user;
     const alpi_patches *p = &r->patches;
-    alpi_energy *e = &r->energy;
-    double surface_emitted[3] = {0.0}; // all, and what reaches other surfaces
-    for (uint32_t i = 0; i < r->receiver_count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         const size_t back = r->receivers[i] >= p->block_count ? 1 : 0;
         const uint32_t b = back != 0 ? r->receivers[i] - p->block_count : r->receivers[i];
         for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], surface_emitted, e);
+            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], sums);
         }
     }
+}
+
+alp_result alpi_radiosity_find_energy(alpi_radiosity *r, const alpi_task_progress *progress)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_energy, r, progress, sums));
     const alpi_lighting *l = r->options.lighting;
     const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
-    e->emitted = surface_emitted[0] + (others ? e->received - surface_emitted[1] : 0.0);
-    e->known = !alpi_tracer_has_panes(r->options.tracer);
+    r->energy = (alpi_energy){
+        .emitted = sums[EMITTED] + (others ? sums[RECEIVED] - sums[EMITTED_AT_OTHERS] : 0.0),
+        .received = sums[RECEIVED],
+        .absorbed = sums[ABSORBED],
+        .escaped = sums[ESCAPED],
+        .lost_behind = sums[LOST_BEHIND],
+        .unshot = sums[UNSHOT],
+        .known = !alpi_tracer_has_panes(r->options.tracer)};
+    return ALP_OK;
 }

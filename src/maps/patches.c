@@ -258,36 +258,37 @@ alpi_receivers alpi_patches_texel_receivers(const alpi_patches *patches)
 
 enum { PLACE_BATCH = 64 };
 
-/// Points that fall into one texel of a block are placed together.
+/// Points that fall into one texel of a block are placed together: they are chained by it.
 static void place_batch(const alpi_patches *p, uint32_t block, uint32_t count,
                         const float (*square)[2], alpi_receiver_point *points)
 {
+    enum { NONE = UINT8_MAX };
+    _Static_assert((int)PLACE_BATCH <= (int)NONE, "points are numbers below it");
     const alpi_receivers texels = alpi_texels_receivers(p->texels);
-    uint32_t members[PLACE_BATCH], lanes[PLACE_BATCH];
+    const uint32_t first = p->block_first[block], members = p->block_first[block + 1] - first;
+    uint8_t heads[BLOCK_LIMIT], next[PLACE_BATCH], lanes[PLACE_BATCH];
     float inside[PLACE_BATCH][2];
     alpi_receiver_point placed[PLACE_BATCH];
-    for (uint32_t i = 0; i < count; i++) {
-        members[i] = find_member(p, block, square[i][0]);
+    memset(heads, NONE, members);
+    for (uint32_t i = count; i-- > 0;) {
+        uint8_t *head = &heads[find_member(p, block, square[i][0]) - first];
+        next[i] = *head;
+        *head = (uint8_t)i;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t member = members[i];
-        if (member == ALPI_NONE) {
-            continue; // placed
-        }
-        const float begin = member == p->block_first[block] ? 0.0f : p->block_ends[member - 1];
-        const float width = p->block_ends[member] - begin;
+    for (uint32_t m = 0; m < members; m++) {
+        const float begin = m == 0 ? 0.0f : p->block_ends[first + m - 1];
+        const float width = p->block_ends[first + m] - begin;
         uint32_t together = 0;
-        for (uint32_t j = i; j < count; j++) {
-            if (members[j] == member) {
-                const float u = width > 0.0f ? (square[j][0] - begin) / width : 0.0f;
-                inside[together][0] = fminf(fmaxf(u, 0.0f), 1.0f - 0x1p-24f);
-                inside[together][1] = square[j][1];
-                lanes[together++] = j;
-                members[j] = ALPI_NONE;
-            }
+        for (uint8_t i = heads[m]; i != NONE; i = next[i]) {
+            const float u = width > 0.0f ? (square[i][0] - begin) / width : 0.0f;
+            inside[together][0] = fminf(fmaxf(u, 0.0f), 1.0f - 0x1p-24f);
+            inside[together][1] = square[i][1];
+            lanes[together++] = i;
         }
-        texels.place(texels.user, p->block_texels[member], together, (const float(*)[2])inside,
-                     placed);
+        if (together > 0) {
+            texels.place(texels.user, p->block_texels[first + m], together,
+                         (const float(*)[2])inside, placed);
+        }
         for (uint32_t k = 0; k < together; k++) {
             points[lanes[k]] = placed[k];
         }

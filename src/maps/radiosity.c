@@ -18,6 +18,7 @@ typedef struct solver {
     alpi_kept_rays kept;
     uint32_t *new_receivers;             // [sides × blocks]
     alpi_reference_value *layer_bounced; // [sides × blocks] with layers
+    double first_light;                  // that no pass changes: W, over the receivers, by channel
     alpi_task_progress progress;
 } solver;
 
@@ -336,23 +337,25 @@ static uint32_t block_of(const alpi_patches *p, uint32_t receiver, size_t *back)
     return *back ? receiver - p->block_count : receiver;
 }
 
-/// Light of a block: area integral of direct and gathered irradiance, all channels.
-static double light_of(const alpi_radiosity *r, uint32_t receiver)
+/// Sums light that no pass changes, direct and the sky's: area integrals of irradiance.
+static void sum_first_light(const void *user, uint32_t begin, uint32_t end,
+                            double sums[ALPI_SUM_LIMIT])
 {
+    const alpi_radiosity *r = user;
     const alpi_patches *p = &r->patches;
-    size_t back;
-    const uint32_t b = block_of(p, receiver, &back);
-    double sum =
-        p->block_areas[b] * (sum_of(r->bounced[receiver].mean) + sum_of(r->skies[receiver]));
-    for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-        const uint32_t t = p->block_texels[k];
-        sum += (double)alpi_texels_area(p->texels, t) *
-               sum_of(r->direct[back * p->texels->count + t].mean);
+    for (uint32_t i = begin; i < end; i++) {
+        size_t back;
+        const uint32_t b = block_of(p, r->receivers[i], &back);
+        sums[0] += p->block_areas[b] * sum_of(r->skies[r->receivers[i]]);
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            const uint32_t t = p->block_texels[k];
+            sums[0] += (double)alpi_texels_area(p->texels, t) *
+                       sum_of(r->direct[back * p->texels->count + t].mean);
+        }
     }
-    return sum;
 }
 
-/// Sums |Eₖ − Eₖ₋₁|, Eₖ − Eₖ₋₁ and all light over the receivers.
+/// Sums |Eₖ − Eₖ₋₁| and Eₖ over the receivers, by area.
 static void sum_changes(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
     const alpi_radiosity *r = user;
@@ -365,7 +368,7 @@ static void sum_changes(const void *user, uint32_t begin, uint32_t end, double s
                 (double)r->bounced[receiver].mean[k] - (double)r->before[receiver][k];
             sums[0] += area * fabs(change);
         }
-        sums[1] += light_of(r, receiver);
+        sums[1] += area * sum_of(r->bounced[receiver].mean);
     }
 }
 
@@ -379,7 +382,8 @@ static alp_result pass(solver *s, double *change)
     ALP_TRY(gather_pass(s, r->bounced));
     ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_changes, r, &s->progress,
                               sums));
-    *change = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    const double light = s->first_light + sums[1];
+    *change = light > 0.0 ? sums[0] / light : 0.0;
     if (r->passes < ALPI_RADIOSITY_CHANGES) {
         r->changes[r->passes] = (float)*change;
     }
@@ -400,7 +404,10 @@ static alp_result run_passes(solver *s)
     const alpi_radiosity_options *o = &s->r->options;
     const bool converge = o->bounces > ALPI_RADIOSITY_PASS_LIMIT;
     const uint32_t limit = converge ? ALPI_RADIOSITY_PASS_LIMIT : o->bounces;
-    double change = 0.0, former = 0.0;
+    double change = 0.0, former = 0.0, sums[ALPI_SUM_LIMIT] = {0.0};
+    ALP_TRY(alpi_parallel_sum(o->context, s->r->receiver_count, sum_first_light, s->r, &s->progress,
+                              sums));
+    s->first_light = sums[0];
     while (s->r->passes < limit) {
         ALP_TRY(pass(s, &change));
         const bool settled =
@@ -484,7 +491,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
     ALP_TRY(find_receivers(s));
     ALP_TRY(run_passes(s));
-    alpi_radiosity_find_energy(s->r);
+    ALP_TRY(alpi_radiosity_find_energy(s->r, &s->progress));
     return run_layers(s);
 }
 

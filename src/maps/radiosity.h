@@ -90,8 +90,9 @@ typedef struct alpi_radiosity {
 /// those of the texels beside do.
 /// @param block of the texel
 float alpi_radiosity_brighter(const alpi_radiosity *radiosity, uint32_t texel, uint32_t block);
-/// Fills radiosity->energy, by what blocks gathered last.
-void alpi_radiosity_find_energy(alpi_radiosity *radiosity);
+/// Fills radiosity->energy, by what blocks gathered last. @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_radiosity_find_energy(alpi_radiosity *radiosity,
+                                      const alpi_task_progress *progress);
 
 /// Solves for the patches of an atlas.
 /// @param order [count] texels with light of their own, neighbours together

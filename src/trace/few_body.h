@@ -174,7 +174,8 @@ static const alpi_few_list *list_near(const alpi_few *few, const alpi_rays *rays
         low[k] -= reach + few->slack;
         high[k] += reach + few->slack;
     }
-    for (uint32_t t = 0; t < ALPI_FEW_LIMIT; t++) {
+    const uint32_t boxes = few->polygon_count + (0u - few->polygon_count) % ALPI_PACKET;
+    for (uint32_t t = 0; t < boxes; t++) { // whole vectors of them: empty ones beyond the last
         near[t] = (few->low[0][t] <= high[0] ? 1u : 0u) & (few->high[0][t] >= low[0] ? 1u : 0u) &
                   (few->low[1][t] <= high[1] ? 1u : 0u) & (few->high[1][t] >= low[1] ? 1u : 0u) &
                   (few->low[2][t] <= high[2] ? 1u : 0u) & (few->high[2][t] >= low[2] ? 1u : 0u);

@@ -5,6 +5,7 @@
 #include "base/tasks.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { R = ALPI_DIRECT_REPLICATES };
 /// As many blocks weigh as much as what would be taken to be true without any.
@@ -50,8 +51,11 @@ alp_result alpi_direct_halves_create(const alpi_direct *d, uint32_t count,
                                      alpi_direct_halves *halves)
 {
     *halves = (alpi_direct_halves){NULL, NULL};
+    if (!has_joined(d)) {
+        return ALP_OK;
+    }
     ALPI_TRY_NEW(d->options.context, halves->sums, count / ALPI_PACKET + 1);
-    if (d->polygon_count > 0 && has_joined(d)) {
+    if (d->polygon_count > 0) {
         ALPI_TRY_NEW(d->options.context, halves->shares, count);
     }
     return ALP_OK;
@@ -85,31 +89,42 @@ static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_re
     halves->sums[place / ALPI_PACKET][1] += (float)variance;
 }
 
+/// Adds up the parts, or those of them that are joined.
+static void add_parts(const alpi_direct *d, const double (*sums)[R][3], bool all, double out[R][3])
+{
+    memset(out, 0, R * sizeof *out);
+    for (uint32_t p = 0; p < d->part_count; p++) {
+        for (int i = 0; i < 3 * R && (all || is_joined(d, p)); i++) {
+            out[i / 3][i % 3] += sums[p][i / 3][i % 3];
+        }
+    }
+}
+
 void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t receiver,
                      uint32_t place, const alpi_direct_halves *halves, alpi_direct_output *output)
 {
     const uint32_t each = d->samples / R;
     alpi_reference_value *value = &output->values[receiver];
-    double all[R][3] = {{0.0}}, joined[R][3] = {{0.0}};
+    double together[R][3];
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
         alpi_reference_value part;
         alpi_reference_mean(sums[p], R, each, &part);
-        const bool is_one = is_joined(d, p);
         for (int k = 0; k < 3; k++) {
             mean[k] += part.mean[k];
-            for (int r = 0; r < R; r++) {
-                all[r][k] += sums[p][r][k];
-                joined[r][k] += is_one ? sums[p][r][k] : 0.0;
-            }
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
+        *value = part;
     }
-    alpi_reference_mean((const double(*)[3])all, R, each, value);
-    for (int k = 0; k < 3; k++) {
-        value->mean[k] = mean[k];
+    if (d->part_count != 1) {
+        add_parts(d, sums, true, together);
+        alpi_reference_mean((const double(*)[3])together, R, each, value);
+        memcpy(value->mean, mean, sizeof mean);
     }
-    compare_halves((const double(*)[3])joined, each, value, place, halves);
+    if (halves->sums != NULL) {
+        add_parts(d, sums, false, together);
+        compare_halves((const double(*)[3])together, each, value, place, halves);
+    }
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
@@ -146,6 +161,9 @@ alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *lis
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
     const uint32_t blocks = count / ALPI_PACKET + 1;
+    if (halves->sums == NULL) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_parallel_sum(d->options.context, blocks, add_halves, halves, NULL, sums));
     const float scale = find_scale(sums);
     for (uint32_t i = 0; i < count; i++) {

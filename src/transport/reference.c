@@ -43,17 +43,19 @@ static void add_path(const alpi_path_wave *wave, uint32_t slot, uint32_t sample,
 void alpi_reference_mean(const double (*sums)[3], uint32_t replicates, uint32_t each,
                          alpi_reference_value *value)
 {
+    const double one = 1.0 / each, all = one / replicates;
+    const double pairs = 1.0 / (replicates * (replicates - 1.0));
     for (int k = 0; k < 3; k++) {
-        double mean = 0.0, squares = 0.0;
+        double sum = 0.0, squares = 0.0;
         for (uint32_t r = 0; r < replicates; r++) {
-            mean += sums[r][k] / ((double)each * replicates);
+            sum += sums[r][k];
         }
         for (uint32_t r = 0; r < replicates; r++) {
-            const double apart = sums[r][k] / each - mean;
+            const double apart = sums[r][k] * one - sum * all;
             squares += apart * apart;
         }
-        value->mean[k] = (float)mean;
-        value->variance[k] = (float)(squares / (replicates * (replicates - 1)));
+        value->mean[k] = (float)(sum * all);
+        value->variance[k] = (float)(squares * pairs);
     }
 }
 
