@@ -67,7 +67,7 @@ alp_result alpi_light_round_look(alpi_light_round_state *r)
 {
     const alpi_light_task *t = r->task;
     ALP_TRY(alpi_light_peek(r->job, t, r->solution, (const float(*)[3])r->skies,
-                    alpi_light_round_solved_share(r), r->fresh));
+                            alpi_light_round_solved_share(r), r->fresh));
     return alpi_light_find_error(r->job->context, r->fresh, t->receivers->count, t->order, t->count,
                                  &r->map);
 }

@@ -256,12 +256,12 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
     direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
     if (direct > 0.0) {
-        const alpi_light_goal goal = {
-            .wanted = p.for_direct * r->mean,
-            .each = r->for_worst,
-            .among = r->for_worst ? r->worst.marks : NULL,
-            .most = isinf(r->task->clock->deadline) ? HUGE_VAL : direct * listed,
-            .seed = seed_of_round(r, true)};
+        const alpi_light_goal goal = {.wanted = p.for_direct * r->mean,
+                                      .each = r->for_worst,
+                                      .among = r->for_worst ? r->worst.marks : NULL,
+                                      .most = isinf(r->task->clock->deadline) ? HUGE_VAL
+                                                                              : direct * listed,
+                                      .seed = seed_of_round(r, true)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }

@@ -87,16 +87,17 @@ static void sum_energy(const void *user, uint32_t begin, uint32_t end, double su
 alp_result alpi_radiosity_find_energy(alpi_radiosity *r, const alpi_task_progress *progress)
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
-    ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_energy, r, progress, sums));
+    ALP_TRY(
+        alpi_parallel_sum(r->options.context, r->receiver_count, sum_energy, r, progress, sums));
     const alpi_lighting *l = r->options.lighting;
     const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
-    r->energy = (alpi_energy){
-        .emitted = sums[EMITTED] + (others ? sums[RECEIVED] - sums[EMITTED_AT_OTHERS] : 0.0),
-        .received = sums[RECEIVED],
-        .absorbed = sums[ABSORBED],
-        .escaped = sums[ESCAPED],
-        .lost_behind = sums[LOST_BEHIND],
-        .unshot = sums[UNSHOT],
-        .known = !alpi_tracer_has_panes(r->options.tracer)};
+    r->energy = (alpi_energy){.emitted = sums[EMITTED] +
+                                         (others ? sums[RECEIVED] - sums[EMITTED_AT_OTHERS] : 0.0),
+                              .received = sums[RECEIVED],
+                              .absorbed = sums[ABSORBED],
+                              .escaped = sums[ESCAPED],
+                              .lost_behind = sums[LOST_BEHIND],
+                              .unshot = sums[UNSHOT],
+                              .known = !alpi_tracer_has_panes(r->options.tracer)};
     return ALP_OK;
 }

@@ -116,7 +116,8 @@ static alp_result measure(measuring *m, const alpi_tracer *tracer, alp_occlusion
     options.samples = RAYS_PER_HALF;
     for (uint64_t half = 0; half < 2; half++) {
         ALPI_TRY_NEW(m->map->context, m->halves[half], count);
-        options.seed = alpi_hash64(alpi_hash64(options.seed) + half + 1); // neither the bake's nor each other's
+        options.seed = alpi_hash64(alpi_hash64(options.seed) + half +
+                                   1); // neither the bake's nor each other's
         alpi_occlusion_setup setup;
         ALP_TRY(alpi_occlusion_prepare(m->map->scene, tracer, &options, &setup));
         alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, count, m->halves[half]);

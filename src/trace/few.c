@@ -117,18 +117,15 @@ static bool are_plain(const alpi_few *few, const raw_triangle *raw, float far)
 
 // --- polygons ------------------------------------------------------------------------------------
 
-/// Four corners, counter-clockwise, of two triangles that meet along the second and the fourth.
-typedef struct quadrilateral {
-    uint16_t corners[4];
-} quadrilateral;
-
-static bool share_edge(const raw_triangle *a, const raw_triangle *b, quadrilateral *q)
+/// @param corners out: four, counter-clockwise; the edge is from the second to the fourth
+static bool share_edge(const raw_triangle *a, const raw_triangle *b, uint16_t corners[4])
 {
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             const uint16_t from = a->corners[(i + 1) % 3], to = a->corners[(i + 2) % 3];
             if (b->corners[(j + 1) % 3] == to && b->corners[(j + 2) % 3] == from) {
-                *q = (quadrilateral){{a->corners[i], from, b->corners[j], to}};
+                const uint16_t both[4] = {a->corners[i], from, b->corners[j], to};
+                memcpy(corners, both, sizeof both);
                 return true;
             }
         }
@@ -137,22 +134,28 @@ static bool share_edge(const raw_triangle *a, const raw_triangle *b, quadrilater
 }
 
 /// Whether it lies in a plane, as far as its coordinates can tell, and has no corner that turns in.
-static bool is_flat_and_convex(const alpi_few *few, const quadrilateral *q)
+static bool is_flat_and_convex(const alpi_few *few, const uint16_t corners[4])
 {
-    static const float HALF_STEP = 0x1p-24f; // of a coordinate: a quarter of what rays are lifted by
-    const vec3 n = normal_of(few, (const uint16_t[]){q->corners[0], q->corners[1], q->corners[3]});
+    // Of a coordinate: a quarter of what rays are lifted by.
+    static const float HALF_STEP = 0x1p-24f;
+    const vec3 n = normal_of(few, (const uint16_t[]){corners[0], corners[1], corners[3]});
     const float length = vec3_length(n);
     float largest = 0.0f;
     bool convex = true;
     for (int c = 0; c < 4; c++) {
-        const vec3 p = corner_of(few, q->corners[c]);
-        const vec3 turn = normal_of(few, (const uint16_t[]){q->corners[c], q->corners[(c + 1) % 4],
-                                                            q->corners[(c + 3) % 4]});
+        const vec3 p = corner_of(few, corners[c]);
+        const vec3 turn = normal_of(
+            few, (const uint16_t[]){corners[c], corners[(c + 1) % 4], corners[(c + 3) % 4]});
         largest = fmaxf(largest, fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z))));
         convex = convex && vec3_dot(turn, n) > 1e-5f * length * length;
     }
-    const vec3 across = vec3_sub(corner_of(few, q->corners[2]), corner_of(few, q->corners[0]));
+    const vec3 across = vec3_sub(corner_of(few, corners[2]), corner_of(few, corners[0]));
     return convex && fabsf(vec3_dot(n, across)) <= HALF_STEP * largest * length;
+}
+
+static void add_to_set(alpi_few_set *set, uint32_t member)
+{
+    set->words[member / 64] |= (uint64_t)1 << member % 64;
 }
 
 static void add_polygon(alpi_few *few, const uint16_t *corners, int count, alpi_few_polygon p)
@@ -165,6 +168,8 @@ static void add_polygon(alpi_few *few, const uint16_t *corners, int count, alpi_
     }
     for (int c = 0; c < count; c++) {
         p.sides[c] = add_side(few, corners[c], corners[(c + 1) % count]);
+        add_to_set(&p.edges, p.sides[c] / 2u);
+        add_to_set(&p.corners, corners[c]);
         for (int k = 0; k < 3; k++) {
             few->low[k][place] = fminf(few->low[k][place], few->corner[corners[c]][k]);
             few->high[k][place] = fmaxf(few->high[k][place], few->corner[corners[c]][k]);
@@ -178,19 +183,19 @@ static void add_polygon_of(alpi_few *few, raw_triangle *raw, uint32_t t)
 {
     alpi_few_polygon p = {.triangles = {t, t}, .single_sided = raw[t].single_sided};
     for (uint32_t other = t + 1; other < few->count; other++) {
-        quadrilateral q;
+        uint16_t corners[4];
         if (!raw[other].taken && raw[other].single_sided == raw[t].single_sided &&
-            share_edge(&raw[t], &raw[other], &q) && is_flat_and_convex(few, &q)) {
+            share_edge(&raw[t], &raw[other], corners) && is_flat_and_convex(few, corners)) {
             raw[other].taken = true;
             p.triangles[1] = other;
-            const vec3 middle = corner_of(few, q.corners[1]);
-            const vec3 along = vec3_sub(corner_of(few, q.corners[3]), middle);
-            const vec3 n = vec3_cross(
-                vec3_sub(corner_of(few, q.corners[2]), corner_of(few, q.corners[0])), along);
+            const vec3 middle = corner_of(few, corners[1]);
+            const vec3 along = vec3_sub(corner_of(few, corners[3]), middle);
+            const vec3 n =
+                vec3_cross(vec3_sub(corner_of(few, corners[2]), corner_of(few, corners[0])), along);
             vec3_store(p.normal, n);
             vec3_store(p.middle, middle);
             vec3_store(p.to_first, vec3_cross(n, along));
-            add_polygon(few, q.corners, 4, p);
+            add_polygon(few, corners, 4, p);
             return;
         }
     }
@@ -214,8 +219,9 @@ static void add_polygons(alpi_few *few, raw_triangle *raw)
     }
     few->all.polygon_count = few->polygon_count;
     few->all.edge_count = few->edge_count;
+    few->all.corner_count = few->corner_count;
     for (uint16_t i = 0; i < ALPI_FEW_EDGES; i++) {
-        few->all.edges[i] = i;
+        few->all.edges[i] = few->all.corners[i] = i;
         few->all.polygons[i % ALPI_FEW_LIMIT] = (uint16_t)(i % ALPI_FEW_LIMIT);
     }
 }

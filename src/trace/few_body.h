@@ -54,14 +54,15 @@ static inline bool is_none(masks which)
 }
 
 /// Corners seen from the origins of a packet.
-static inline void see_corners(const alpi_few *few, const alpi_rays *rays, int i,
-                               floats corners[][3])
+static inline void see_corners(const alpi_few *few, const alpi_few_list *list,
+                               const alpi_rays *rays, int i, floats corners[][3])
 {
     const floats origin[3] = {load(rays->origin_x + i), load(rays->origin_y + i),
                               load(rays->origin_z + i)};
-    for (uint32_t c = 0; c < few->corner_count; c++) {
+    for (uint32_t c = 0; c < list->corner_count; c++) {
+        const uint32_t corner = list->corners[c];
         for (int k = 0; k < 3; k++) {
-            corners[c][k] = few->corner[c][k] - origin[k];
+            corners[corner][k] = few->corner[corner][k] - origin[k];
         }
     }
 }
@@ -134,68 +135,89 @@ static bool share_origins(const alpi_rays *a, const alpi_rays *b)
     return same;
 }
 
-/// Lists the edges of the listed polygons.
-static void list_edges(const alpi_few *few, alpi_few_list *list)
+static uint32_t list_members(const alpi_few_set *set, uint16_t *list)
 {
-    uint8_t wanted[ALPI_FEW_EDGES] = {0};
-    for (uint32_t t = 0; t < list->polygon_count; t++) {
-        const uint16_t *sides = few->polygon[list->polygons[t]].sides;
-        for (int s = 0; s < 4; s++) {
-            wanted[sides[s] / 2] = 1;
+    uint32_t count = 0;
+    for (uint32_t w = 0; w < sizeof set->words / sizeof *set->words; w++) {
+        for (uint64_t left = set->words[w]; left != 0; left &= left - 1) {
+            list[count++] = (uint16_t)(64 * w + (uint32_t)__builtin_ctzll(left));
         }
     }
-    list->edge_count = 0;
-    for (uint32_t e = 0; e < few->edge_count; e++) {
-        list->edges[list->edge_count] = (uint16_t)e;
-        list->edge_count += wanted[e];
-    }
+    return count;
 }
 
-/// Polygons whose boxes rays from these origins can reach. Which of them are listed changes no
-/// answer: what is left out, no ray meets.
-/// @param room for a list @return it, or that of all
-static const alpi_few_list *list_near(const alpi_few *few, const alpi_rays *rays, float reach,
-                                      alpi_few_list *room)
-{
-    const float *const origin[3] = {rays->origin_x, rays->origin_y, rays->origin_z};
-    uint32_t near[ALPI_FEW_LIMIT];
+/// What rays from some box reach. Which polygons are listed changes no answer: what is left out, no
+/// ray meets.
+typedef struct reached_box {
     float low[3], high[3];
-    if (!(reach < few->extent)) {
-        return &few->all;
-    }
-    for (int k = 0; k < 3; k++) {
-        low[k] = INFINITY;
-        high[k] = -INFINITY;
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            const float at = origin[k][i];
-            low[k] = at < low[k] ? at : low[k];
-            high[k] = at > high[k] ? at : high[k];
-        }
-        low[k] -= reach + few->slack;
-        high[k] += reach + few->slack;
-    }
+} reached_box;
+
+static void list_near(const alpi_few *few, const reached_box *box, alpi_few_list *list)
+{
+    const float *low = box->low, *high = box->high;
+    alpi_few_set edges = {{0}}, corners = {{0}};
+    uint32_t near[ALPI_FEW_LIMIT];
     const uint32_t boxes = few->polygon_count + (0u - few->polygon_count) % ALPI_PACKET;
     for (uint32_t t = 0; t < boxes; t++) { // whole vectors of them: empty ones beyond the last
         near[t] = (few->low[0][t] <= high[0] ? 1u : 0u) & (few->high[0][t] >= low[0] ? 1u : 0u) &
                   (few->low[1][t] <= high[1] ? 1u : 0u) & (few->high[1][t] >= low[1] ? 1u : 0u) &
                   (few->low[2][t] <= high[2] ? 1u : 0u) & (few->high[2][t] >= low[2] ? 1u : 0u);
     }
-    room->polygon_count = 0;
+    list->polygon_count = 0;
     for (uint32_t t = 0; t < few->polygon_count; t++) {
-        room->polygons[room->polygon_count] = (uint16_t)t;
-        room->polygon_count += near[t];
+        list->polygons[list->polygon_count] = (uint16_t)t;
+        list->polygon_count += near[t];
     }
-    list_edges(few, room);
-    return room;
+    for (uint32_t k = 0; k < list->polygon_count; k++) {
+        const alpi_few_polygon *polygon = &few->polygon[list->polygons[k]];
+        for (uint32_t w = 0; w < sizeof edges.words / sizeof *edges.words; w++) {
+            edges.words[w] |= polygon->edges.words[w];
+            corners.words[w] |= polygon->corners.words[w];
+        }
+    }
+    list->edge_count = list_members(&edges, list->edges);
+    list->corner_count = list_members(&corners, list->corners);
 }
 
-static float longest(const alpi_rays *rays)
+/// @param lanes that count: all ones for these, 0 for the others
+/// @param room  for a list @return it, or that of all
+static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *packets,
+                                         uint32_t count, const uint32_t lanes[ALPI_PACKET],
+                                         alpi_few_list *room)
 {
-    float reach = 0.0f;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        reach = rays->maximum[i] > reach ? rays->maximum[i] : reach;
+    const floats none = (floats){0} + INFINITY;
+    floats low[3] = {none, none, none}, high[3] = {-none, -none, -none}, far = {0};
+    for (const alpi_rays *rays = packets; rays < packets + count; rays++) {
+        for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
+            const masks active = load_masks(lanes + i);
+            const floats at[3] = {load(rays->origin_x + i), load(rays->origin_y + i),
+                                  load(rays->origin_z + i)};
+            const floats reach = load(rays->maximum + i);
+            far = choose(active & (reach > far), reach, far);
+            for (int k = 0; k < 3; k++) {
+                low[k] = choose(active & (at[k] < low[k]), at[k], low[k]);
+                high[k] = choose(active & (at[k] > high[k]), at[k], high[k]);
+            }
+        }
     }
-    return reach;
+    reached_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    float reach = 0.0f;
+    for (int i = 0; i < WIDTH; i++) {
+        reach = far[i] > reach ? far[i] : reach;
+        for (int k = 0; k < 3; k++) {
+            box.low[k] = low[k][i] < box.low[k] ? low[k][i] : box.low[k];
+            box.high[k] = high[k][i] > box.high[k] ? high[k][i] : box.high[k];
+        }
+    }
+    if (!(reach < few->extent)) {
+        return &few->all;
+    }
+    for (int k = 0; k < 3; k++) {
+        box.low[k] -= reach + few->slack;
+        box.high[k] += reach + few->slack;
+    }
+    list_near(few, &box, room);
+    return room;
 }
 
 static inline void load_direction(const alpi_rays *rays, int i, floats direction[3])
@@ -206,20 +228,14 @@ static inline void load_direction(const alpi_rays *rays, int i, floats direction
 }
 
 /// Packets that share their origins.
-static void stop_rays(const alpi_few *few, alpi_rays *packets, uint32_t count,
-                      const uint32_t lanes[ALPI_PACKET], bool one_sided)
+static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays *packets,
+                      uint32_t count, const uint32_t lanes[ALPI_PACKET], bool one_sided)
 {
-    alpi_few_list room;
     floats corners[ALPI_FEW_EDGES][3], across[ALPI_FEW_EDGES][3], heights[ALPI_FEW_LIMIT];
     masks sides[2 * ALPI_FEW_EDGES];
-    float reach = 0.0f;
-    for (uint32_t packet = 0; packet < count; packet++) {
-        reach = fmaxf(reach, longest(&packets[packet]));
-    }
-    const alpi_few_list *list = list_near(few, packets, reach, &room);
     for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
         const masks active = load_masks(lanes + i);
-        see_corners(few, packets, i, corners);
+        see_corners(few, list, packets, i, corners);
         for (uint32_t e = 0; e < list->edge_count; e++) {
             see_edge(&few->edge[list->edges[e]], corners, across[e]);
         }
@@ -249,11 +265,13 @@ static void stop_rays(const alpi_few *few, alpi_rays *packets, uint32_t count,
 static void occluded(const alpi_few *few, alpi_rays *packets, uint32_t count,
                      const uint32_t lanes[ALPI_PACKET], bool one_sided)
 {
+    alpi_few_list room;
+    const alpi_few_list *list = list_reached(few, packets, count, lanes, &room);
     for (uint32_t first = 0, end = 0; first < count; first = end) {
         for (end = first + 1; end < count && share_origins(&packets[first], &packets[end]);) {
             end++;
         }
-        stop_rays(few, packets + first, end - first, lanes, one_sided);
+        stop_rays(few, list, packets + first, end - first, lanes, one_sided);
     }
 }
 
@@ -273,7 +291,7 @@ static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
     hits->polygon = (masks){0} - 1;
     hits->behind = (masks){0};
     load_direction(rays, i, direction);
-    see_corners(few, rays, i, corners);
+    see_corners(few, list, rays, i, corners);
     for (uint32_t e = 0; e < list->edge_count; e++) {
         floats across[3];
         see_edge(&few->edge[list->edges[e]], corners, across);
@@ -319,7 +337,11 @@ static void nearest(const alpi_few *few, const alpi_rays *rays, uint32_t active,
                     alpi_hits *hits)
 {
     alpi_few_list room;
-    const alpi_few_list *list = list_near(few, rays, longest(rays), &room);
+    uint32_t lanes[ALPI_PACKET];
+    for (int lane = 0; lane < ALPI_PACKET; lane++) {
+        lanes[lane] = 0u - (active >> lane & 1u);
+    }
+    const alpi_few_list *list = list_reached(few, rays, 1, lanes, &room);
     hits->behind &= ~active;
     for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
         nearest_hits found;

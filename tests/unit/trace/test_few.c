@@ -82,6 +82,7 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
                 ASSERT_NEAR(fast.distance[i], slow.distance[i], 2e-5);
                 ASSERT_NEAR(fast.b1[i], slow.b1[i], 2e-3);
                 ASSERT_NEAR(fast.b2[i], slow.b2[i], 2e-3);
+                assert_true(fast.b1[i] >= 0.0f && fast.b2[i] >= 0.0f);
                 assert_int_equal(fast.behind >> i & 1u, slow.behind >> i & 1u);
             } else {
                 assert_true(isinf(fast.distance[i]));
@@ -91,20 +92,91 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
     return hits;
 }
 
+static void agree_by_all_loops(rig *r)
+{
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(r, loops);
+    for (int k = 0; k < count; k++) {
+        const int both = agree_with_brute_force(r, loops[k], false);
+        const int front = agree_with_brute_force(r, loops[k], true);
+        print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
+        assert_true(both > PACKETS / 5 && front > PACKETS / 10 && front < both);
+    }
+    close_rig(r);
+}
+
 static void few_triangles_are_hit_as_by_brute_force(void **state)
 {
     (void)state;
     rig r;
-    const alpi_few_loops *loops[2];
     open_rig(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f), &r);
-    const int count = list_loops(&r, loops);
-    for (int k = 0; k < count; k++) {
-        const int both = agree_with_brute_force(&r, loops[k], false);
-        const int front = agree_with_brute_force(&r, loops[k], true);
-        print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
-        assert_true(both > PACKETS / 5 && front > PACKETS / 10 && front < both);
+    assert_int_equal(r.few->polygon_count, r.few->count); // none has a side in common
+    agree_by_all_loops(&r);
+}
+
+/// Six faces of two triangles each, whose diagonals run any way.
+static void add_turned_box(test_mesh *mesh, const double middle[3], double half, double angle)
+{
+    static const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    uint32_t v[8];
+    for (int c = 0; c < 8; c++) {
+        const double x = half * (c / 4 * 2 - 1), y = half * (c / 2 % 2 * 2 - 1);
+        v[c] = test_mesh_vertex(mesh, middle[0] + x * cos(angle) - y * sin(angle),
+                                middle[1] + x * sin(angle) + y * cos(angle),
+                                middle[2] + half * (c % 2 * 2 - 1));
     }
-    close_rig(&r);
+    for (int f = 0; f < 6; f++) {
+        const int *c = faces[f], k = f % 2;
+        test_mesh_triangle(mesh, v[c[0]], v[c[1]], v[c[2 + k]]);
+        test_mesh_triangle(mesh, v[c[2]], v[c[3]], v[c[k]]);
+    }
+}
+
+/// Two triangles of a face are met as one, and which of them it was is told.
+static void faces_are_hit_as_by_brute_force(void **state)
+{
+    (void)state;
+    rig r;
+    test_mesh *mesh = test_mesh_start();
+    for (int i = 0; i < 5; i++) {
+        const double middle[3] = {0.7 * (i % 3) - 0.7, 0.8 * (i / 3) - 0.4, 0.25 * i - 0.5};
+        add_turned_box(mesh, middle, 0.15 + 0.05 * i, 0.3 * i);
+    }
+    open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
+    assert_int_equal(r.few->count, 60);
+    assert_int_equal(r.few->polygon_count, 30);
+    assert_int_equal(r.few->edge_count, 60);
+    assert_int_equal(r.few->corner_count, 40);
+    agree_by_all_loops(&r);
+}
+
+/// Two triangles are one only where they lie in a plane, turn the same way, and make no corner that
+/// turns in.
+static void only_flat_and_convex_pairs_are_joined(void **state)
+{
+    (void)state;
+    const struct {
+        double fourth[3]; // corner, beside (0, 0, 0), (1, 0, 0) and (0, 1, 0), of (1, 3, 2)
+        bool turned;      // the second triangle
+        uint32_t polygons;
+    } cases[] = {{{1, 1, 0}, false, 1},     {{1, 1, 0}, true, 2},      {{1, 1, 0.001}, false, 2},
+                 {{1, 1, 1e-9}, false, 1},  {{0.9, 0.2, 0}, false, 1}, {{1.5, -0.2, 0}, false, 2},
+                 {{-0.2, 1.5, 0}, false, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        rig r;
+        test_mesh *mesh = test_mesh_start();
+        const double *d = cases[i].fourth;
+        test_mesh_vertex(mesh, 0, 0, 0);
+        test_mesh_vertex(mesh, 1, 0, 0);
+        test_mesh_vertex(mesh, 0, 1, 0);
+        test_mesh_vertex(mesh, d[0], d[1], d[2]);
+        test_mesh_triangle(mesh, 0, 1, 2);
+        test_mesh_triangle(mesh, 1, cases[i].turned ? 2 : 3, cases[i].turned ? 3 : 2);
+        open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
+        assert_int_equal(r.few->polygon_count, cases[i].polygons);
+        close_rig(&r);
+    }
 }
 
 /// A closed sphere of 60 triangles: rays from inside are stopped, at edges too.
@@ -140,6 +212,58 @@ static void no_ray_slips_between_two(void **state)
         }
     }
     close_rig(&r);
+}
+
+/// From the middle of a solid exactly through its corners and the middles of its edges.
+static void meet_every_corner(alp_scene *scene)
+{
+    rig r;
+    open_rig(scene, &r);
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(&r, loops);
+    for (int way = 0; way < 27; way++) {
+        if (way == 13) {
+            continue; // none
+        }
+        alpi_rays rays;
+        memset(&rays, 0, sizeof rays);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            rays.direction_x[i] = (float)(way % 3 - 1); // not unit, but without rounding
+            rays.direction_y[i] = (float)(way / 3 % 3 - 1);
+            rays.direction_z[i] = (float)(way / 9 - 1);
+            rays.maximum[i] = INFINITY;
+        }
+        for (int k = 0; k < count; k++) {
+            alpi_rays shadow = rays;
+            alpi_hits hits = {.behind = 0};
+            loops[k]->occluded(r.few, &shadow, 1, ALL, false);
+            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                assert_true(shadow.maximum[i] < 0.0f);
+                assert_true(hits.triangle[i] != ALPI_NONE && hits.distance[i] <= 1.0f);
+            }
+        }
+    }
+    close_rig(&r);
+}
+
+static void corners_stop_rays(void **state)
+{
+    (void)state;
+    test_mesh *cube = test_mesh_start();
+    add_turned_box(cube, (double[]){0, 0, 0}, 1.0, 0.0);
+    meet_every_corner(test_mesh_scene(test_context(1), cube, 0));
+    test_mesh *octahedron = test_mesh_start();
+    for (int k = 0; k < 6; k++) {
+        const double at = k % 2 == 0 ? 1.0 : -1.0;
+        test_mesh_vertex(octahedron, k / 2 == 0 ? at : 0, k / 2 == 1 ? at : 0, k / 2 == 2 ? at : 0);
+    }
+    for (uint32_t k = 0; k < 8; k++) {
+        const uint32_t x = k % 2, y = 2 + k / 2 % 2, z = 4 + k / 4;
+        const bool turned = (k % 2 + k / 2 % 2 + k / 4) % 2 != 0;
+        test_mesh_triangle(octahedron, x, turned ? z : y, turned ? y : z);
+    }
+    meet_every_corner(test_mesh_scene(test_context(1), octahedron, 0));
 }
 
 /// Rays within the plane of a triangle pass it, whatever their reach.
@@ -302,7 +426,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_triangles_are_hit_as_by_brute_force),
+        cmocka_unit_test(faces_are_hit_as_by_brute_force),
+        cmocka_unit_test(only_flat_and_convex_pairs_are_joined),
         cmocka_unit_test(no_ray_slips_between_two),
+        cmocka_unit_test(corners_stop_rays),
         cmocka_unit_test(planes_are_passed_within),
         cmocka_unit_test(batches_are_what_packets_are),
         cmocka_unit_test(few_is_what_is_within_reach),
