@@ -104,7 +104,7 @@ void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3
 
 /// What the two make of the light so far, which stays as it is.
 /// @param whole [texels] out
-/// @return ALP_OK; OUT_OF_MEMORY
+/// @return ALP_OK
 alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, const float (*skies)[3], double share,
                            alpi_reference_value *whole);

@@ -11,6 +11,8 @@
 // What a loop may be of what is left of its part, where a part is made of loops one after another
 // and nobody knows how many.
 static const double LOOP_SHARE = 0.5;
+// Nobody knows before a round whether it is the last.
+static const double MOST_TOLD = 0.99;
 
 alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
                                         const alpi_task_progress *progress)
@@ -72,7 +74,7 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress)
         }
         const double all = now - c->began + left;
         const double share = left >= 0.0 && all > 0.0 ? (now - c->began) / all : 0.0;
-        c->told = fmax(c->told, fmin(share, 1.0));
+        c->told = fmax(c->told, fmin(share, MOST_TOLD));
         told.done = (uint64_t)(c->told * UNITS);
         told.total = UNITS;
         told.seconds_left = left;

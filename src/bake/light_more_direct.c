@@ -31,7 +31,7 @@ enum {
 typedef struct direct_deal {
     alpi_light_direct *direct;
     const alpi_light_goal *goal;
-    uint8_t *marks; // [texels] whether it is noisy; then its class
+    uint8_t *marks; // [texels] whether it is noisy, or beside one that is; then its class
     uint32_t *list; // [count] those that get any
     uint32_t *some; // [count] of one class
     uint32_t count;

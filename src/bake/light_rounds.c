@@ -108,11 +108,12 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
                                    &t->progress);
 }
 
-/// No two rounds have the same, of this seed or any other.
+/// Direct light has rounds of its own; nor do seeds that follow each other share any.
 static uint64_t seed_of_round(const alpi_light_round_state *r, bool direct)
 {
-    const uint64_t seed = r->job->options.occlusion.seed;
-    return alpi_hash64(alpi_hash64(direct ? ~seed : seed) + r->number);
+    enum { FIRST_OF_DIRECT = 1 << 16 };
+    const uint32_t round = r->number + (direct ? FIRST_OF_DIRECT : 0);
+    return alpi_hash64(alpi_hash64(r->job->options.occlusion.seed) + round);
 }
 
 /// Bounced light by `rays` more of each texel that sends any.

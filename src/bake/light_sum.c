@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+enum { TEXELS_PER_RANGE = 4096 };
+
 /// Noise of the light that rays meet, over the mean, times the root of the rays that blocks gather
 /// by. Measured by other seeds of the blocks alone, 32 rays (living_room: 128), for the texels of
 /// the truth table: it is .28 % of the mean at 32 rays, and was .32 % (cornell), .23 % (windows),
@@ -56,8 +58,6 @@ static void add_direct(alpi_reference_value *value, const float *sky,
         value->variance[k] += direct != NULL ? direct->variance[k] : 0.0f;
     }
 }
-
-enum { TEXELS_PER_RANGE = 4096 };
 
 typedef struct peek_job {
     const alpi_light_task *task;

@@ -258,7 +258,7 @@ alpi_receivers alpi_patches_texel_receivers(const alpi_patches *patches)
 
 enum { PLACE_BATCH = 64 };
 
-/// Points that fall into one texel of a block are placed together: they are chained by it.
+/// Points that fall into one texel of a block are placed together: they are chained texel by texel.
 static void place_batch(const alpi_patches *p, uint32_t block, uint32_t count,
                         const float (*square)[2], alpi_receiver_point *points)
 {

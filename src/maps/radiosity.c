@@ -18,7 +18,7 @@ typedef struct solver {
     alpi_kept_rays kept;
     uint32_t *new_receivers;             // [sides × blocks]
     alpi_reference_value *layer_bounced; // [sides × blocks] with layers
-    double first_light;                  // that no pass changes: W, over the receivers, by channel
+    double first_light;                  // that no pass changes: W, over the receivers and channels
     alpi_task_progress progress;
 } solver;
 

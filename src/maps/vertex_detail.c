@@ -114,10 +114,10 @@ static alp_result measure(measuring *m, const alpi_tracer *tracer, alp_occlusion
     ALP_TRY(place_points(m, options.seed));
     const alpi_receivers receivers = alpi_point_array_receivers(&m->points);
     options.samples = RAYS_PER_HALF;
+    const uint64_t seed = alpi_hash64(options.seed); // neither the bake's nor each other's
     for (uint64_t half = 0; half < 2; half++) {
         ALPI_TRY_NEW(m->map->context, m->halves[half], count);
-        options.seed = alpi_hash64(alpi_hash64(options.seed) + half +
-                                   1); // neither the bake's nor each other's
+        options.seed = alpi_hash64(seed + half);
         alpi_occlusion_setup setup;
         ALP_TRY(alpi_occlusion_prepare(m->map->scene, tracer, &options, &setup));
         alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, count, m->halves[half]);

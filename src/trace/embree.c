@@ -567,7 +567,7 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits)
 {
-    if (tracer->few != NULL) {
+    if (tracer->few != NULL && tracer->few->edge_count <= ALPI_FEW_NEAREST) {
         tracer->few->loops->nearest(tracer->few, rays, active, filter.one_sided, hits);
         return;
     }

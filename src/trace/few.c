@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Few triangles, laid out for the loops that meet them.
+// Few triangles, laid out for the loops that meet them: corners and edges once, pairs of triangles
+// that are flat and convex together as one polygon.
 #include "trace/few.h"
 
 #include "base/context.h"
 #include "base/memory.h"
+#include "scene/double3.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,6 +59,7 @@ static uint16_t add_side(alpi_few *few, uint16_t from, uint16_t to)
 
 /// A triangle on its way in.
 typedef struct raw_triangle {
+    uint32_t triangle;       // of the scene
     const uint16_t *corners; // [3]
     bool single_sided, taken;
 } raw_triangle;
@@ -69,30 +72,14 @@ static vec3 normal_of(const alpi_few *few, const uint16_t corners[3])
                       vec3_sub(corner_of(few, corners[2]), a));
 }
 
-static void store_over(float out[3], vec3 v, double over)
-{
-    out[0] = (float)((double)v.x / over);
-    out[1] = (float)((double)v.y / over);
-    out[2] = (float)((double)v.z / over);
-}
-
 static void add_triangle(const alp_scene *scene, uint32_t triangle, alpi_few *few,
                          raw_triangle *raw)
 {
-    uint16_t *corners = few->corners[few->count];
-    alpi_few_triangle *t = &few->triangle[few->count++];
+    uint16_t *corners = few->corners[few->count++];
     for (int c = 0; c < 3; c++) {
         corners[c] = add_corner(few, scene->positions[scene->triangles[triangle][c]]);
     }
-    *raw = (raw_triangle){corners, !alpi_surface_is_double_sided(scene, triangle), false};
-    const vec3 a = corner_of(few, corners[0]), n = normal_of(few, corners);
-    const double square =
-        (double)n.x * (double)n.x + (double)n.y * (double)n.y + (double)n.z * (double)n.z;
-    const double over = square > 0.0 ? square : 1.0; // such are refused
-    t->triangle = triangle;
-    vec3_store(t->corner, a);
-    store_over(t->to_b1, vec3_cross(vec3_sub(corner_of(few, corners[2]), a), n), over);
-    store_over(t->to_b2, vec3_cross(n, vec3_sub(corner_of(few, corners[1]), a)), over);
+    *raw = (raw_triangle){triangle, corners, !alpi_surface_is_double_sided(scene, triangle), false};
 }
 
 /// Whether each triangle is wide enough for rays from anywhere in the scene to tell its edges
@@ -110,22 +97,26 @@ static bool are_plain(const alpi_few *few, const raw_triangle *raw, float far)
             longest = fmaxf(longest, vec3_length(edge));
         }
         const float area = vec3_length(normal_of(few, raw[t].corners)); // twice
-        plain = plain && area >= NARROWEST * far * longest;
+        plain = plain && area > 0.0f && area >= NARROWEST * far * longest;
     }
     return plain;
 }
 
 // --- polygons ------------------------------------------------------------------------------------
 
-/// @param corners out: four, counter-clockwise; the edge is from the second to the fourth
-static bool share_edge(const raw_triangle *a, const raw_triangle *b, uint16_t corners[4])
+/// Two triangles that have an edge in common: corner i of the one and j of the other are apart.
+typedef struct pair {
+    int i, j;
+    uint16_t corners[4]; // counter-clockwise, from the first's on
+} pair;
+
+static bool share_edge(const raw_triangle *a, const raw_triangle *b, pair *p)
 {
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             const uint16_t from = a->corners[(i + 1) % 3], to = a->corners[(i + 2) % 3];
             if (b->corners[(j + 1) % 3] == to && b->corners[(j + 2) % 3] == from) {
-                const uint16_t both[4] = {a->corners[i], from, b->corners[j], to};
-                memcpy(corners, both, sizeof both);
+                *p = (pair){i, j, {a->corners[i], from, b->corners[j], to}};
                 return true;
             }
         }
@@ -133,24 +124,43 @@ static bool share_edge(const raw_triangle *a, const raw_triangle *b, uint16_t co
     return false;
 }
 
-/// Whether it lies in a plane, as far as its coordinates can tell, and has no corner that turns in.
-static bool is_flat_and_convex(const alpi_few *few, const uint16_t corners[4])
+/// No less than rays from a triangle are lifted off it (alpi_receiver_offset), by where it is and
+/// how long: in steps of a float at 1.
+static double least_lift(const alpi_few *few, const uint16_t corners[3])
 {
-    // Of a coordinate: a quarter of what rays are lifted by.
-    static const float HALF_STEP = 0x1p-24f;
-    const vec3 n = normal_of(few, (const uint16_t[]){corners[0], corners[1], corners[3]});
-    const float length = vec3_length(n);
-    float largest = 0.0f;
-    bool convex = true;
-    for (int c = 0; c < 4; c++) {
-        const vec3 p = corner_of(few, corners[c]);
-        const vec3 turn = normal_of(
-            few, (const uint16_t[]){corners[c], corners[(c + 1) % 4], corners[(c + 3) % 4]});
-        largest = fmaxf(largest, fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z))));
-        convex = convex && vec3_dot(turn, n) > 1e-5f * length * length;
+    double least = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int c = 0; c < 3; c++) {
+            low = fmin(low, (double)few->corner[corners[c]][k]);
+            high = fmax(high, (double)few->corner[corners[c]][k]);
+        }
+        least = fmax(least, fmax(0.5 * (high - low), fmax(low, -high)));
     }
-    const vec3 across = vec3_sub(corner_of(few, corners[2]), corner_of(few, corners[0]));
-    return convex && fabsf(vec3_dot(n, across)) <= HALF_STEP * largest * length;
+    return 2.0 * least;
+}
+
+/// Whether a pair's plane, along both diagonals through one of them, is as good for rays from
+/// either triangle as its own, and no corner turns in.
+static bool is_flat_and_convex(const alpi_few *few, const pair *p, const raw_triangle *a,
+                               const raw_triangle *b)
+{
+    static const double TURN = 1e-5; // sine of the least angle that a corner turns by
+    double3 side[4];
+    for (int k = 0; k < 4; k++) {
+        side[k] =
+            double3_between(corner_of(few, p->corners[k]), corner_of(few, p->corners[(k + 1) % 4]));
+    }
+    const double3 n = double3_cross(double3_add(side[0], side[1]), double3_add(side[1], side[2]));
+    const double length = double3_length(n);
+    bool convex = true;
+    for (int k = 0; k < 4; k++) {
+        const double3 *in = &side[(k + 3) % 4], *out = &side[k];
+        const double least = TURN * double3_length(*in) * double3_length(*out) * length;
+        convex = convex && double3_dot(double3_cross(*in, *out), n) > least;
+    }
+    const double lift = fmin(least_lift(few, a->corners), least_lift(few, b->corners));
+    return convex && fabs(double3_dot(n, side[0])) <= 0.25 * 0x1p-23 * lift * length;
 }
 
 static void add_to_set(alpi_few_set *set, uint32_t member)
@@ -158,50 +168,80 @@ static void add_to_set(alpi_few_set *set, uint32_t member)
     set->words[member / 64] |= (uint64_t)1 << member % 64;
 }
 
-static void add_polygon(alpi_few *few, const uint16_t *corners, int count, alpi_few_polygon p)
+/// @param count 3 or 4  @return the polygon, of which the caller sets what is not its outline
+static alpi_few_polygon *add_polygon(alpi_few *few, const uint16_t *corners, int count)
 {
     const uint32_t place = few->polygon_count++;
-    p.corner = corners[0];
+    alpi_few_polygon *p = &few->polygon[place];
+    p->corner = corners[0];
     for (int k = 0; k < 3; k++) {
         few->low[k][place] = INFINITY;
         few->high[k][place] = -INFINITY;
     }
     for (int c = 0; c < count; c++) {
-        p.sides[c] = add_side(few, corners[c], corners[(c + 1) % count]);
-        add_to_set(&p.edges, p.sides[c] / 2u);
-        add_to_set(&p.corners, corners[c]);
+        p->sides[c] = add_side(few, corners[c], corners[(c + 1) % count]);
+        add_to_set(&p->edges, p->sides[c] / 2u);
+        add_to_set(&p->corners, corners[c]);
         for (int k = 0; k < 3; k++) {
             few->low[k][place] = fminf(few->low[k][place], few->corner[corners[c]][k]);
             few->high[k][place] = fmaxf(few->high[k][place], few->corner[corners[c]][k]);
         }
     }
-    few->polygon[place] = p;
+    if (count == 3) {
+        p->sides[3] = p->sides[2];
+    }
+    return p;
 }
 
-/// The quadrilateral that a triangle makes with one after it, or the triangle itself.
+static void add_pair(alpi_few *few, const pair *q, const raw_triangle *a, const raw_triangle *b)
+{
+    enum { DIAGONAL = 4 };
+    alpi_few_polygon *p = add_polygon(few, q->corners, 4);
+    vec3 c[4];
+    for (int k = 0; k < 4; k++) {
+        c[k] = corner_of(few, q->corners[k]);
+    }
+    vec3_store(p->normal, vec3_cross(vec3_sub(c[2], c[0]), vec3_sub(c[3], c[1])));
+    p->single_sided = a->single_sided;
+    p->diagonal = (alpi_few_edge){q->corners[1], q->corners[3]};
+    p->triangles[0] = a->triangle;
+    p->triangles[1] = b->triangle;
+    // A corner weighs by the side across from it: those of the first are corners 0, 1 and 3.
+    p->weights[0][q->i] = p->weights[1][q->j] = DIAGONAL;
+    p->weights[0][(q->i + 1) % 3] = 3;
+    p->weights[0][(q->i + 2) % 3] = 0;
+    p->weights[1][(q->j + 1) % 3] = 1;
+    p->weights[1][(q->j + 2) % 3] = 2;
+}
+
+static void add_alone(alpi_few *few, const raw_triangle *t)
+{
+    alpi_few_polygon *p = add_polygon(few, t->corners, 3);
+    vec3_store(p->normal, normal_of(few, t->corners));
+    p->single_sided = t->single_sided;
+    p->diagonal = (alpi_few_edge){p->corner, p->corner};
+    for (uint8_t k = 0; k < 2; k++) {
+        p->triangles[k] = t->triangle;
+        for (uint8_t c = 0; c < 3; c++) {
+            p->weights[k][c] = (uint8_t)((c + 1) % 3);
+        }
+    }
+}
+
+/// The polygon that a triangle makes with one after it, or by itself.
 static void add_polygon_of(alpi_few *few, raw_triangle *raw, uint32_t t)
 {
-    alpi_few_polygon p = {.triangles = {t, t}, .single_sided = raw[t].single_sided};
     for (uint32_t other = t + 1; other < few->count; other++) {
-        uint16_t corners[4];
+        pair p;
         if (!raw[other].taken && raw[other].single_sided == raw[t].single_sided &&
-            share_edge(&raw[t], &raw[other], corners) && is_flat_and_convex(few, corners)) {
+            share_edge(&raw[t], &raw[other], &p) &&
+            is_flat_and_convex(few, &p, &raw[t], &raw[other])) {
             raw[other].taken = true;
-            p.triangles[1] = other;
-            const vec3 middle = corner_of(few, corners[1]);
-            const vec3 along = vec3_sub(corner_of(few, corners[3]), middle);
-            const vec3 n =
-                vec3_cross(vec3_sub(corner_of(few, corners[2]), corner_of(few, corners[0])), along);
-            vec3_store(p.normal, n);
-            vec3_store(p.middle, middle);
-            vec3_store(p.to_first, vec3_cross(n, along));
-            add_polygon(few, corners, 4, p);
+            add_pair(few, &p, &raw[t], &raw[other]);
             return;
         }
     }
-    vec3_store(p.normal, normal_of(few, raw[t].corners));
-    add_polygon(few, raw[t].corners, 3, p);
-    few->polygon[few->polygon_count - 1].sides[3] = few->polygon[few->polygon_count - 1].sides[2];
+    add_alone(few, &raw[t]);
 }
 
 static void add_polygons(alpi_few *few, raw_triangle *raw)
@@ -220,15 +260,17 @@ static void add_polygons(alpi_few *few, raw_triangle *raw)
     few->all.polygon_count = few->polygon_count;
     few->all.edge_count = few->edge_count;
     few->all.corner_count = few->corner_count;
+    for (uint16_t i = 0; i < ALPI_FEW_LIMIT; i++) {
+        few->all.polygons[i] = i;
+    }
     for (uint16_t i = 0; i < ALPI_FEW_EDGES; i++) {
         few->all.edges[i] = few->all.corners[i] = i;
-        few->all.polygons[i % ALPI_FEW_LIMIT] = (uint16_t)(i % ALPI_FEW_LIMIT);
     }
 }
 
 // --- all of them ---------------------------------------------------------------------------------
 
-/// @return the largest absolute coordinate
+/// Sets extent and slack. @return the largest absolute coordinate
 static float find_extent(alpi_few *few)
 {
     float far = 0.0f;
@@ -270,14 +312,14 @@ alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, ui
     return ALP_OK;
 }
 
-static uint32_t count_near(const alpi_few *few, vec3 p, float reach)
+static uint32_t count_near(const alpi_few *few, vec3 point, float reach)
 {
-    const float at[3] = {p.x, p.y, p.z};
+    const float at[3] = {point.x, point.y, point.z};
     uint32_t count = 0;
-    for (uint32_t t = 0; t < few->polygon_count; t++) {
+    for (uint32_t p = 0; p < few->polygon_count; p++) {
         bool near = true;
         for (int k = 0; k < 3; k++) {
-            near = near && few->low[k][t] <= at[k] + reach && few->high[k][t] >= at[k] - reach;
+            near = near && few->low[k][p] <= at[k] + reach && few->high[k][p] >= at[k] - reach;
         }
         count += near;
     }

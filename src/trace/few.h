@@ -9,10 +9,11 @@
 enum {
     ALPI_FEW_LIMIT = 64,                 // triangles at most
     ALPI_FEW_EDGES = 3 * ALPI_FEW_LIMIT, // and corners
-    // Measured in rooms of 12 to 60 triangles: to look for the nearest takes up to a third less
-    // time than by the hierarchy, with 60 as long; rays that are only asked whether they are
-    // blocked may come near as many polygons on average.
-    ALPI_FEW_NEAR = 10
+    // Where a hierarchy would be as fast, measured in rooms of 12 to 60 triangles: polygons within
+    // reach of a point, in the mean over all surfaces, for rays that are only asked whether they
+    // are blocked; edges of all, for those that are asked for the nearest hit.
+    ALPI_FEW_NEAR = 10,
+    ALPI_FEW_NEAREST = 64
 };
 
 struct alpi_few;
@@ -39,25 +40,20 @@ typedef struct alpi_few_edge {
     uint16_t from, to; // corners
 } alpi_few_edge;
 
-/// A triangle, or two that make a convex quadrilateral in a plane, which is met as one.
+/// A triangle, or two that make a flat convex quadrilateral, which is met as one. Its sides are
+/// numbered from 0, side k from its corner k to the next; 4 is its diagonal, from corner 1 to
+/// corner 3.
 typedef struct alpi_few_polygon {
-    float normal[3];   // not unit: of about twice its area
-    uint16_t corner;   // one of its, among the corners of all
+    float normal[3];   // not unit: twice its area; of a triangle (b − a) × (c − a)
+    uint16_t corner;   // its corner 0
     uint16_t sides[4]; // counter-clockwise: twice the edge, and 1 more where that runs the other
                        // way. A triangle's last one twice
-    uint32_t triangles[2];        // among those of all; a triangle: twice the same
-    float middle[3], to_first[3]; // of two: (p − middle) · to_first is negative where p is in the
-                                  // second; of one: never
+    alpi_few_edge diagonal; // of a triangle: from a corner to itself
+    uint32_t triangles[2];  // of the scene: with corner 0, and with corner 2; or the same twice
+    uint8_t weights[2][3];  // of each of the two: by which of sides and diagonal its corners weigh
     bool single_sided;
     alpi_few_set edges, corners; // that it has
 } alpi_few_polygon;
-
-/// For where a triangle is met: b1 = to_b1 · (p − corner), b2 alike.
-typedef struct alpi_few_triangle {
-    uint32_t triangle; // of the scene
-    float corner[3];   // its corner 0
-    float to_b1[3], to_b2[3];
-} alpi_few_triangle;
 
 /// Polygons that rays may reach, the edges of these, and the corners of those.
 typedef struct alpi_few_list {
@@ -65,17 +61,18 @@ typedef struct alpi_few_list {
     uint16_t polygons[ALPI_FEW_LIMIT], edges[ALPI_FEW_EDGES], corners[ALPI_FEW_EDGES];
 } alpi_few_list;
 
-/// Triangles as the loops want them. All of them are solid.
+/// Triangles as the loops want them. All of them are solid. Corners and edges are there once, so
+/// that no two polygons with an edge in common can disagree on which side of it a ray passes.
 typedef struct alpi_few {
     const alpi_few_loops *loops;                             // those for this machine
     uint32_t count, corner_count, edge_count, polygon_count; // count: of triangles
-    float slack;  // metres, added to a ray's reach: far more than rounding may add to it
+    float slack;  // metres, added to a ray's reach: far more than rounding may add to it, but where
+                  // the ray grazes what it meets
     float extent; // metres: the longest side of the box about all
-    float corner[ALPI_FEW_EDGES][3]; // each once: so are edges, and no two polygons that have one
-    alpi_few_edge edge[ALPI_FEW_EDGES];  // in common can disagree on which side of it a ray passes
+    float corner[ALPI_FEW_EDGES][3];
+    alpi_few_edge edge[ALPI_FEW_EDGES];
     uint16_t corners[ALPI_FEW_LIMIT][3]; // of triangles
     alpi_few_polygon polygon[ALPI_FEW_LIMIT];
-    alpi_few_triangle triangle[ALPI_FEW_LIMIT];
     float low[3][ALPI_FEW_LIMIT]; // bounding boxes of polygons; past the last: empty ones
     float high[3][ALPI_FEW_LIMIT];
     alpi_few_list all;

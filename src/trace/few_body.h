@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Body of the loops over few triangles, included once for each instruction set.
 //
-// A ray from o along d meets the triangle abc if it passes its three edges on the same side. With
+// A ray from o along d meets a convex polygon if it passes all its edges on the same side. With
 // corners relative to o, the side of the edge from p to q is the sign of d·(p×q): three products a
-// ray, p×q being the same for all rays from one origin, and exactly the opposite for the triangle
-// on the other side of the edge, so that no ray slips through between the two.
+// ray, p×q being the same for all rays from one origin. It is found once, whatever polygons have
+// that edge, so that no ray slips through between two of them. Two triangles that are a flat and
+// convex quadrilateral together are met as that; which of them it was is told by the diagonal.
 // Based on: T. Davidovič, T. Engelhardt, I. Georgiev, P. Slusallek, C. Dachsbacher. 3D
 // Rasterization: A Bridge between Rasterization and Ray Casting. Graphics Interface 2012.
 #include "trace/few.h"
@@ -84,8 +85,8 @@ static inline floats see_plane(const alpi_few_polygon *polygon, floats corners[]
     return polygon->normal[0] * a[0] + polygon->normal[1] * a[1] + polygon->normal[2] * a[2];
 }
 
-/// On which side of an edge rays pass, and of the edge the other way round: positive where it runs
-/// counter-clockwise as seen from behind. Zeros are positive, so that signs tell.
+/// On which side of an edge rays pass, and of the edge the other way round: positive of the sides
+/// of a polygon that is met from behind. Zeros are positive, so that signs tell.
 static inline void pass_edge(const floats across[3], const floats direction[3], masks sides[2])
 {
     const floats side =
@@ -104,21 +105,21 @@ static inline void meet(const alpi_few_polygon *p, floats height, const masks *s
                         const floats direction[3], floats minimum, floats maximum, bool one_sided,
                         met_polygon *m)
 {
-    // Signs are set where a ray does not meet it from behind, from before. They are also those of
-    // n·d then, which rounding might take for the other.
-    masks before = {0}, behind = {0};
-    for (int s = 0; s < 4; s++) {
-        const uint32_t side = p->sides[s];
-        before |= sides[side];
-        behind |= sides[side ^ 1];
+    // Signs are set where some side says that the ray does not come from behind, from the front.
+    masks not_behind = {0}, not_front = {0};
+    for (int k = 0; k < 4; k++) {
+        const uint32_t side = p->sides[k];
+        not_behind |= sides[side];
+        not_front |= sides[side ^ 1];
     }
-    const masks passed = before & behind;
+    const masks passed_by = not_behind & not_front;
     const float *n = p->normal;
     const floats along = n[0] * direction[0] + n[1] * direction[1] + n[2] * direction[2];
     m->reached = (floats)((masks)along & INT32_MAX);
-    m->height = (floats)((masks)height ^ (before & INT32_MIN));
-    m->behind = before >= 0;
-    m->met = (passed >= 0) & (m->height >= m->reached * minimum) &
+    // The sides' signs, not that of n·d, which rounding may take for the other.
+    m->height = (floats)((masks)height ^ (not_behind & INT32_MIN));
+    m->behind = not_behind >= 0;
+    m->met = (passed_by >= 0) & (m->height >= m->reached * minimum) &
              (m->height < m->reached * maximum); // never of a ray within the plane: 0 < 0
     if (one_sided && p->single_sided) {
         m->met &= ~m->behind;
@@ -146,27 +147,28 @@ static uint32_t list_members(const alpi_few_set *set, uint16_t *list)
     return count;
 }
 
-/// What rays from some box reach. Which polygons are listed changes no answer: what is left out, no
-/// ray meets.
+/// What rays from some box reach.
 typedef struct reached_box {
     float low[3], high[3];
 } reached_box;
 
+/// Which polygons are listed changes no answer, but for rays that graze one at the end of their
+/// reach: what is left out, no other ray meets.
 static void list_near(const alpi_few *few, const reached_box *box, alpi_few_list *list)
 {
     const float *low = box->low, *high = box->high;
     alpi_few_set edges = {{0}}, corners = {{0}};
     uint32_t near[ALPI_FEW_LIMIT];
     const uint32_t boxes = few->polygon_count + (0u - few->polygon_count) % ALPI_PACKET;
-    for (uint32_t t = 0; t < boxes; t++) { // whole vectors of them: empty ones beyond the last
-        near[t] = (few->low[0][t] <= high[0] ? 1u : 0u) & (few->high[0][t] >= low[0] ? 1u : 0u) &
-                  (few->low[1][t] <= high[1] ? 1u : 0u) & (few->high[1][t] >= low[1] ? 1u : 0u) &
-                  (few->low[2][t] <= high[2] ? 1u : 0u) & (few->high[2][t] >= low[2] ? 1u : 0u);
+    for (uint32_t p = 0; p < boxes; p++) { // whole vectors of them: empty ones beyond the last
+        near[p] = (few->low[0][p] <= high[0] ? 1u : 0u) & (few->high[0][p] >= low[0] ? 1u : 0u) &
+                  (few->low[1][p] <= high[1] ? 1u : 0u) & (few->high[1][p] >= low[1] ? 1u : 0u) &
+                  (few->low[2][p] <= high[2] ? 1u : 0u) & (few->high[2][p] >= low[2] ? 1u : 0u);
     }
     list->polygon_count = 0;
-    for (uint32_t t = 0; t < few->polygon_count; t++) {
-        list->polygons[list->polygon_count] = (uint16_t)t;
-        list->polygon_count += near[t];
+    for (uint32_t p = 0; p < few->polygon_count; p++) {
+        list->polygons[list->polygon_count] = (uint16_t)p;
+        list->polygon_count += near[p];
     }
     for (uint32_t k = 0; k < list->polygon_count; k++) {
         const alpi_few_polygon *polygon = &few->polygon[list->polygons[k]];
@@ -239,8 +241,8 @@ static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays 
         for (uint32_t e = 0; e < list->edge_count; e++) {
             see_edge(&few->edge[list->edges[e]], corners, across[e]);
         }
-        for (uint32_t t = 0; t < list->polygon_count; t++) {
-            heights[t] = see_plane(&few->polygon[list->polygons[t]], corners);
+        for (uint32_t k = 0; k < list->polygon_count; k++) {
+            heights[k] = see_plane(&few->polygon[list->polygons[k]], corners);
         }
         for (alpi_rays *rays = packets; rays < packets + count; rays++) {
             const floats minimum = load(rays->minimum + i), maximum = load(rays->maximum + i);
@@ -250,9 +252,9 @@ static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays 
             for (uint32_t e = 0; e < list->edge_count; e++) {
                 pass_edge(across[e], direction, &sides[2 * (size_t)list->edges[e]]);
             }
-            for (uint32_t t = 0; t < list->polygon_count; t++) {
+            for (uint32_t k = 0; k < list->polygon_count; k++) {
                 met_polygon m;
-                meet(&few->polygon[list->polygons[t]], heights[t], sides, direction, minimum,
+                meet(&few->polygon[list->polygons[k]], heights[k], sides, direction, minimum,
                      maximum, one_sided, &m);
                 stopped |= m.met;
             }
@@ -278,14 +280,14 @@ static void occluded(const alpi_few *few, alpi_rays *packets, uint32_t count,
 /// The nearest polygons of a packet so far.
 typedef struct nearest_hits {
     floats distance;
-    masks polygon, behind; // polygon: -1 where there is none
+    masks polygon, behind;           // polygon: -1 where there is none
+    masks sides[2 * ALPI_FEW_EDGES]; // see pass_edge
 } nearest_hits;
 
 static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
                                 const alpi_rays *rays, int i, bool one_sided, nearest_hits *hits)
 {
     floats corners[ALPI_FEW_EDGES][3], direction[3];
-    masks sides[2 * ALPI_FEW_EDGES];
     const floats minimum = load(rays->minimum + i);
     hits->distance = load(rays->maximum + i);
     hits->polygon = (masks){0} - 1;
@@ -295,42 +297,55 @@ static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
     for (uint32_t e = 0; e < list->edge_count; e++) {
         floats across[3];
         see_edge(&few->edge[list->edges[e]], corners, across);
-        pass_edge(across, direction, &sides[2 * (size_t)list->edges[e]]);
+        pass_edge(across, direction, &hits->sides[2 * (size_t)list->edges[e]]);
     }
-    for (uint32_t t = 0; t < list->polygon_count; t++) {
-        const alpi_few_polygon *polygon = &few->polygon[list->polygons[t]];
+    for (uint32_t k = 0; k < list->polygon_count; k++) {
+        const alpi_few_polygon *polygon = &few->polygon[list->polygons[k]];
         met_polygon m;
-        meet(polygon, see_plane(polygon, corners), sides, direction, minimum, hits->distance,
+        meet(polygon, see_plane(polygon, corners), hits->sides, direction, minimum, hits->distance,
              one_sided, &m);
         if (is_none(m.met)) {
             continue; // of eight rays that part two in three times
         }
         hits->distance = choose(m.met, m.height / m.reached, hits->distance);
         hits->behind = (m.met & m.behind) | (~m.met & hits->behind);
-        hits->polygon = (m.met & (int32_t)list->polygons[t]) | (~m.met & hits->polygon);
+        hits->polygon = (m.met & (int32_t)list->polygons[k]) | (~m.met & hits->polygon);
     }
 }
 
-/// (p − from) · along
-static inline float measure(const float p[3], const float from[3], const float along[3])
+/// d·(p×q) of a diagonal, for one ray.
+static inline float pass_diagonal(const alpi_few *few, const alpi_few_edge *edge,
+                                  const alpi_rays *rays, int lane)
 {
-    return (p[0] - from[0]) * along[0] + (p[1] - from[1]) * along[1] + (p[2] - from[2]) * along[2];
+    const float *from = few->corner[edge->from], *to = few->corner[edge->to];
+    const float px = from[0] - rays->origin_x[lane], qx = to[0] - rays->origin_x[lane];
+    const float py = from[1] - rays->origin_y[lane], qy = to[1] - rays->origin_y[lane];
+    const float pz = from[2] - rays->origin_z[lane], qz = to[2] - rays->origin_z[lane];
+    return (py * qz - pz * qy) * rays->direction_x[lane] +
+           (pz * qx - px * qz) * rays->direction_y[lane] +
+           (px * qy - py * qx) * rays->direction_z[lane];
 }
 
-/// Which triangle of a polygon a ray meets at a distance, and where.
-static inline void find_triangle(const alpi_few *few, const alpi_few_polygon *polygon,
+/// Which triangle of a polygon a ray met, and where: a corner weighs as much as the ray is beside
+/// the edge across from it. By the distance it might lie beyond an edge, of rays that graze.
+static inline void find_triangle(const alpi_few *few, const nearest_hits *found, int k,
                                  const alpi_rays *rays, int lane, alpi_hits *hits)
 {
-    const float far = hits->distance[lane];
-    const float at[3] = {rays->origin_x[lane] + far * rays->direction_x[lane],
-                         rays->origin_y[lane] + far * rays->direction_y[lane],
-                         rays->origin_z[lane] + far * rays->direction_z[lane]};
-    const int which = measure(at, polygon->middle, polygon->to_first) < 0.0f ? 1 : 0;
-    const alpi_few_triangle *t = &few->triangle[polygon->triangles[which]];
-    const float b1 = measure(at, t->corner, t->to_b1), b2 = measure(at, t->corner, t->to_b2);
-    hits->triangle[lane] = t->triangle; // what passes the edges is inside it but for rounding
-    hits->b1[lane] = b1 < 0.0f ? 0.0f : b1;
-    hits->b2[lane] = b2 < 0.0f ? 0.0f : b2;
+    const alpi_few_polygon *polygon = &few->polygon[found->polygon[k]];
+    const float turn = found->behind[k] != 0 ? 1.0f : -1.0f;
+    const float diagonal = turn * pass_diagonal(few, &polygon->diagonal, rays, lane);
+    const int which = diagonal < 0.0f ? 1 : 0;
+    float beside[5];
+    for (int s = 0; s < 4; s++) {
+        beside[s] = turn * ((const floats *)found->sides)[polygon->sides[s]][k];
+    }
+    beside[4] = which == 0 ? diagonal : -diagonal;
+    const uint8_t *weights = polygon->weights[which];
+    const float a = beside[weights[0]], b = beside[weights[1]], c = beside[weights[2]];
+    const float whole = a + b + c, scale = whole > 0.0f ? 1.0f / whole : 0.0f;
+    hits->triangle[lane] = polygon->triangles[which];
+    hits->b1[lane] = b * scale;
+    hits->b2[lane] = c * scale;
 }
 
 static void nearest(const alpi_few *few, const alpi_rays *rays, uint32_t active, bool one_sided,
@@ -353,10 +368,11 @@ static void nearest(const alpi_few *few, const alpi_rays *rays, uint32_t active,
             }
             hits->distance[lane] = INFINITY;
             hits->triangle[lane] = ALPI_NONE;
+            hits->b1[lane] = hits->b2[lane] = 0.0f;
             if (found.polygon[k] != -1) {
                 hits->distance[lane] = found.distance[k];
                 hits->behind |= found.behind[k] != 0 ? 1u << lane : 0u;
-                find_triangle(few, &few->polygon[found.polygon[k]], rays, lane, hits);
+                find_triangle(few, &found, k, rays, lane, hits);
             }
         }
     }

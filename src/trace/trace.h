@@ -106,8 +106,8 @@ alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
 alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn *progress,
                                void *progress_user, bool *quick);
 /// Whether rays that leave from the scene's surfaces and reach so far (metres, or INFINITY) come
-/// near so few triangles that to meet them all is faster than any hierarchy: up to five times. No
-/// ray slips through an edge then.
+/// near so few polygons that to meet them all is faster than any hierarchy: up to twice. No ray
+/// slips through an edge then.
 bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach);
 void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
 

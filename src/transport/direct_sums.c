@@ -94,7 +94,10 @@ static void add_parts(const alpi_direct *d, const double (*sums)[R][3], bool all
 {
     memset(out, 0, R * sizeof *out);
     for (uint32_t p = 0; p < d->part_count; p++) {
-        for (int i = 0; i < 3 * R && (all || is_joined(d, p)); i++) {
+        if (!all && !is_joined(d, p)) {
+            continue;
+        }
+        for (int i = 0; i < 3 * R; i++) {
             out[i / 3][i % 3] += sums[p][i / 3][i % 3];
         }
     }
@@ -114,7 +117,7 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
             mean[k] += part.mean[k];
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
-        *value = part;
+        *value = part; // of one part: all there is
     }
     if (d->part_count != 1) {
         add_parts(d, sums, true, together);

@@ -208,6 +208,39 @@ static void rays_err_as_stated(void **state)
     alp_scene_destroy(scene);
 }
 
+static double apart(const light_map *a, const light_map *b)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        sum += (a->means[i] - b->means[i]) * (a->means[i] - b->means[i]);
+    }
+    return sqrt(sum / a->count);
+}
+
+/// Maps of seeds that follow each other are as far apart as of any two: no round of the one is one
+/// of the other.
+static void seeds_that_follow_each_other_are_independent(void **state)
+{
+    (void)state;
+    static const uint64_t seeds[3] = {5, 6, 500};
+    alp_scene *scene = load("builtin:cornell");
+    alp_bake_options options = light_options(512);
+    options.sampling.accuracy = ALP_ADAPTIVE_OFF;
+    options.light.direct = ALP_DIRECT_OFF;
+    light_map maps[3];
+    for (int k = 0; k < 3; k++) {
+        options.occlusion.seed = seeds[k];
+        maps[k] = bake(scene, &options);
+    }
+    const double next = apart(&maps[0], &maps[1]), any = apart(&maps[0], &maps[2]);
+    printf("light: maps of seeds 5 and 6 are %.3f as far apart as of 5 and 500\n", next / any);
+    ASSERT_NEAR(next / any, 1.0, 0.06);
+    for (int k = 0; k < 3; k++) {
+        release(&maps[k]);
+    }
+    alp_scene_destroy(scene);
+}
+
 /// In corners texels are lit by few others. What direct light those reflect is found by few samples
 /// at first, and by more in later rounds, which must show: maps of other seeds were 3.6 times as
 /// far from each other as stated while rays met the first samples for ever.
@@ -252,6 +285,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_report_says_what_the_map_says),
         cmocka_unit_test(rays_err_as_stated),
+        cmocka_unit_test(seeds_that_follow_each_other_are_independent),
         cmocka_unit_test(rounds_state_what_interpolation_misses),
         cmocka_unit_test(corners_reflect_direct_light_as_it_becomes_known),
         cmocka_unit_test(some_surfaces_err_as_stated),

@@ -9,6 +9,8 @@ enum { PACKETS = 2000, BATCH = 24 };
 
 static const uint32_t ALL[ALPI_PACKET] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX,
                                           UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
+static const uint32_t SOME[ALPI_PACKET] = {UINT32_MAX, UINT32_MAX, 0,          UINT32_MAX,
+                                           UINT32_MAX, 0,          UINT32_MAX, UINT32_MAX};
 
 typedef struct rig {
     alp_context *context;
@@ -60,6 +62,11 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
         uint32_t lanes[ALPI_PACKET];
         for (int i = 0; i < ALPI_PACKET; i++) {
             lanes[i] = (active >> i & 1u) != 0 ? UINT32_MAX : 0;
+            rays.origin_x[i] = lanes[i] != 0 ? rays.origin_x[i] : NAN; // must not matter
+            if (packet % 3 == 0) { // some polygons alone are within reach
+                rays.maximum[i] = 0.2f + 0.05f * (float)(i + (int)(packet % 8));
+                rays.origin_y[i] = 0.3f * rays.origin_y[i] + 0.002f * (float)(packet % 301) - 0.3f;
+            }
         }
         memset(&fast, 0x55, sizeof fast);
         memset(&slow, 0x55, sizeof slow);
@@ -83,6 +90,7 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
                 ASSERT_NEAR(fast.b1[i], slow.b1[i], 2e-3);
                 ASSERT_NEAR(fast.b2[i], slow.b2[i], 2e-3);
                 assert_true(fast.b1[i] >= 0.0f && fast.b2[i] >= 0.0f);
+                assert_true(fast.b1[i] + fast.b2[i] <= 1.0f + 0x1p-22f);
                 assert_int_equal(fast.behind >> i & 1u, slow.behind >> i & 1u);
             } else {
                 assert_true(isinf(fast.distance[i]));
@@ -133,17 +141,22 @@ static void add_turned_box(test_mesh *mesh, const double middle[3], double half,
     }
 }
 
-/// Two triangles of a face are met as one, and which of them it was is told.
-static void faces_are_hit_as_by_brute_force(void **state)
+static alp_scene *make_boxes(alp_context *context)
 {
-    (void)state;
-    rig r;
     test_mesh *mesh = test_mesh_start();
     for (int i = 0; i < 5; i++) {
         const double middle[3] = {0.7 * (i % 3) - 0.7, 0.8 * (i / 3) - 0.4, 0.25 * i - 0.5};
         add_turned_box(mesh, middle, 0.15 + 0.05 * i, 0.3 * i);
     }
-    open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
+    return test_mesh_scene(context, mesh, 0);
+}
+
+/// Two triangles of a face are met as one, and which of them it was is told.
+static void faces_are_hit_as_by_brute_force(void **state)
+{
+    (void)state;
+    rig r;
+    open_rig(make_boxes(test_context(1)), &r);
     assert_int_equal(r.few->count, 60);
     assert_int_equal(r.few->polygon_count, 30);
     assert_int_equal(r.few->edge_count, 60);
@@ -151,28 +164,38 @@ static void faces_are_hit_as_by_brute_force(void **state)
     agree_by_all_loops(&r);
 }
 
-/// Two triangles are one only where they lie in a plane, turn the same way, and make no corner that
-/// turns in.
+/// Two triangles are one only where they lie in a plane, as far as rays from either can tell, turn
+/// the same way, and make no corner that turns in.
 static void only_flat_and_convex_pairs_are_joined(void **state)
 {
     (void)state;
     const struct {
-        double fourth[3]; // corner, beside (0, 0, 0), (1, 0, 0) and (0, 1, 0), of (1, 3, 2)
-        bool turned;      // the second triangle
+        double first[3], fourth[3]; // corners, beside (0, 0, 0) and (1, 0, 0), above them and below
+        bool turned;                // the second triangle
         uint32_t polygons;
-    } cases[] = {{{1, 1, 0}, false, 1},     {{1, 1, 0}, true, 2},      {{1, 1, 0.001}, false, 2},
-                 {{1, 1, 1e-9}, false, 1},  {{0.9, 0.2, 0}, false, 1}, {{1.5, -0.2, 0}, false, 2},
-                 {{-0.2, 1.5, 0}, false, 2}};
+    } cases[] = {
+        {{0, 1, 0}, {1, -1, 0}, false, 1},
+        {{0, 1, 0}, {1, -1, 0}, true, 2},
+        {{0, 1, 0}, {1, -1, 1e-3}, false, 2},
+        {{0, 1, 0}, {1, -1, 1e-9}, false, 1},
+        {{0, 1, 0}, {1, -1, 1e-7}, false, 2}, // two steps of a float
+        {{0, 1, 0}, {0.5, -0.1, 0}, false, 1},
+        {{0, 1, 0}, {2, -1, 0}, false, 2},   // straight on
+        {{0, 1, 0}, {2.1, -1, 0}, false, 2}, // turned in
+        {{0, 1, 0}, {-0.1, -1, 0}, false, 2},
+        // The large one's plane would be above the small one, farther than rays are lifted.
+        {{0.5, 0.1, 5e-6}, {0.5, -100, 0}, false, 2},
+        {{0.5, 100, 0}, {0.5, -0.1, 5e-6}, false, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         rig r;
         test_mesh *mesh = test_mesh_start();
-        const double *d = cases[i].fourth;
+        const double *a = cases[i].first, *d = cases[i].fourth;
         test_mesh_vertex(mesh, 0, 0, 0);
         test_mesh_vertex(mesh, 1, 0, 0);
-        test_mesh_vertex(mesh, 0, 1, 0);
+        test_mesh_vertex(mesh, a[0], a[1], a[2]);
         test_mesh_vertex(mesh, d[0], d[1], d[2]);
         test_mesh_triangle(mesh, 0, 1, 2);
-        test_mesh_triangle(mesh, 1, cases[i].turned ? 2 : 3, cases[i].turned ? 3 : 2);
+        test_mesh_triangle(mesh, 0, cases[i].turned ? 1 : 3, cases[i].turned ? 3 : 1);
         open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
         assert_int_equal(r.few->polygon_count, cases[i].polygons);
         close_rig(&r);
@@ -214,7 +237,44 @@ static void no_ray_slips_between_two(void **state)
     close_rig(&r);
 }
 
-/// From the middle of a solid exactly through its corners and the middles of its edges.
+/// Rays that graze a face and end at its edges: the point that is told lies within.
+static void grazing_rays_end_within(void **state)
+{
+    (void)state;
+    rig r;
+    test_mesh *mesh = test_mesh_start();
+    add_turned_box(mesh, (double[]){3.0, 2.0, 1.0}, 5.0, 0.7);
+    open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(&r, loops);
+    uint32_t hits_seen = 0;
+    for (uint32_t packet = 0; packet < 4000; packet++) {
+        alpi_rays rays;
+        soup_rays(&rays, packet);
+        const float off = powf(0.1f, (float)(2 + packet % 4)); // above the face x' = 5
+        const float x = 3.0f + (5.0f + off) * cosf(0.7f), y = 2.0f + (5.0f + off) * sinf(0.7f);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            rays.origin_x[i] = x - 4.0f * rays.origin_y[i] * sinf(0.7f);
+            rays.origin_y[i] = y + 4.0f * rays.origin_y[i] * cosf(0.7f);
+            rays.origin_z[i] = 1.0f + 4.0f * rays.origin_z[i];
+            rays.maximum[i] = INFINITY;
+        }
+        soup_aim_at_edges(r.scene, packet, &rays);
+        for (int k = 0; k < count; k++) {
+            alpi_hits hits = {.behind = 0};
+            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                const float rest = 1.0f - hits.b1[i] - hits.b2[i];
+                assert_true(hits.b1[i] >= 0.0f && hits.b2[i] >= 0.0f && rest >= -0x1p-22f);
+                hits_seen += hits.triangle[i] != ALPI_NONE;
+            }
+        }
+    }
+    assert_true(hits_seen > 4000);
+    close_rig(&r);
+}
+
+/// From the middle of a solid exactly through its corners, and the middles of edges and faces.
 static void meet_every_corner(alp_scene *scene)
 {
     rig r;
@@ -306,11 +366,10 @@ static void planes_are_passed_within(void **state)
 
 /// Batches of packets, some of which share their origins, with reaches of their own: what a packet
 /// gets does not depend on what is beside it, nor on the instructions.
-static void batches_are_what_packets_are(void **state)
+static void meet_batches(alp_scene *scene)
 {
-    (void)state;
     rig r;
-    open_rig(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f), &r);
+    open_rig(scene, &r);
     const alpi_few_loops *loops[2];
     const int count = list_loops(&r, loops);
     int stopped = 0, left = 0;
@@ -329,12 +388,12 @@ static void batches_are_what_packets_are(void **state)
         }
         memcpy(alone, rays, sizeof rays);
         for (uint32_t p = 0; p < BATCH; p++) {
-            alpi_few_loops_baseline.occluded(r.few, &alone[p], 1, ALL, false);
+            alpi_few_loops_baseline.occluded(r.few, &alone[p], 1, SOME, false);
         }
         for (int k = 0; k < count; k++) {
             alpi_rays together[BATCH];
             memcpy(together, rays, sizeof rays);
-            loops[k]->occluded(r.few, together, BATCH, ALL, false);
+            loops[k]->occluded(r.few, together, BATCH, SOME, false);
             assert_memory_equal(together, alone, sizeof alone);
         }
         for (uint32_t p = 0; p < BATCH; p++) {
@@ -358,6 +417,13 @@ static void add_box(test_mesh *mesh, const double low[3], double size)
         test_mesh_quad(mesh, low, v, u);
         test_mesh_quad(mesh, far, u, v);
     }
+}
+
+static void batches_are_what_packets_are(void **state)
+{
+    (void)state;
+    meet_batches(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f));
+    meet_batches(make_boxes(test_context(1)));
 }
 
 /// A room of 12 triangles; boxes of 12 each in it.
@@ -429,6 +495,7 @@ int main(void)
         cmocka_unit_test(faces_are_hit_as_by_brute_force),
         cmocka_unit_test(only_flat_and_convex_pairs_are_joined),
         cmocka_unit_test(no_ray_slips_between_two),
+        cmocka_unit_test(grazing_rays_end_within),
         cmocka_unit_test(corners_stop_rays),
         cmocka_unit_test(planes_are_passed_within),
         cmocka_unit_test(batches_are_what_packets_are),
