@@ -184,8 +184,8 @@ static void only_flat_and_convex_pairs_are_joined(void **state)
         {{0, 1, 0}, {2.1, -1, 0}, false, 2}, // turned in
         {{0, 1, 0}, {-0.1, -1, 0}, false, 2},
         // The large one's plane would be above the small one, farther than rays are lifted.
-        {{0.5, 0.1, 5e-6}, {0.5, -100, 0}, false, 2},
-        {{0.5, 100, 0}, {0.5, -0.1, 5e-6}, false, 2}};
+        {{0.5, 0.1, 2e-6}, {0.5, -100, 0}, false, 2},
+        {{0.5, 100, 0}, {0.5, -0.1, 2e-6}, false, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         rig r;
         test_mesh *mesh = test_mesh_start();
