@@ -59,8 +59,8 @@ static uint16_t add_side(alpi_few *few, uint16_t from, uint16_t to)
 
 /// A triangle on its way in.
 typedef struct raw_triangle {
-    uint32_t triangle;       // of the scene
     const uint16_t *corners; // [3]
+    uint32_t triangle;       // of the scene
     bool single_sided, taken;
 } raw_triangle;
 
@@ -79,7 +79,7 @@ static void add_triangle(const alp_scene *scene, uint32_t triangle, alpi_few *fe
     for (int c = 0; c < 3; c++) {
         corners[c] = add_corner(few, scene->positions[scene->triangles[triangle][c]]);
     }
-    *raw = (raw_triangle){triangle, corners, !alpi_surface_is_double_sided(scene, triangle), false};
+    *raw = (raw_triangle){corners, triangle, !alpi_surface_is_double_sided(scene, triangle), false};
 }
 
 /// Whether each triangle is wide enough for rays from anywhere in the scene to tell its edges
@@ -260,11 +260,11 @@ static void add_polygons(alpi_few *few, raw_triangle *raw)
     few->all.polygon_count = few->polygon_count;
     few->all.edge_count = few->edge_count;
     few->all.corner_count = few->corner_count;
-    for (uint16_t i = 0; i < ALPI_FEW_LIMIT; i++) {
-        few->all.polygons[i] = i;
+    for (uint32_t i = 0; i < ALPI_FEW_LIMIT; i++) {
+        few->all.polygons[i] = (uint16_t)i;
     }
-    for (uint16_t i = 0; i < ALPI_FEW_EDGES; i++) {
-        few->all.edges[i] = few->all.corners[i] = i;
+    for (uint32_t i = 0; i < ALPI_FEW_EDGES; i++) {
+        few->all.edges[i] = few->all.corners[i] = (uint16_t)i;
     }
 }
 

@@ -158,7 +158,7 @@ static void list_near(const alpi_few *few, const reached_box *box, alpi_few_list
 {
     const float *low = box->low, *high = box->high;
     alpi_few_set edges = {{0}}, corners = {{0}};
-    uint32_t near[ALPI_FEW_LIMIT];
+    uint32_t near[ALPI_FEW_LIMIT] = {0};
     const uint32_t boxes = few->polygon_count + (0u - few->polygon_count) % ALPI_PACKET;
     for (uint32_t p = 0; p < boxes; p++) { // whole vectors of them: empty ones beyond the last
         near[p] = (few->low[0][p] <= high[0] ? 1u : 0u) & (few->high[0][p] >= low[0] ? 1u : 0u) &
@@ -337,7 +337,7 @@ static inline void find_triangle(const alpi_few *few, const nearest_hits *found,
     const int which = diagonal < 0.0f ? 1 : 0;
     float beside[5];
     for (int s = 0; s < 4; s++) {
-        beside[s] = turn * ((const floats *)found->sides)[polygon->sides[s]][k];
+        beside[s] = turn * ((floats)found->sides[polygon->sides[s]])[k];
     }
     beside[4] = which == 0 ? diagonal : -diagonal;
     const uint8_t *weights = polygon->weights[which];
