@@ -43,8 +43,8 @@ import tempfile
 SCENES = ["{shared}/peers/blender/cornell.glb", "{shared}/peers/blender/sphere_plane.glb",
           "builtin:torus-plane=0.5", "builtin:teapot-room=0.5", "boxes:400=0.5"]
 RAYS = [*range(64, 160, 8), *range(160, 320, 16), *range(320, 640, 32), *range(640, 1025, 64)]
-LIGHT_ERRORS = [8, 7, 6, 5, 4.5, 4, 3.5, 3, 2.5, 2, 1.75, 1.5, 1.25, 1, 0.9, 0.8, 0.7, 0.6, 0.5,
-                0.4, 0.3]
+LIGHT_ERRORS = [8, 7, 6, 5, 4.5, 4, 3.5, 3, 2.5, 2, 1.75, 1.5, 1.25, 1, 0.9, 0.8, 0.7, 0.65, 0.6,
+                0.55, 0.5, 0.4, 0.3]
 SKY = "{shared}/scenes/hdr/spiaggia_di_mondello_1k.hdr"
 # Scene, our options, Cycles', and what scripts/bake_light_blender.py gives it besides: a picture of
 # the sky, whose middle is at +X there and at -Z in ours, or "none": emission from the front alone.
