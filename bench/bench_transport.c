@@ -96,7 +96,7 @@ static bool record_rays(measured_case *c)
     alpi_occlusion_setup recording = c->setup;
     recording.context = c->scene->context; // of one worker: in order
     recording.kernel = bench_recording_kernel;
-    c->record.capacity = c->list_count / ALPI_PACKET * c->samples;
+    c->record.capacity = c->list_count * (c->samples / ALPI_PACKET);
     c->record.packets = aligned_alloc(64, (c->record.capacity * sizeof(alpi_rays) + 63) / 64 * 64);
     ray_record_use(&c->record);
     return c->record.packets != NULL &&
@@ -142,7 +142,7 @@ static bool run_case(const bench_scene *scene, const bench_map *map, const raw_e
 {
     alp_occlusion_options o = alp_occlusion_options_default();
 
-    measured_case c = {.scene = scene, .raw = raw, .samples = 128};
+    measured_case c = {.scene = scene, .raw = raw, .samples = 256};
     c.receivers = alpi_texels_receivers(&map->texels);
     if (!bench_good(scene, alpi_occlusion_prepare(scene->scene, scene->tracer, &o, &c.setup)) ||
         !bench_good(

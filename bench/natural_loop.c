@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loop that one writes first: receiver by receiver, point by point, eight directions of one
 // point in a packet. Written with the same care as ours otherwise: the same points, the same
-// samples (so the same rays, dealt to packets in another way), directions made eight at a time.
+// samples, directions made eight at a time.
 #include "recorded_rays.h"
 
 #include "base/random.h"
@@ -10,7 +10,7 @@
 alpi_occlusion_kernel bench_unused_kernel;
 #include "transport/occlusion_kernel_body.h"
 
-enum { POINT_LIMIT = 64, STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
+enum { POINT_LIMIT = 128, STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 static void start_lanes(const alpi_receiver_point *p, alpi_occlusion_lanes *lanes)
 {
@@ -24,24 +24,25 @@ static void start_lanes(const alpi_receiver_point *p, alpi_occlusion_lanes *lane
         lanes->normal[1][i] = n.y;
         lanes->normal[2][i] = n.z;
     }
+    alpi_lanes_frames(lanes);
 }
 
 /// Eight samples of one point.
 static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], uint32_t first,
-                            alpi_occlusion_lanes *lanes, const alpi_lane_frames *frames)
+                            const alpi_occlusion_lanes *lanes, alpi_rays *rays)
 {
-    alpi_rays *rays = lanes->rays;
-    static const uint32_t none[3] = {0, 0, 0};
     alpi_occlusion_tally tally = {{0}, {{0}}};
+    alpi_sample_packet packet;
     const uint32_t(*samples)[3] = (const uint32_t(*)[3])loop->setup->sequence + first;
-    for (int k = 0; k < 3; k++) {
-        ALPI_EACH_LANE
-        {
-            lanes->shift[k][i] = samples[i][k] ^ shift[k];
-        }
+    ALPI_EACH_LANE
+    {
+        packet.u[i] = samples[i][0];
+        packet.v[i] = samples[i][1];
+        packet.w[i] = samples[i][2];
     }
-    alpi_lanes_aim(loop->setup, lanes, frames, none, rays);
-    limit(loop->setup, lanes, none, rays);
+    alpi_lanes_start(lanes, rays);
+    alpi_lanes_aim(loop->setup, lanes, &packet, shift, rays);
+    limit(loop->setup, &packet, shift[2], rays);
     alpi_trace_occluded(loop->setup->tracer, rays, 1, (1u << ALPI_PACKET) - 1u, loop->setup->filter,
                         ALPI_RAYS_NEAR);
     count_open(rays, 1, &tally);
@@ -52,44 +53,34 @@ static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], u
     return open;
 }
 
-static uint32_t trace_point(const natural_loop *loop, const uint32_t shift[3], uint32_t first,
-                            const alpi_receiver_point *point, alpi_occlusion_lanes *lanes)
-{
-    alpi_lane_frames frames;
-    uint32_t open = 0;
-    start_lanes(point, lanes);
-    alpi_lanes_start(lanes, lanes->rays);
-    alpi_lanes_frames(lanes, &frames);
-    for (uint32_t s = 0; s < ALPI_SAMPLES_PER_POINT; s += ALPI_PACKET) {
-        open += trace_eight(loop, shift, first + s, lanes, &frames);
-    }
-    return open;
-}
-
 static uint32_t trace_receiver(const natural_loop *loop, uint32_t receiver)
 {
     const alpi_occlusion_setup *setup = loop->setup;
     const alpi_receivers *r = loop->receivers;
     alpi_receiver_point points[POINT_LIMIT];
-    alpi_occlusion_lanes lanes;
+    alpi_occlusion_stand stand;
     float square[POINT_LIMIT][2];
     const uint32_t place = alpi_random_key(setup->options.seed, receiver, STREAM_PLACE);
     const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
     const uint32_t turned = 1u << 31;
-    const uint32_t shift[3] = {(alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask) ^ turned,
-                               (alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask) ^ turned,
+    const uint32_t shift[3] = {alpi_hash32(key ^ 0x68bc21ebu) ^ turned,
+                               alpi_hash32(key ^ 0x02e5be93u) ^ turned,
                                alpi_hash32(key ^ 0x967a889bu)};
     const uint32_t corner[2] = {alpi_hash32(place ^ 0x68bc21ebu), alpi_hash32(place ^ 0x02e5be93u)};
     const uint32_t count = loop->count / ALPI_SAMPLES_PER_POINT;
     uint32_t open = 0;
-    alpi_occlusion_lanes_start(&lanes);
+    alpi_occlusion_stand_start(&stand);
     for (uint32_t k = 0; k < count && k < POINT_LIMIT; k++) {
         square[k][0] = alpi_unit_float(setup->places[k][0] ^ corner[0]);
         square[k][1] = alpi_unit_float(setup->places[k][1] ^ corner[1]);
     }
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
     for (uint32_t k = 0; k < count && k < POINT_LIMIT; k++) {
-        open += trace_point(loop, shift, k * ALPI_SAMPLES_PER_POINT, &points[k], &lanes);
+        start_lanes(&points[k], &stand.groups[0]);
+        for (uint32_t s = 0; s < ALPI_SAMPLES_PER_POINT; s += ALPI_PACKET) {
+            open += trace_eight(loop, shift, k * ALPI_SAMPLES_PER_POINT + s, &stand.groups[0],
+                                &stand.rays[0]);
+        }
     }
     return open;
 }

@@ -224,9 +224,6 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     if (result == ALP_OK) {
         setup.bent = job->bent != NULL;
         setup.filter.quick = quick;
-        if (options->error > 0.0f || options->deadline < HUGE_VAL) {
-            setup.shift_mask |= UINT32_MAX >> 3; // the first round, of 64, has 8 × 8 cells
-        }
         job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
         result = gather_valid(job, object, &setup, *options, lattice, report);
     }

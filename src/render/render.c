@@ -15,7 +15,7 @@
 #include "scene/select.h"
 #include "transport/examine.h"
 #include "transport/hit.h"
-#include "transport/occlusion.h"
+#include "transport/occlusion_run.h"
 #include "transport/reference.h"
 
 #include <math.h>
@@ -36,7 +36,8 @@ typedef struct render_job {
     const alpi_tracer *tracer;
     alpi_tracer *occluders; // of the chosen ones, NULL = `tracer`
     alpi_occlusion_setup occlusion;
-    alpi_lighting *lighting; // of methods that light the scene, else NULL
+    alpi_sample_run occlusion_samples; // all of them
+    alpi_lighting *lighting;           // of methods that light the scene, else NULL
     alpi_reference reference;
     alpi_solution *solution;  // of RADIOSITY, else NULL
     alpi_surface_light known; // of the solution
@@ -198,32 +199,24 @@ static void shade(const render_job *job, uint64_t first_key, const alpi_rays *ra
 {
     alpi_receiver_point points[ALPI_PACKET];
     uint64_t keys[ALPI_PACKET];
-    uint32_t dark = 0; // lanes that need rays
-    int one = 0;       // any of them
+    float values[ALPI_PACKET];
+    int dark[ALPI_PACKET]; // lanes that need rays
+    uint32_t count = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         const vec3 d = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
         if ((lanes >> i & 1u) != 0 && !shade_by_lookup(job, hits, i, d, rgb[i])) {
-            points[i] = alpi_hit_point(job->scene, hits, i, d, NULL);
-            keys[i] = first_key + (uint64_t)i;
-            dark |= 1u << i;
-            one = i;
+            points[count] = alpi_hit_point(job->scene, hits, i, d, NULL);
+            keys[count] = first_key + (uint64_t)i;
+            dark[count++] = i;
         }
     }
-    if (dark == 0) {
+    if (count == 0) {
         return;
     }
-    float values[ALPI_PACKET];
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        if ((dark >> i & 1u) == 0) {
-            points[i] = points[one];
-            keys[i] = keys[one];
-        }
-    }
-    alpi_occlusion_of_packet(&job->occlusion, points, keys, dark, values);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        if ((dark >> i & 1u) != 0) {
-            rgb[i][0] = rgb[i][1] = rgb[i][2] = values[i];
-        }
+    alpi_occlusion_of_points(&job->occlusion, &job->occlusion_samples, points, keys, count, values);
+    for (uint32_t k = 0; k < count; k++) {
+        float *pixel = rgb[dark[k]];
+        pixel[0] = pixel[1] = pixel[2] = values[k];
     }
 }
 
@@ -417,6 +410,8 @@ static alp_result run(render_job *job)
     ALP_TRY(choose_occluders(job));
     ALP_TRY(alpi_occlusion_prepare(job->scene, job->occluders ? job->occluders : tracer, &occlusion,
                                    &job->occlusion));
+    ALP_TRY(alpi_sample_run_create(&job->occlusion, false, 0, job->occlusion.samples, 0,
+                                   job->occlusion.samples, &job->occlusion_samples));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
     ALP_TRY(prepare_light(job, info));
@@ -452,6 +447,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     }
     ALP_TRY(check_options(scene, &job.options));
     alp_result result = run(&job);
+    alpi_sample_run_destroy(&job.occlusion_samples);
     alpi_occlusion_release(&job.occlusion);
     alpi_tracer_destroy(job.occluders);
     alpi_solution_destroy(job.solution);

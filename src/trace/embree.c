@@ -455,9 +455,6 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
     trace_context context = start_context(tracer, filter);
     assert(!filter.quick || tracer->quick_scene != NULL);
     RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
-    if (spread == ALPI_RAYS_PARALLEL) {
-        context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    }
     if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
         rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
                       sizeof *packets);

@@ -118,10 +118,9 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer);
 
 /// How the rays of a packet leave: says nothing about what they meet, only how to find it fastest.
 typedef enum alpi_rays_spread {
-    ALPI_RAYS_NEAR,      // each packet by itself, ray by ray where they part
-    ALPI_RAYS_SCATTERED, // in different directions: one by one, as a stream; up to 1.4 times as
-                         // fast
-    ALPI_RAYS_PARALLEL   // nearly: as one beam; up to 1.2 times as fast (others: half as fast)
+    ALPI_RAYS_NEAR,     // each packet by itself, ray by ray where they part
+    ALPI_RAYS_SCATTERED // in different directions: one by one, as a stream; up to 1.4 times as
+                        // fast
 } alpi_rays_spread;
 
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be

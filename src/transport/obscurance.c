@@ -62,28 +62,44 @@ static void add_hits(const alpi_occlusion_setup *setup, const alpi_rays *rays,
     }
 }
 
-void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
-                            const uint32_t (*samples)[3], uint32_t count,
-                            alpi_occlusion_tally *tally)
+/// The packets of one receiver.
+static void color_receiver(const alpi_occlusion_setup *setup, const alpi_sample_packet *packets,
+                           const alpi_sample_chunk *chunk, alpi_occlusion_lanes *groups,
+                           const uint32_t shift[3], alpi_rays *rays, alpi_occlusion_tally *tally)
 {
-    alpi_rays *rays = &lanes->rays[0];
-    alpi_lane_frames frames;
     alpi_hits hits;
     double sum[3][ALPI_PACKET] = {{0}}; // floats would drift: a room of one colour adds it up
-    alpi_lanes_frames(lanes, &frames);
-    alpi_lanes_start(lanes, rays);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        rays->maximum[i] = setup->distance;
+    for (uint32_t g = 0; g < chunk->groups; g++) {
+        alpi_lanes_frames(&groups[g]);
     }
-    for (uint32_t s = 0; s < count; s++) {
-        alpi_lanes_aim(setup, lanes, &frames, samples[s], rays);
-        alpi_trace_nearest(setup->tracer, rays, lanes->active, setup->filter, &hits);
-        add_hits(setup, rays, &hits, lanes->active, tally, sum);
+    for (uint32_t k = 0; k < chunk->packet_count; k++) {
+        const alpi_occlusion_lanes *lanes = &groups[k / chunk->block];
+        const uint32_t active =
+            k + 1 < chunk->packet_count ? (1u << ALPI_PACKET) - 1u : chunk->last;
+        alpi_lanes_start(lanes, rays);
+        alpi_lanes_aim(setup, lanes, &packets[k], shift, rays);
+        alpi_trace_nearest(setup->tracer, rays, active, setup->filter, &hits);
+        add_hits(setup, rays, &hits, active, tally, sum);
     }
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < ALPI_PACKET; i++) {
             tally->sum[k][i] += (float)sum[k][i];
         }
+    }
+}
+
+void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
+                            const alpi_sample_chunk *chunk, alpi_occlusion_stand *stand,
+                            alpi_occlusion_tally *tallies)
+{
+    alpi_rays *rays = &stand->rays[0];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays->maximum[i] = setup->distance;
+    }
+    for (uint32_t r = 0; r < stand->receivers; r++) {
+        color_receiver(setup, run->packets + chunk->first_packet, chunk,
+                       stand->groups + r * (size_t)chunk->groups, stand->shifts[r], rays,
+                       &tallies[r]);
     }
 }
 

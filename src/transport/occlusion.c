@@ -18,8 +18,6 @@ enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 /// and streams overtake packets: 0.7 times as fast at 15,000 triangles, 1.2 at 50,000, 1.4 at a
 /// million (alpenglow bench transport).
 enum { STREAM_TRIANGLES = 40000 };
-/// Below this a beam has nothing to skip: .99 times as fast with 38 triangles, 1.2 with 3,500.
-enum { BEAM_TRIANGLES = 1000 };
 
 alp_occlusion_options alp_occlusion_options_default(void)
 {
@@ -118,7 +116,8 @@ static void fill_places(uint64_t seed, uint32_t count, uint32_t (*places)[2])
 /// The sequences of a setup of so many samples.
 static alp_result make_sequences(alpi_occlusion_setup *setup)
 {
-    const uint32_t places = setup->samples / ALPI_SAMPLES_PER_POINT + 1;
+    // One may be in use already, and the last of eight lanes each with as many may be too many.
+    const uint32_t places = setup->samples / ALPI_SAMPLES_PER_POINT + 2 + ALPI_PACKET;
     setup->sequence = alpi_allocate(setup->context, setup->samples, sizeof *setup->sequence);
     setup->places = alpi_allocate(setup->context, places, sizeof *setup->places);
     if (setup->sequence == NULL || setup->places == NULL) {
@@ -128,19 +127,6 @@ static alp_result make_sequences(alpi_occlusion_setup *setup)
     fill_samples(setup->options.seed, setup->samples, setup->sequence);
     fill_places(setup->options.seed, places, setup->places);
     return ALP_OK;
-}
-
-/// Leading bits of a direction's coordinates that all receivers share, so that the rays of a packet
-/// leave in nearly the same direction: those that number the cells of the square with one sample
-/// each, at most 4. Sharing more would leave the receivers the same error; sharing none would
-/// make packets slower.
-static uint32_t shared_bits(uint32_t samples)
-{
-    uint32_t bits = 0;
-    while (bits < 4 && samples % (1u << (2 * (bits + 1))) == 0) {
-        bits++;
-    }
-    return bits;
 }
 
 /// The kernel for this machine, unless the context asks for less.
@@ -170,12 +156,10 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .cone_cos = hemisphere ? 0.0f : cosf(options->cone),
         .filter = {.one_sided = options->one_sided},
         .streams = alpi_tracer_triangle_count(tracer) >= STREAM_TRIANGLES,
-        .beams = alpi_tracer_triangle_count(tracer) >= BEAM_TRIANGLES,
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
     setup->filter.few = alpi_tracer_meets_few(tracer, setup->distance);
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
-    setup->shift_mask = UINT32_MAX >> shared_bits(setup->samples);
     return make_sequences(setup);
 }
 
@@ -184,7 +168,6 @@ alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint6
 {
     *other = *setup;
     other->options.seed = seed;
-    other->shift_mask |= UINT32_MAX >> shared_bits(other->samples);
     return make_sequences(other);
 }
 

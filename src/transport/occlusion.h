@@ -15,11 +15,15 @@ enum { ALPI_QUARTERS = 4 };
 
 /// The innermost loop, see occlusion_kernel.h.
 struct alpi_occlusion_setup;
-struct alpi_occlusion_lanes;
+struct alpi_sample_run;
+struct alpi_sample_chunk;
+struct alpi_occlusion_stand;
 struct alpi_occlusion_tally;
 typedef void alpi_occlusion_kernel(const struct alpi_occlusion_setup *setup,
-                                   struct alpi_occlusion_lanes *lanes, const uint32_t (*samples)[3],
-                                   uint32_t count, struct alpi_occlusion_tally *tally);
+                                   const struct alpi_sample_run *run,
+                                   const struct alpi_sample_chunk *chunk,
+                                   struct alpi_occlusion_stand *stand,
+                                   struct alpi_occlusion_tally *tallies);
 
 /// Directions that leave from one point of a receiver with extent. With more, texels that many
 /// small triangles share err by the choice of their points: 16 doubled the error of torus-plane at
@@ -42,11 +46,9 @@ typedef struct alpi_occlusion_setup {
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
     bool streams;            // rays in streams of many packets, which large scenes like
-    bool beams;              // packets of parallel axes as one beam, which only tiny scenes dislike
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
-    uint32_t shift_mask;     // bits of a direction's coordinates that a receiver shifts by itself
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
-    uint32_t (*places)[2];   // [samples / ALPI_SAMPLES_PER_POINT + 1] the same for their points
+    uint32_t (*places)[2];   // the same for their points
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
@@ -63,13 +65,12 @@ alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint6
                                         alpi_occlusion_setup *other);
 void alpi_occlusion_release(alpi_occlusion_setup *setup);
 
-/// Accessibility of eight points from all samples: the way in for callers that have points at hand
-/// one packet at a time, such as a renderer.
-/// @param keys   of the points' random numbers   @param active bit i: point i is asked about
-void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
-                              const alpi_receiver_point points[ALPI_PACKET],
-                              const uint64_t keys[ALPI_PACKET], uint32_t active,
-                              float accessibility[ALPI_PACKET]);
+/// Accessibility of points from all samples, by a run of them (occlusion_run.h) that is not
+/// `extended`: the way in for callers that have a few points at hand at a time, such as a renderer.
+/// @param keys [count] of the points' random numbers
+void alpi_occlusion_of_points(const alpi_occlusion_setup *setup, const struct alpi_sample_run *run,
+                              const alpi_receiver_point *points, const uint64_t *keys,
+                              uint32_t count, float *accessibility);
 
 /// What rays have met so far, per receiver. Counts, so that any order gives the same bits.
 typedef struct alpi_occlusion_sums {
@@ -94,9 +95,10 @@ void alpi_occlusion_requarter(alpi_occlusion_sums *sums, uint32_t receiver, uint
 
 /// Sends samples [first, first + count) from the receivers in `list` (NULL = all, then list_count
 /// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /
-/// ALPI_QUARTERS), unless sums->parted says otherwise. Eight receivers that follow each other in
-/// the list are traced together: they should be neighbours in space. What a receiver gets does not
-/// depend on the list. After CANCELLED `sums` holds what was sent.
+/// ALPI_QUARTERS), unless sums->parted says otherwise. Receivers that follow each other in the list
+/// should be neighbours in space: they meet the same parts of the scene. What a receiver gets does
+/// not depend on the list, but which of its points a sample leaves from on `first` and `count`.
+/// After CANCELLED `sums` holds what was sent.
 /// @param total    of the samples that the receivers will have, a multiple of ALPI_QUARTERS
 /// @param progress NULL, or what to tell; units are filled in here, in rays
 alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,

@@ -23,12 +23,7 @@ static inline float alpi_lane_unit(uint32_t bits)
 }
 
 /// A frame about each lane's normal, as vec3_frame makes it.
-typedef struct alpi_lane_frames {
-    _Alignas(32) float tangent[3][ALPI_PACKET];
-    float bitangent[3][ALPI_PACKET];
-} alpi_lane_frames;
-
-static inline void alpi_lanes_frames(const alpi_occlusion_lanes *lanes, alpi_lane_frames *frames)
+static inline void alpi_lanes_frames(alpi_occlusion_lanes *lanes)
 {
     ALPI_EACH_LANE
     {
@@ -36,30 +31,30 @@ static inline void alpi_lanes_frames(const alpi_occlusion_lanes *lanes, alpi_lan
         const float sign = z < -0.5f ? -1.0f : 1.0f;
         const float a = -1.0f / (sign + z);
         const float c = x * y * a;
-        frames->tangent[0][i] = 1.0f + sign * x * x * a;
-        frames->tangent[1][i] = sign * c;
-        frames->tangent[2][i] = -sign * x;
-        frames->bitangent[0][i] = c;
-        frames->bitangent[1][i] = sign + y * y * a;
-        frames->bitangent[2][i] = -y;
+        lanes->tangent[0][i] = 1.0f + sign * x * x * a;
+        lanes->tangent[1][i] = sign * c;
+        lanes->tangent[2][i] = -sign * x;
+        lanes->bitangent[0][i] = c;
+        lanes->bitangent[1][i] = sign + y * y * a;
+        lanes->bitangent[2][i] = -y;
     }
 }
 
-/// Concentric map of the shifted sample to a disk of radius `scale` (see alpi_warp_disk). The
+/// Concentric map of the shifted samples to a disk of radius `scale` (see alpi_warp_disk). The
 /// coordinates are odd numbers of 25 bits with sign, in units of 2^-24: exact, and never 0. Sine
 /// and cosine of ±π/4 · ratio by polynomials of least largest error, 6e-7 and 3e-8.
 /// @param radius out: of the point, with sign
-static inline void alpi_lanes_disk_points(const alpi_occlusion_lanes *lanes,
-                                          const uint32_t sample[3], float scale,
+static inline void alpi_lanes_disk_points(const alpi_sample_packet *samples,
+                                          const uint32_t shift[3], float scale,
                                           float x[ALPI_PACKET], float y[ALPI_PACKET],
                                           float radius[ALPI_PACKET])
 {
-    const uint32_t u = sample[0], v = sample[1];
+    const uint32_t turn_u = shift[0], turn_v = shift[1];
     const float unit = scale * 0x1p-24f;
     ALPI_EACH_LANE
     {
-        const float a = (float)((int32_t)(u ^ lanes->shift[0][i]) >> 7 | 1);
-        const float b = (float)((int32_t)(v ^ lanes->shift[1][i]) >> 7 | 1);
+        const float a = (float)((int32_t)(samples->u[i] ^ turn_u) >> 7 | 1);
+        const float b = (float)((int32_t)(samples->v[i] ^ turn_v) >> 7 | 1);
         const int wide = fabsf(a) > fabsf(b);
         const float longer = wide ? a : b, shorter = wide ? b : a;
         const float p = shorter / longer, q = p * p;
@@ -75,13 +70,14 @@ static inline void alpi_lanes_disk_points(const alpi_occlusion_lanes *lanes,
 
 /// Directions in the lanes' frames: cosine-distributed (Malley) or uniform in the cone.
 static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
-                                  const alpi_occlusion_lanes *lanes, const alpi_lane_frames *frames,
-                                  const uint32_t sample[3], alpi_rays *rays)
+                                  const alpi_occlusion_lanes *lanes,
+                                  const alpi_sample_packet *samples, const uint32_t shift[3],
+                                  alpi_rays *rays)
 {
     _Alignas(32) float x[ALPI_PACKET], y[ALPI_PACKET], z[ALPI_PACKET];
     if (setup->options.distribution == ALP_DISTRIBUTION_UNIFORM) {
         const float h = 1.0f - setup->cone_cos; // z = 1 − h r², uniform in [cosθmax, 1]
-        alpi_lanes_disk_points(lanes, sample, 1.0f, x, y, z);
+        alpi_lanes_disk_points(samples, shift, 1.0f, x, y, z);
         ALPI_EACH_LANE
         {
             const float r2 = z[i] * z[i];
@@ -91,7 +87,7 @@ static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
             z[i] = 1.0f - h * r2;
         }
     } else {
-        alpi_lanes_disk_points(lanes, sample, setup->cone_sin, x, y, z);
+        alpi_lanes_disk_points(samples, shift, setup->cone_sin, x, y, z);
         ALPI_EACH_LANE
         {
             z[i] = sqrtf(1.0f - z[i] * z[i]); // |radius| < 1
@@ -99,11 +95,11 @@ static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
     }
     ALPI_EACH_LANE
     {
-        rays->direction_x[i] = x[i] * frames->tangent[0][i] + y[i] * frames->bitangent[0][i] +
+        rays->direction_x[i] = x[i] * lanes->tangent[0][i] + y[i] * lanes->bitangent[0][i] +
                                z[i] * lanes->normal[0][i];
-        rays->direction_y[i] = x[i] * frames->tangent[1][i] + y[i] * frames->bitangent[1][i] +
+        rays->direction_y[i] = x[i] * lanes->tangent[1][i] + y[i] * lanes->bitangent[1][i] +
                                z[i] * lanes->normal[1][i];
-        rays->direction_z[i] = x[i] * frames->tangent[2][i] + y[i] * frames->bitangent[2][i] +
+        rays->direction_z[i] = x[i] * lanes->tangent[2][i] + y[i] * lanes->bitangent[2][i] +
                                z[i] * lanes->normal[2][i];
     }
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From receivers to packets. A packet holds one sample of eight neighbouring receivers, not eight
-// samples of one: all receivers use one sequence of samples, each with a digital shift of its own
-// below the leading bits, so the rays of a packet start close to each other and leave in nearly the
-// same direction. Conditional on the sequence the shifts are independent, and each alone is
-// unbiased: the errors of neighbours are not correlated.
+// From receivers to packets. All receivers use one sequence of samples, in packets of eight that
+// leave in nearly the same direction (occlusion_run.h), each with a digital shift of its own, which
+// takes packets to others: the errors of neighbours are independent but for the sequence.
 // Based on: C. Kollig, A. Keller. Efficient Multidimensional Sampling. CGF 21(3), 2002.
 #include "transport/occlusion_kernel.h"
 
@@ -18,29 +16,26 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    POINTS_PER_CHUNK = 33, // of 256 samples, and one that is in use already
     // Work is cut so that one range takes less than a millisecond: cancelling stays prompt, and
     // workers end together also where a list is short.
     RAYS_PER_RANGE = 1 << 13,
-    SAMPLES_PER_ROUND = 1 << 14
+    SAMPLES_PER_ROUND = 1 << 14,
+    PACKETS_TOGETHER = 2 * ALPI_TRACE_BATCH
 };
 
 typedef struct gather_job {
     const alpi_occlusion_setup *setup;
     const alpi_receivers *receivers;
     const uint32_t *list;
-    uint32_t list_count;
-    uint32_t first, end;      // samples
-    uint32_t parted, quarter; // the quarters' first sample and length, from `parted` on
+    alpi_sample_run run;
+    uint32_t samples; // of the run
     alpi_occlusion_sums *sums;
 } gather_job;
 
-void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes)
+void alpi_occlusion_stand_start(alpi_occlusion_stand *stand)
 {
-    lanes->pending = 0;
-    lanes->cosine = 1.0f;
-    for (int k = 0; k < ALPI_TRACE_BATCH; k++) {
-        alpi_rays *rays = &lanes->rays[k];
+    for (uint32_t k = 0; k < ALPI_TRACE_BATCH; k++) {
+        alpi_rays *rays = &stand->rays[k];
         memset(rays->minimum, 0, sizeof rays->minimum);
         memset(rays->time, 0, sizeof rays->time);
         memset(rays->mask, 0xff, sizeof rays->mask);
@@ -49,7 +44,16 @@ void alpi_occlusion_lanes_start(alpi_occlusion_lanes *lanes)
     }
 }
 
-static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_point *p)
+static void set_shifts(const alpi_occlusion_setup *setup, uint64_t receiver, uint32_t shift[3])
+{
+    const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
+    const uint32_t turned = 1u << 31;
+    shift[0] = alpi_hash32(key ^ 0x68bc21ebu) ^ turned;
+    shift[1] = alpi_hash32(key ^ 0x02e5be93u) ^ turned;
+    shift[2] = alpi_hash32(key ^ 0x967a889bu);
+}
+
+static void set_lane(alpi_occlusion_lanes *lanes, uint32_t lane, const alpi_receiver_point *p)
 {
     const vec3 origin = vec3_mad(p->position, p->offset, p->geometric_normal);
     lanes->origin[0][lane] = origin.x;
@@ -60,139 +64,78 @@ static void set_lane(alpi_occlusion_lanes *lanes, int lane, const alpi_receiver_
     lanes->normal[2][lane] = p->shading_normal.z;
 }
 
-static void set_shifts(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes, int lane,
-                       uint64_t receiver)
-{
-    const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
-    const uint32_t turned = 1u << 31;
-    lanes->shift[0][lane] = (alpi_hash32(key ^ 0x68bc21ebu) & setup->shift_mask) ^ turned;
-    lanes->shift[1][lane] = (alpi_hash32(key ^ 0x02e5be93u) & setup->shift_mask) ^ turned;
-    lanes->shift[2][lane] = alpi_hash32(key ^ 0x967a889bu);
-}
-
-/// Points [first, first + count) of one receiver: of the places that all share, shifted for it.
-static void place_points(const gather_job *job, uint32_t receiver, uint32_t first, uint32_t count,
-                         alpi_receiver_point *points)
+/// Puts a receiver's points for a chunk into its groups: of the places that all share, shifted for
+/// it.
+static void place_points(const gather_job *job, uint32_t receiver, const alpi_sample_chunk *chunk,
+                         alpi_occlusion_lanes *groups)
 {
     const alpi_receivers *r = job->receivers;
-    const uint32_t(*places)[2] = (const uint32_t(*)[2])job->setup->places + first;
-    float square[POINTS_PER_CHUNK][2];
+    const uint32_t(*places)[2] = (const uint32_t(*)[2])job->setup->places + chunk->first_place;
     const uint32_t key = alpi_random_key(job->setup->options.seed, receiver, STREAM_PLACE);
     const uint32_t shift[2] = {alpi_hash32(key ^ 0x68bc21ebu), alpi_hash32(key ^ 0x02e5be93u)};
-    for (uint32_t k = 0; k < count; k++) {
+    float square[ALPI_CHUNK_PLACES][2];
+    alpi_receiver_point points[ALPI_CHUNK_PLACES];
+    for (uint32_t k = 0; k < chunk->place_count; k++) {
         square[k][0] = alpi_unit_float(places[k][0] ^ shift[0]);
         square[k][1] = alpi_unit_float(places[k][1] ^ shift[1]);
     }
-    r->place(r->user, receiver, count, (const float(*)[2])square, points);
-}
-
-/// The quarter of a sample. @param end out: the first sample after it
-static uint32_t find_quarter(const gather_job *job, uint32_t sample, uint32_t *end)
-{
-    const bool early = sample < job->parted;
-    const uint32_t first = early ? 0 : job->parted;
-    const uint32_t length = early ? job->parted / ALPI_QUARTERS : job->quarter;
-    const uint32_t quarter = (sample - first) / length;
-    *end = first + (quarter + 1) * length;
-    return quarter;
-}
-
-/// The lanes' points for some samples, of more than one quarter: what a receiver's points share is
-/// looked up once for them.
-typedef struct placed_points {
-    uint32_t block; // samples that leave from one point
-    uint32_t first; // point
-    alpi_receiver_point points[ALPI_PACKET][POINTS_PER_CHUNK];
-} placed_points;
-
-static void place_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t first,
-                        uint32_t end, placed_points *placed)
-{
-    placed->block = job->receivers->extended ? ALPI_SAMPLES_PER_POINT : UINT32_MAX;
-    placed->first = first / placed->block;
-    const uint32_t count = (end - 1) / placed->block - placed->first + 1;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        place_points(job, ids[i], placed->first, count, placed->points[i]);
-    }
-}
-
-/// Samples [first, end) from the points that were placed for them, from each its block of them.
-static void run_samples(const gather_job *job, const placed_points *placed, uint32_t first,
-                        uint32_t end, alpi_occlusion_lanes *lanes, alpi_occlusion_tally *tally)
-{
-    const uint32_t(*samples)[3] = (const uint32_t(*)[3])job->setup->sequence;
-    for (uint32_t at = first; at < end;) {
-        const uint32_t point = at / placed->block - placed->first;
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            set_lane(lanes, i, &placed->points[i][point]);
-        }
-        const uint32_t left = placed->block - at % placed->block; // of the point's samples
-        const uint32_t count = end - at < left ? end - at : left;
-        job->setup->kernel(job->setup, lanes, samples + at, count, tally);
-        at += count;
-    }
-    job->setup->kernel(job->setup, lanes, NULL, 0, tally);
-}
-
-/// Adds what the lanes that are in use met in samples of one quarter.
-static void add_tally(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t used,
-                      uint32_t quarter, const alpi_occlusion_tally *tally)
-{
-    for (uint32_t i = 0; i < used; i++) {
-        job->sums->open[ids[i]][quarter] += tally->open[i];
-        for (int k = 0; k < 3 && job->sums->vectors != NULL; k++) {
-            job->sums->vectors[ids[i]][k] += tally->sum[k][i];
+    r->place(r->user, receiver, chunk->place_count, (const float(*)[2])square, points);
+    for (uint32_t g = 0; g < chunk->groups; g++) {
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            set_lane(&groups[g], i, &points[chunk->place[g][i]]);
         }
     }
 }
 
-/// Samples [first, end) of a packet, quarter by quarter.
-static void run_chunk(const gather_job *job, const uint32_t ids[ALPI_PACKET], uint32_t used,
-                      uint32_t first, uint32_t end, alpi_occlusion_lanes *lanes)
+/// Receivers whose packets of a chunk go together: their points are placed one after the other,
+/// which is faster than each between the rays of others.
+static uint32_t receivers_of(const alpi_sample_chunk *chunk)
 {
-    placed_points placed;
-    place_chunk(job, ids, first, end, &placed);
-    for (uint32_t at = first; at < end;) {
-        uint32_t next;
-        const uint32_t quarter = find_quarter(job, at, &next);
-        next = next < end ? next : end;
-        alpi_occlusion_tally tally = {{0}, {{0}}};
-        run_samples(job, &placed, at, next, lanes, &tally);
-        add_tally(job, ids, used, quarter, &tally);
-        at = next;
-    }
+    const uint32_t fit = ALPI_CHUNK_GROUPS / chunk->groups;
+    const uint32_t wanted = PACKETS_TOGETHER / chunk->packet_count;
+    const uint32_t most = fit < ALPI_PACKET ? fit : ALPI_PACKET;
+    const bool whole = chunk->last == (1u << ALPI_PACKET) - 1u;
+    return !whole || wanted < 1 ? 1 : wanted < most ? wanted : most;
 }
 
-static void run_packet(const gather_job *job, uint32_t first_item, alpi_occlusion_lanes *lanes)
+/// A chunk's packets of receivers [begin, end) of the list.
+static void run_chunk(const gather_job *job, const alpi_sample_chunk *chunk, uint32_t begin,
+                      uint32_t end, alpi_occlusion_stand *stand)
 {
-    uint32_t ids[ALPI_PACKET];
-    const uint32_t items = job->list_count - first_item;
-    const uint32_t used = items < ALPI_PACKET ? items : ALPI_PACKET;
-    const uint32_t chunk = ALPI_SAMPLES_PER_POINT * (POINTS_PER_CHUNK - 1); // one may be in use
-    lanes->active = (1u << used) - 1u;
-    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-        const uint32_t k = first_item + (i < used ? i : used - 1);
-        ids[i] = job->list != NULL ? job->list[k] : k;
-        set_shifts(job->setup, lanes, (int)i, ids[i]);
-    }
-    for (uint32_t at = job->first; at < job->end;) {
-        const bool whole = !job->receivers->extended || job->end - at <= chunk;
-        const uint32_t end = whole ? job->end : at + chunk;
-        run_chunk(job, ids, used, at, end, lanes);
-        at = end;
-    }
-    for (uint32_t i = 0; i < used; i++) {
-        job->sums->done[ids[i]] += job->end - job->first;
+    alpi_occlusion_sums *sums = job->sums;
+    const uint32_t together = receivers_of(chunk);
+    for (uint32_t at = begin; at < end; at += stand->receivers) {
+        alpi_occlusion_tally tallies[ALPI_PACKET] = {0};
+        uint32_t ids[ALPI_PACKET];
+        stand->receivers = end - at < together ? end - at : together;
+        for (uint32_t r = 0; r < stand->receivers; r++) {
+            ids[r] = job->list != NULL ? job->list[at + r] : at + r;
+            set_shifts(job->setup, ids[r], stand->shifts[r]);
+            place_points(job, ids[r], chunk, stand->groups + r * (size_t)chunk->groups);
+        }
+        job->setup->kernel(job->setup, &job->run, chunk, stand, tallies);
+        for (uint32_t r = 0; r < stand->receivers; r++) {
+            for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+                sums->open[ids[r]][chunk->quarter[i]] += tallies[r].open[i];
+                for (int k = 0; k < 3 && sums->vectors != NULL; k++) {
+                    sums->vectors[ids[r]][k] += tallies[r].sum[k][i];
+                }
+            }
+        }
     }
 }
 
 static alp_result run_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
-    alpi_occlusion_lanes lanes;
-    alpi_occlusion_lanes_start(&lanes);
-    for (uint32_t packet = begin; packet < end; packet++) {
-        run_packet(user, packet * ALPI_PACKET, &lanes);
+    const gather_job *job = user;
+    alpi_occlusion_stand stand;
+    alpi_occlusion_stand_start(&stand);
+    for (uint32_t c = 0; c < job->run.chunk_count; c++) {
+        run_chunk(job, &job->run.chunks[c], begin, end, &stand);
+    }
+    for (uint32_t i = begin; i < end; i++) {
+        job->sums->done[job->list != NULL ? job->list[i] : i] += job->samples;
     }
     return ALP_OK;
 }
@@ -206,28 +149,22 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
 {
     assert(first + count <= setup->samples && total % ALPI_QUARTERS == 0);
     assert(total > sums->parted && sums->parted % ALPI_QUARTERS == 0);
-    gather_job job = {.setup = setup,
-                      .receivers = receivers,
-                      .list = list,
-                      .list_count = list_count,
-                      .parted = sums->parted,
-                      .quarter = (total - sums->parted) / ALPI_QUARTERS,
-                      .sums = sums};
-    const uint32_t packets = list_count / ALPI_PACKET + (list_count % ALPI_PACKET != 0);
+    gather_job job = {.setup = setup, .receivers = receivers, .list = list, .sums = sums};
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     const double before = told.units_before;
     told.units_are_rays = true;
-    told.units_total += told.units_total > 0.0 ? 0.0 : (double)packets * ALPI_PACKET * count;
-    for (uint32_t done = 0; done < count; done += SAMPLES_PER_ROUND) {
-        const uint32_t samples =
-            count - done < SAMPLES_PER_ROUND ? count - done : SAMPLES_PER_ROUND;
-        const uint32_t rays = samples * ALPI_PACKET; // of a packet
-        const uint32_t grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1;
-        job.first = first + done;
-        job.end = job.first + samples;
-        told.units_per_item = rays;
-        told.units_before = before + (double)packets * ALPI_PACKET * done;
-        ALP_TRY(alpi_parallel_for(setup->context, packets, grain, run_range, &job, &told));
+    told.units_total += told.units_total > 0.0 ? 0.0 : (double)list_count * count;
+    for (uint32_t done = 0; done < count; done += job.samples) {
+        job.samples = count - done < SAMPLES_PER_ROUND ? count - done : SAMPLES_PER_ROUND;
+        told.units_per_item = job.samples;
+        told.units_before = before + (double)list_count * done;
+        ALP_TRY(alpi_sample_run_create(setup, receivers->extended, first + done, job.samples,
+                                       sums->parted, total, &job.run));
+        const uint32_t grain = job.samples < RAYS_PER_RANGE ? RAYS_PER_RANGE / job.samples : 1;
+        const alp_result result =
+            alpi_parallel_for(setup->context, list_count, grain, run_range, &job, &told);
+        alpi_sample_run_destroy(&job.run);
+        ALP_TRY(result);
     }
     return ALP_OK;
 }
@@ -296,22 +233,26 @@ alp_result alpi_occlusion_gather(const alpi_occlusion_setup *setup, const alpi_r
     return result;
 }
 
-void alpi_occlusion_of_packet(const alpi_occlusion_setup *setup,
-                              const alpi_receiver_point points[ALPI_PACKET],
-                              const uint64_t keys[ALPI_PACKET], uint32_t active,
-                              float accessibility[ALPI_PACKET])
+void alpi_occlusion_of_points(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
+                              const alpi_receiver_point *points, const uint64_t *keys,
+                              uint32_t count, float *accessibility)
 {
-    alpi_occlusion_lanes lanes;
-    alpi_occlusion_tally tally = {{0}, {{0}}};
-    alpi_occlusion_lanes_start(&lanes);
-    lanes.active = active;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        set_lane(&lanes, i, &points[i]);
-        set_shifts(setup, &lanes, i, keys[i]);
-    }
-    setup->kernel(setup, &lanes, (const uint32_t(*)[3])setup->sequence, setup->samples, &tally);
-    setup->kernel(setup, &lanes, NULL, 0, &tally);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        accessibility[i] = (float)((double)tally.open[i] / setup->samples);
+    alpi_occlusion_stand stand;
+    alpi_occlusion_stand_start(&stand);
+    stand.receivers = 1;
+    for (uint32_t p = 0; p < count; p++) {
+        uint32_t open = 0;
+        set_shifts(setup, keys[p], stand.shifts[0]);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            set_lane(&stand.groups[0], i, &points[p]);
+        }
+        for (uint32_t c = 0; c < run->chunk_count; c++) {
+            alpi_occlusion_tally tally = {{0}, {{0}}};
+            setup->kernel(setup, run, &run->chunks[c], &stand, &tally);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                open += tally.open[i];
+            }
+        }
+        accessibility[p] = (float)((double)open / setup->samples);
     }
 }

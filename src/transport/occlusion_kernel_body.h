@@ -8,32 +8,6 @@
 // where, and short rays cost less still.
 #include "transport/occlusion_aim.h"
 
-/// How far the lanes' axes part: so do their rays.
-static inline float least_cosine(const alpi_occlusion_lanes *lanes)
-{
-    _Alignas(32) float cosine[ALPI_PACKET];
-    const float x = lanes->normal[0][0], y = lanes->normal[1][0], z = lanes->normal[2][0];
-    ALPI_EACH_LANE
-    {
-        cosine[i] = x * lanes->normal[0][i] + y * lanes->normal[1][i] + z * lanes->normal[2][i];
-    }
-    float least = 1.0f;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        least = cosine[i] < least ? cosine[i] : least;
-    }
-    return least;
-}
-
-/// Measured on eight scenes: below a cosine of .8 a stream is 1.02 to 1.4 times as fast as packets,
-/// above it .6 to 1.3 times. On five, above .99 a beam is 1.01 to 1.2 times as fast; used for all
-/// packets, .85 to 1.1 times.
-static inline alpi_rays_spread spread_of(const alpi_occlusion_setup *setup, float cosine)
-{
-    return setup->streams || cosine < 0.8f  ? ALPI_RAYS_SCATTERED
-           : setup->beams && cosine > 0.99f ? ALPI_RAYS_PARALLEL
-                                            : ALPI_RAYS_NEAR;
-}
-
 /// t with 3t² − 2t³ = u, the inverse of smoothstep, to 5e-6: symmetric about ½, and analytic in √u
 /// below (a polynomial of least largest error for ½ − sin(asin(1 − 2u) / 3) over √u).
 static inline float inverse_smoothstep(float u)
@@ -48,29 +22,28 @@ static inline float inverse_smoothstep(float u)
 }
 
 /// How far the rays reach: the limit, or a random length below it.
-static inline void limit(const alpi_occlusion_setup *setup, const alpi_occlusion_lanes *lanes,
-                         const uint32_t sample[3], alpi_rays *rays)
+static inline void limit(const alpi_occlusion_setup *setup, const alpi_sample_packet *samples,
+                         uint32_t shift, alpi_rays *rays)
 {
     const float far = setup->distance;
-    const uint32_t u = sample[2];
     switch (setup->falloff) {
     case ALP_FALLOFF_LINEAR: // w = 1 − t
         ALPI_EACH_LANE
         {
-            rays->maximum[i] = far * alpi_lane_unit(u ^ lanes->shift[2][i]);
+            rays->maximum[i] = far * alpi_lane_unit(samples->w[i] ^ shift);
         }
         break;
     case ALP_FALLOFF_SMOOTH: // w = (1 − t)² (1 + 2t) = 1 − smoothstep(t)
         ALPI_EACH_LANE
         {
-            rays->maximum[i] = far * inverse_smoothstep(alpi_lane_unit(u ^ lanes->shift[2][i]));
+            rays->maximum[i] = far * inverse_smoothstep(alpi_lane_unit(samples->w[i] ^ shift));
         }
         break;
     case ALP_FALLOFF_EXP: // w = (e^(−4t) − e^(−4)) / (1 − e^(−4))
         ALPI_EACH_LANE
         {
             const float end = 0.018315638889f; // e^−4
-            float open = 1.0f - alpi_lane_unit(u ^ lanes->shift[2][i]);
+            float open = 1.0f - alpi_lane_unit(samples->w[i] ^ shift);
             rays->maximum[i] = far * (-0.25f * logf(end + open * (1.0f - end)));
         }
         break;
@@ -117,50 +90,87 @@ static inline void bend(const alpi_rays *rays, alpi_occlusion_tally *tally)
     }
 }
 
-/// Traces what is pending and counts it.
-static inline void flush(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
-                         alpi_occlusion_tally *tally)
+/// Lanes that the last packet of a chunk leaves out are neither traced nor counted.
+static inline void leave_out(uint32_t active, alpi_rays *rays)
 {
-    if (lanes->pending == 0) {
-        return;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays->maximum[i] = (active >> i & 1u) != 0 ? rays->maximum[i] : -1.0f;
     }
-    alpi_trace_occluded(setup->tracer, lanes->rays, lanes->pending, lanes->active, setup->filter,
-                        spread_of(setup, lanes->cosine));
-    count_open(lanes->rays, lanes->pending, tally);
-    for (uint32_t k = 0; k < lanes->pending && setup->bent; k++) {
-        bend(&lanes->rays[k], tally);
+}
+
+/// Traces a batch, of whose last packet only some lanes may take part.
+static inline void trace(const alpi_occlusion_setup *setup, alpi_rays *rays, uint32_t count,
+                         uint32_t last)
+{
+    const uint32_t all = (1u << ALPI_PACKET) - 1u;
+    const alpi_rays_spread spread = setup->streams ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR;
+    const uint32_t whole = last == all ? count : count - 1;
+    alpi_trace_occluded(setup->tracer, rays, whole, all, setup->filter, spread);
+    if (whole < count) {
+        leave_out(last, &rays[whole]);
+        alpi_trace_occluded(setup->tracer, &rays[whole], 1, last, setup->filter, ALPI_RAYS_NEAR);
     }
-    lanes->pending = 0;
-    lanes->cosine = 1.0f;
+}
+
+/// Counts what a batch met, receiver by receiver. @param first packet of the batch, of all
+static inline void count(const alpi_occlusion_setup *setup, const alpi_rays *rays, uint32_t first,
+                         uint32_t made, uint32_t packets, alpi_occlusion_tally *tallies)
+{
+    for (uint32_t k = 0; k < made;) {
+        alpi_occlusion_tally *tally = &tallies[(first + k) / packets];
+        const uint32_t left = packets - (first + k) % packets; // of the receiver's
+        const uint32_t end = k + left < made ? k + left : made;
+        count_open(rays + k, end - k, tally);
+        for (; k < end && setup->bent; k++) {
+            bend(&rays[k], tally);
+        }
+        k = end;
+    }
+}
+
+/// Makes packets that leave from one group of points.
+static inline void make(const alpi_occlusion_setup *setup, const alpi_sample_packet *packets,
+                        uint32_t packet_count, const alpi_occlusion_lanes *lanes,
+                        const uint32_t shift[3], alpi_rays *rays)
+{
+    for (uint32_t k = 0; k < packet_count; k++) {
+        alpi_lanes_start(lanes, &rays[k]);
+        alpi_lanes_aim(setup, lanes, &packets[k], shift, &rays[k]);
+    }
+    for (uint32_t k = 0; k < packet_count; k++) {
+        limit(setup, &packets[k], shift[2], &rays[k]);
+    }
 }
 
 /// A batch of packets is made before the first of it is traced: one packet after the other would
 /// wait for its own divisions and roots.
-void ALPI_KERNEL(const alpi_occlusion_setup *setup, alpi_occlusion_lanes *lanes,
-                 const uint32_t (*samples)[3], uint32_t count, alpi_occlusion_tally *tally)
+void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
+                 const alpi_sample_chunk *chunk, alpi_occlusion_stand *stand,
+                 alpi_occlusion_tally *tallies)
 {
-    alpi_lane_frames frames;
-    alpi_lanes_frames(lanes, &frames);
-    const float cosine = least_cosine(lanes);
-    for (uint32_t s = 0; s < count;) {
-        alpi_rays *rays = lanes->rays + lanes->pending;
-        const uint32_t room = ALPI_TRACE_BATCH - lanes->pending;
-        const uint32_t made = count - s < room ? count - s : room;
-        for (uint32_t k = 0; k < made; k++) {
-            alpi_lanes_start(lanes, &rays[k]);
-            alpi_lanes_aim(setup, lanes, &frames, samples[s + k], &rays[k]);
-        }
-        for (uint32_t k = 0; k < made; k++) {
-            limit(setup, lanes, samples[s + k], &rays[k]);
-        }
-        lanes->pending += made;
-        lanes->cosine = cosine < lanes->cosine ? cosine : lanes->cosine;
-        s += made;
-        if (lanes->pending == ALPI_TRACE_BATCH) {
-            flush(setup, lanes, tally);
-        }
+    const alpi_sample_packet *packets = run->packets + chunk->first_packet;
+    const uint32_t each = chunk->packet_count, all = stand->receivers * each;
+    uint32_t receiver = 0, group = 0, at = 0; // of the next packet
+    for (uint32_t g = 0; g < stand->receivers * chunk->groups; g++) {
+        alpi_lanes_frames(&stand->groups[g]);
     }
-    if (count == 0) {
-        flush(setup, lanes, tally);
+    for (uint32_t first = 0; first < all; first += ALPI_TRACE_BATCH) {
+        const uint32_t made = all - first < ALPI_TRACE_BATCH ? all - first : ALPI_TRACE_BATCH;
+        for (uint32_t k = 0; k < made;) {
+            const uint32_t next = (group + 1) * chunk->block, end = next < each ? next : each;
+            const uint32_t some = end - at < made - k ? end - at : made - k;
+            make(setup, packets + at, some, &stand->groups[receiver * chunk->groups + group],
+                 stand->shifts[receiver], &stand->rays[k]);
+            k += some;
+            at += some;
+            group += at == end ? 1 : 0;
+            if (at == each) {
+                receiver++;
+                at = group = 0;
+            }
+        }
+        trace(setup, stand->rays, made,
+              first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u);
+        count(setup, stand->rays, first, made, each, tallies);
     }
 }

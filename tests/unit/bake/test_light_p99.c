@@ -26,7 +26,8 @@ static int teardown(void **state)
     return 0;
 }
 
-static alp_bake_report bake(const char *name, uint32_t size, alp_light_options light)
+static alp_bake_report bake_seed(const char *name, uint32_t size, alp_light_options light,
+                                 uint64_t seed)
 {
     alp_scene *scene = NULL;
     alp_lightmap *map = NULL;
@@ -37,10 +38,16 @@ static alp_bake_report bake(const char *name, uint32_t size, alp_light_options l
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.maps = ALP_MAP_LIGHT;
     options.light = light;
+    options.occlusion.seed = seed;
     ASSERT_OK(context, alp_bake(scene, &options, &map, &report));
     alp_lightmap_destroy(map);
     alp_scene_destroy(scene);
     return report;
+}
+
+static alp_bake_report bake(const char *name, uint32_t size, alp_light_options light)
+{
+    return bake_seed(name, size, light, 0);
 }
 
 /// @param name a scene that, baked for twice the error, has a map good enough for it, but not its
@@ -78,21 +85,23 @@ static void small_shadows_come_down(void **state)
 }
 
 /// Beside strips of sun bounced light is what is noisy: few texels get more rays, which the map as
-/// a whole does not need. If all of them got these, they would have 256 in the end.
+/// a whole does not need. If all of them got these, they would have 224 in the end; with this seed,
+/// as how many it takes is chance.
 static void few_texels_get_more_rays(void **state)
 {
     (void)state;
     alp_light_options light = alp_bake_options_default().light;
     light.error = 0.04f;
-    const alp_bake_report r = bake("builtin:windows", 2 * SIZE, light);
+    const uint64_t seed = 2;
+    const alp_bake_report r = bake_seed("builtin:windows", 2 * SIZE, light, seed);
     print_message("windows: %.2f %% and %.2f %% with %u rays of each texel\n",
                   100.0 * r.light_relative_error, 100.0 * r.light_p99_error, r.light_samples);
     assert_true(r.light_relative_error <= 0.04 && r.light_p99_error <= 0.16);
-    assert_true(r.light_samples < 256);
+    assert_true(r.light_samples < 224);
     for (uint32_t workers = 1; workers <= 7; workers += 6) { // those two are the same bits
         alp_context *two = context;
         context = test_context(workers);
-        const alp_bake_report same = bake("builtin:windows", 2 * SIZE, light);
+        const alp_bake_report same = bake_seed("builtin:windows", 2 * SIZE, light, seed);
         assert_true(same.light_relative_error == r.light_relative_error);
         assert_true(same.light_p99_error == r.light_p99_error && same.rays == r.rays);
         alp_context_destroy(context);
