@@ -53,8 +53,12 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Rays that a block gathers by, on a map of so many texels.
+/// Rays that a block gathers by at most, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
+/// Rays of a block, a power of two in [16, 1024], that take least time together with what is left
+/// to the texels for an error.
+/// @param error over the mean, > 0
+uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
@@ -92,6 +96,10 @@ void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, uint32_t rays, double *noise);
 
+/// Error of a solution by one ray of each block, over the mean of the light: it falls with the root
+/// of their number.
+/// @param bounced root mean square of bounced light, over that mean
+double alpi_light_solved_noise(double bounced);
 /// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
 /// them, that no number of rays tells. Root mean square over texels, as measured.
 /// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart

@@ -19,6 +19,11 @@ static const double SOLVED_NOISE = 0.016;
 /// The most of it, over bounced light: that of the atrium, where it is most of that.
 static const double MOST_OF_BOUNCED = 0.16;
 
+double alpi_light_solved_noise(double bounced)
+{
+    return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced);
+}
+
 double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
                                double noise)
 {
@@ -28,7 +33,7 @@ double alpi_light_solved_error(const alpi_radiosity *solution, double mean, doub
     if (!met || !(mean > 0.0)) {
         return 0.0;
     }
-    return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced / mean) * noise;
+    return alpi_light_solved_noise(bounced / mean) * noise;
 }
 
 static void state_solved(alpi_reference_value *value, const float *sky, double share)

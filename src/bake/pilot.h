@@ -21,7 +21,7 @@ typedef struct alpi_pilot {
     double ray_seconds;                  // of a ray that gathers bounced light
     double bounced_error; // of what such rays find, by RAYS paths of a point, W·m⁻²
     // Occlusion.
-    double occlusion_seconds; // of a ray in the packets of neighbouring texels
+    double occlusion_seconds; // of a ray, in packets as a bake sends them
     double occlusion_error;   // of a texel by RAYS rays, over the mean
 } alpi_pilot;
 

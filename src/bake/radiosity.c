@@ -60,9 +60,47 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
     return rays;
 }
 
+// Where little light bounces, or blocks are few beside the texels' rays, fewer rays of theirs will
+// do, or more pay. A trial by the fewest tells how much does.
+enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
+
+/// Rays that texels and direct light take, about, for an error: measured on the Cornell box, a
+/// sphere on a plane, living_room, a quarter of the texels being traced and direct light taking as
+/// long again.
+static double guess_texel_rays(double error, uint64_t texels, double rms)
+{
+    enum { FIRST_RAYS = 64 };
+    const double each = pow(0.39 * rms / error, 2.0);
+    return 0.5 * (double)texels * fmax(each, FIRST_RAYS);
+}
+
+uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light)
+{
+    enum { FEWEST_RAYS = TRIAL_RAYS, MOST_RAYS = 1024 };
+    const double noise = alpi_light_solved_noise(light->rms), blocks = fmax(light->blocks, 1.0);
+    const double least = pow(6.0 * light->mean / error, 2.0) / blocks; // for the whole map's bias
+    const double others = guess_texel_rays(error, texels, light->rms);
+    uint32_t best = MOST_RAYS;
+    double best_cost = HUGE_VAL;
+    for (uint32_t rays = MOST_RAYS; rays >= FEWEST_RAYS && rays * sqrt(2.0) >= least; rays /= 2) {
+        // What the solution leaves of the squared error is the texels': their error falls with the
+        // .62th power of their rays.
+        const double left = 1.0 - noise * noise / (rays * error * error);
+        const double cost = left > 0.0 ? blocks * rays + others * pow(left, -0.5 / 0.62) : HUGE_VAL;
+        if (cost <= best_cost) {
+            best_cost = cost;
+            best = rays;
+        }
+    }
+    return best;
+}
+
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
-    alpi_cosine_rays block_rays;
+    double error;         // see find_error
+    uint64_t texel_count; // that there are
+    alpi_cosine_rays trial_rays, block_rays;
+    alpi_gatherer trial;                    // of blocks
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
@@ -95,12 +133,33 @@ static alp_result make_gatherers(const alpi_bake_job *job, uint64_t texels, ligh
     if (o->gather == ALP_GATHER_HEMICUBE) {
         return make_hemicubes(job, seed, g);
     }
+    g->error = find_error(o);
+    g->texel_count = texels;
     g->block_rays = (alpi_cosine_rays){.context = job->context,
                                        .samples = alpi_light_block_rays(o, texels),
                                        .replicates = 1,
                                        .seed = seed};
     g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
+    g->trial_rays = g->block_rays;
+    g->trial_rays.samples = TRIAL_RAYS;
+    g->trial = alpi_cosine_rays_gatherer(&g->trial_rays);
     return ALP_OK;
+}
+
+/// As many rays of blocks as are worth it, and no more than without a trial.
+static const alpi_gatherer *choose_rays(void *user, const alpi_trial_light *light)
+{
+    light_gatherers *g = user;
+    const uint32_t rays = alpi_light_least_block_rays(g->error, g->texel_count, light);
+    g->block_rays.samples = rays < g->block_rays.samples ? rays : g->block_rays.samples;
+    g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
+    return rays > TRIAL_RAYS ? &g->blocks : NULL;
+}
+
+static alpi_radiosity_trial trial_of(light_gatherers *g)
+{
+    const bool tried = g->error > 0.0 && g->block_rays.samples >= NO_TRIAL_BELOW;
+    return (alpi_radiosity_trial){tried ? &g->trial : NULL, choose_rays, g};
 }
 
 static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
@@ -117,7 +176,7 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g,
+static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g,
                                const alpi_lighting *direct)
 {
     const alp_bake_options *o = &job->options;
@@ -132,6 +191,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, const lig
     options.counted = g->counts ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
+    options.trial = trial_of(g);
     options.bounces = o->light.bounces;
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
@@ -206,7 +266,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
 
 /// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
 /// are looked for directly, with all else. Panes would mix the two.
-static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
+static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g)
 {
     if (job->only != NULL) {
         return gather_around(job, t, g);

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/counted_emitters.h"
 #include "transport/kept_rays.h"
 
 #include <math.h>
@@ -48,57 +47,6 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
 }
 
 // --- direct light --------------------------------------------------------------------------------
-
-/// Adds the emissive surfaces that gatherers count.
-static alp_result add_counted(const alpi_radiosity *radiosity, const alpi_receivers *texels,
-                              const uint32_t *list, uint32_t count,
-                              const alpi_task_progress *progress, alpi_direct_output *output)
-{
-    const alpi_gather_scene from = alpi_radiosity_scene(radiosity);
-    const alpi_gather_job job = {.context = radiosity->options.context,
-                                 .from = &from,
-                                 .gatherer = radiosity->options.counted,
-                                 .receivers = texels,
-                                 .list = list,
-                                 .count = count,
-                                 .values = output->values,
-                                 .directional = output->directional};
-    if (job.gatherer == NULL) {
-        return ALP_OK;
-    }
-    output->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
-    return alpi_counted_emitters_add(&job, progress);
-}
-
-alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t *list,
-                                 uint32_t count, uint32_t samples, uint64_t seed,
-                                 const alpi_task_progress *progress, alpi_direct_output *output)
-{
-    const alpi_radiosity_options *o = &radiosity->options;
-    const alpi_direct_options options = {.context = o->context,
-                                         .scene =
-                                             o->direct_scene != NULL ? o->direct_scene : o->scene,
-                                         .tracer = o->tracer,
-                                         .lighting = o->direct,
-                                         .filter = o->filter,
-                                         .samples = samples,
-                                         .seed = seed};
-    alpi_direct *direct = NULL;
-    if (o->layers != NULL) {
-        output->groups = o->layers->direct;
-        output->part_groups = o->layers->part_layers;
-    }
-    const alpi_receivers texels = radiosity->texels != NULL
-                                      ? *radiosity->texels
-                                      : alpi_patches_texel_receivers(&radiosity->patches);
-    ALP_TRY(alpi_direct_create(&options, &direct));
-    alp_result result = alpi_direct_irradiance(direct, &texels, list, count, progress, output);
-    alpi_direct_destroy(direct);
-    if (result == ALP_OK) {
-        result = add_counted(radiosity, &texels, list, count, progress, output);
-    }
-    return result;
-}
 
 /// @param directional [texels] out, or NULL
 static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count,
@@ -207,31 +155,42 @@ static uint32_t add_seen_backs(solver *s)
     return count;
 }
 
-/// Finds who gathers: all fronts, and the backs that any of those who gather sees. The rays of all
-/// are kept where there is room for them.
+/// Makes room for the rays of all who may gather, where they may be kept.
+static alp_result reserve_rays(solver *s)
+{
+    alpi_radiosity *r = s->r;
+    const alpi_radiosity_options *o = &r->options;
+    const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
+    r->kept = alpi_gather_meets_cells(&s->from) &&
+              alpi_kept_rays_size(o->gatherer) * room <= o->kept_limit;
+    return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
+}
+
+/// Fronts gather, and shining backs.
+static void start_receivers(solver *s)
+{
+    alpi_radiosity *r = s->r;
+    const alpi_patches *p = &r->patches;
+    for (uint32_t b = 0; b < p->block_count; b++) {
+        r->receivers[b] = b;
+    }
+    r->receiver_count = p->block_count;
+    see_shining_backs(s);
+    if (r->options.backs) {
+        see_backs(s);
+    }
+}
+
+/// Finds who gathers: those who do already, and the backs that any of those who gather sees. The
+/// rays of all are kept where there is room for them.
 static alp_result find_receivers(solver *s)
 {
     alpi_radiosity *r = s->r;
     const alpi_patches *p = &r->patches;
-    const alpi_radiosity_options *o = &r->options;
-    const uint32_t room = p->block_count * (uint32_t)sides_of(p);
-    r->kept = alpi_gather_meets_cells(&s->from) &&
-              alpi_kept_rays_size(o->gatherer) * room <= o->kept_limit;
-    if (r->kept) {
-        ALP_TRY(alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept));
-    }
-    for (uint32_t b = 0; b < p->block_count; b++) {
-        r->receivers[b] = s->new_receivers[b] = b;
-    }
-    r->receiver_count = p->block_count;
-    see_shining_backs(s);
-    if (o->backs) {
-        see_backs(s);
-    }
-    for (uint32_t count = p->block_count; count > 0; count = add_seen_backs(s)) {
-        if (s->new_receivers[0] >= p->block_count) {
-            ALP_TRY(light_backs(s, s->new_receivers, count));
-        }
+    ALP_TRY(reserve_rays(s));
+    ALP_TRY(look_around(s, r->receivers, r->receiver_count));
+    for (uint32_t count = add_seen_backs(s); count > 0; count = add_seen_backs(s)) {
+        ALP_TRY(light_backs(s, s->new_receivers, count));
         ALP_TRY(look_around(s, s->new_receivers, count));
     }
     s->from.sky = false; // its light is known now
@@ -441,6 +400,54 @@ static alp_result run_layers(solver *s)
     return alpi_radiosity_show(r, ALPI_NONE, NULL, &s->progress);
 }
 
+// --- a trial -------------------------------------------------------------------------------------
+
+/// Sums light on fronts by area: the square of what bounced, what bounced, the sky's, direct light,
+/// and the area.
+static void sum_trial(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_radiosity *r = user;
+    const alpi_patches *p = &r->patches;
+    for (uint32_t b = begin; b < end; b++) {
+        const double bounced = sum_of(r->bounced[b].mean) / 3.0, area = p->block_areas[b];
+        sums[0] += area * bounced * bounced;
+        sums[1] += area * bounced;
+        sums[2] += area * sum_of(r->skies[b]) / 3.0;
+        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
+            const uint32_t t = p->block_texels[k];
+            sums[3] += (double)alpi_texels_area(p->texels, t) * sum_of(r->direct[t].mean) / 3.0;
+        }
+        sums[4] += area;
+    }
+}
+
+/// Solves by few rays, and asks whether that will do. @param done out
+static alp_result try_few(solver *s, bool *done)
+{
+    alpi_radiosity *r = s->r;
+    const alpi_radiosity_trial *trial = &r->options.trial;
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    r->options.gatherer = trial->gatherer;
+    ALP_TRY(find_receivers(s));
+    ALP_TRY(run_passes(s));
+    ALP_TRY(alpi_parallel_sum(r->options.context, r->patches.block_count, sum_trial, r,
+                              &s->progress, sums));
+    const double all = sums[1] + sums[2] + sums[3];
+    const alpi_trial_light found = {
+        .blocks = r->receiver_count,
+        .mean = all > 0.0 ? sums[1] / all : 0.0,
+        .rms = all > 0.0 ? sqrt(sums[0] * sums[4]) / all : 0.0,
+    };
+    const alpi_gatherer *chosen = trial->choose(trial->user, &found);
+    *done = chosen == NULL;
+    if (chosen != NULL) {
+        r->options.gatherer = chosen;
+        r->passes = 0;
+        s->from = alpi_radiosity_scene(r);
+    }
+    return ALP_OK;
+}
+
 // --- all of it -----------------------------------------------------------------------------------
 
 static alp_result allocate(solver *s)
@@ -489,8 +496,15 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     s->r->direct_seconds = alpi_seconds() - began;
     s->from = alpi_radiosity_scene(s->r);
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
-    ALP_TRY(find_receivers(s));
-    ALP_TRY(run_passes(s));
+    start_receivers(s);
+    bool done = false;
+    if (s->r->options.trial.gatherer != NULL) {
+        ALP_TRY(try_few(s, &done));
+    }
+    if (!done) {
+        ALP_TRY(find_receivers(s));
+        ALP_TRY(run_passes(s));
+    }
     ALP_TRY(alpi_radiosity_find_energy(s->r, &s->progress));
     return run_layers(s);
 }

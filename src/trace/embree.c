@@ -561,15 +561,24 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     }
 }
 
-void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                        alpi_trace_filter filter, alpi_hits *hits)
+void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
+                             const uint32_t *active, uint32_t count, alpi_trace_filter filter,
+                             alpi_hits *hits)
 {
     if (tracer->few != NULL && tracer->few->edge_count <= ALPI_FEW_NEAREST) {
-        tracer->few->loops->nearest(tracer->few, rays, active, filter.one_sided, hits);
+        tracer->few->loops->nearest(tracer->few, packets, active, count, filter.one_sided, hits);
         return;
     }
     trace_context context = start_context(tracer, filter);
-    trace_nearest(tracer, rays, active, &context, hits);
+    for (uint32_t p = 0; p < count; p++) {
+        trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
+    }
+}
+
+void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                        alpi_trace_filter filter, alpi_hits *hits)
+{
+    alpi_trace_nearest_many(tracer, &rays, &active, 1, filter, hits);
 }
 
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,

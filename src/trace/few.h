@@ -24,9 +24,9 @@ typedef struct alpi_few_loops {
     /// As alpi_trace_occluded. @param lanes all ones for those that take part, 0 for the others
     void (*occluded)(const struct alpi_few *few, alpi_rays *packets, uint32_t count,
                      const uint32_t lanes[ALPI_PACKET], bool one_sided);
-    /// As alpi_trace_nearest.
-    void (*nearest)(const struct alpi_few *few, const alpi_rays *rays, uint32_t active,
-                    bool one_sided, alpi_hits *hits);
+    /// As alpi_trace_nearest_many.
+    void (*nearest)(const struct alpi_few *few, const alpi_rays *const *packets,
+                    const uint32_t *active, uint32_t count, bool one_sided, alpi_hits *hits);
 } alpi_few_loops;
 
 extern const alpi_few_loops alpi_few_loops_baseline, alpi_few_loops_v3;

@@ -40,17 +40,17 @@ static inline floats choose(masks which, floats a, floats b)
     return (floats)((which & (masks)a) | (~which & (masks)b));
 }
 
-static inline bool is_none(masks which)
+/// Bit i: lane i.
+static inline uint32_t bits_of(masks which)
 {
 #ifdef __AVX__
-    return __builtin_ia32_movmskps256((floats)which) == 0;
+    return (uint32_t)__builtin_ia32_movmskps256((floats)which);
 #else
-    uint64_t words[sizeof which / sizeof(uint64_t)], any = 0;
-    memcpy(words, &which, sizeof which);
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
-        any |= words[k];
+    uint32_t bits = 0;
+    for (int k = 0; k < WIDTH; k++) {
+        bits |= which[k] < 0 ? 1u << k : 0u;
     }
-    return any == 0;
+    return bits;
 #endif
 }
 
@@ -229,32 +229,52 @@ static inline void load_direction(const alpi_rays *rays, int i, floats direction
     direction[2] = load(rays->direction_z + i);
 }
 
+/// What is the same for all rays from the origins of a packet, WIDTH lanes of it.
+typedef struct seen_list {
+    floats corners[ALPI_FEW_EDGES][3]; // by corner
+    floats across[ALPI_FEW_EDGES][3];  // by place in the list, see_edge
+    floats heights[ALPI_FEW_LIMIT];    // by place in the list, see_plane
+} seen_list;
+
+static inline void see_list(const alpi_few *few, const alpi_few_list *list, const alpi_rays *rays,
+                            int i, seen_list *seen)
+{
+    see_corners(few, list, rays, i, seen->corners);
+    for (uint32_t e = 0; e < list->edge_count; e++) {
+        see_edge(&few->edge[list->edges[e]], seen->corners, seen->across[e]);
+    }
+    for (uint32_t k = 0; k < list->polygon_count; k++) {
+        seen->heights[k] = see_plane(&few->polygon[list->polygons[k]], seen->corners);
+    }
+}
+
+/// On which sides of the listed edges rays pass. @param sides out: by edge, see pass_edge
+static inline void pass_edges(const alpi_few_list *list, const seen_list *seen,
+                              const floats direction[3], masks *sides)
+{
+    for (uint32_t e = 0; e < list->edge_count; e++) {
+        pass_edge(seen->across[e], direction, &sides[2 * (size_t)list->edges[e]]);
+    }
+}
+
 /// Packets that share their origins.
 static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays *packets,
                       uint32_t count, const uint32_t lanes[ALPI_PACKET], bool one_sided)
 {
-    floats corners[ALPI_FEW_EDGES][3], across[ALPI_FEW_EDGES][3], heights[ALPI_FEW_LIMIT];
+    seen_list seen;
     masks sides[2 * ALPI_FEW_EDGES];
     for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
         const masks active = load_masks(lanes + i);
-        see_corners(few, list, packets, i, corners);
-        for (uint32_t e = 0; e < list->edge_count; e++) {
-            see_edge(&few->edge[list->edges[e]], corners, across[e]);
-        }
-        for (uint32_t k = 0; k < list->polygon_count; k++) {
-            heights[k] = see_plane(&few->polygon[list->polygons[k]], corners);
-        }
+        see_list(few, list, packets, i, &seen);
         for (alpi_rays *rays = packets; rays < packets + count; rays++) {
             const floats minimum = load(rays->minimum + i), maximum = load(rays->maximum + i);
             masks stopped = {0};
             floats direction[3];
             load_direction(rays, i, direction);
-            for (uint32_t e = 0; e < list->edge_count; e++) {
-                pass_edge(across[e], direction, &sides[2 * (size_t)list->edges[e]]);
-            }
+            pass_edges(list, &seen, direction, sides);
             for (uint32_t k = 0; k < list->polygon_count; k++) {
                 met_polygon m;
-                meet(&few->polygon[list->polygons[k]], heights[k], sides, direction, minimum,
+                meet(&few->polygon[list->polygons[k]], seen.heights[k], sides, direction, minimum,
                      maximum, one_sided, &m);
                 stopped |= m.met;
             }
@@ -285,26 +305,21 @@ typedef struct nearest_hits {
 } nearest_hits;
 
 static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
-                                const alpi_rays *rays, int i, bool one_sided, nearest_hits *hits)
+                                const seen_list *seen, const alpi_rays *rays, int i, bool one_sided,
+                                nearest_hits *hits)
 {
-    floats corners[ALPI_FEW_EDGES][3], direction[3];
+    floats direction[3];
     const floats minimum = load(rays->minimum + i);
     hits->distance = load(rays->maximum + i);
     hits->polygon = (masks){0} - 1;
     hits->behind = (masks){0};
     load_direction(rays, i, direction);
-    see_corners(few, list, rays, i, corners);
-    for (uint32_t e = 0; e < list->edge_count; e++) {
-        floats across[3];
-        see_edge(&few->edge[list->edges[e]], corners, across);
-        pass_edge(across, direction, &hits->sides[2 * (size_t)list->edges[e]]);
-    }
+    pass_edges(list, seen, direction, hits->sides);
     for (uint32_t k = 0; k < list->polygon_count; k++) {
-        const alpi_few_polygon *polygon = &few->polygon[list->polygons[k]];
         met_polygon m;
-        meet(polygon, see_plane(polygon, corners), hits->sides, direction, minimum, hits->distance,
-             one_sided, &m);
-        if (is_none(m.met)) {
+        meet(&few->polygon[list->polygons[k]], seen->heights[k], hits->sides, direction, minimum,
+             hits->distance, one_sided, &m);
+        if (bits_of(m.met) == 0) {
             continue; // of eight rays that part two in three times
         }
         hits->distance = choose(m.met, m.height / m.reached, hits->distance);
@@ -313,67 +328,101 @@ static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
     }
 }
 
-/// d·(p×q) of a diagonal, for one ray.
-static inline float pass_diagonal(const alpi_few *few, const alpi_few_edge *edge,
-                                  const alpi_rays *rays, int lane)
-{
-    const float *from = few->corner[edge->from], *to = few->corner[edge->to];
-    const float px = from[0] - rays->origin_x[lane], qx = to[0] - rays->origin_x[lane];
-    const float py = from[1] - rays->origin_y[lane], qy = to[1] - rays->origin_y[lane];
-    const float pz = from[2] - rays->origin_z[lane], qz = to[2] - rays->origin_z[lane];
-    return (py * qz - pz * qy) * rays->direction_x[lane] +
-           (pz * qx - px * qz) * rays->direction_y[lane] +
-           (px * qy - py * qx) * rays->direction_z[lane];
-}
-
-/// Which triangle of a polygon a ray met, and where: a corner weighs as much as the ray is beside
+/// Which triangle of a polygon rays met, and where: a corner weighs as much as the ray is beside
 /// the edge across from it. By the distance it might lie beyond an edge, of rays that graze.
-static inline void find_triangle(const alpi_few *few, const nearest_hits *found, int k,
-                                 const alpi_rays *rays, int lane, alpi_hits *hits)
+typedef struct met_triangle {
+    masks triangle;
+    floats b1, b2;
+} met_triangle;
+
+static inline void find_triangle(const alpi_few_polygon *polygon, seen_list *seen,
+                                 const floats direction[3], const nearest_hits *found,
+                                 met_triangle *met)
 {
-    const alpi_few_polygon *polygon = &few->polygon[found->polygon[k]];
-    const float turn = found->behind[k] != 0 ? 1.0f : -1.0f;
-    const float diagonal = turn * pass_diagonal(few, &polygon->diagonal, rays, lane);
-    const int which = diagonal < 0.0f ? 1 : 0;
-    float beside[5];
+    const floats none = {0};
+    const floats turn = choose(found->behind, none + 1.0f, none - 1.0f);
+    floats across[3], beside[5], weights[3];
+    see_edge(&polygon->diagonal, seen->corners, across);
+    const floats diagonal =
+        turn * (across[0] * direction[0] + across[1] * direction[1] + across[2] * direction[2]);
+    const masks second = diagonal < 0.0f;
     for (int s = 0; s < 4; s++) {
-        beside[s] = turn * ((floats)found->sides[polygon->sides[s]])[k];
+        beside[s] = turn * (floats)found->sides[polygon->sides[s]];
     }
-    beside[4] = which == 0 ? diagonal : -diagonal;
-    const uint8_t *weights = polygon->weights[which];
-    const float a = beside[weights[0]], b = beside[weights[1]], c = beside[weights[2]];
-    const float whole = a + b + c, scale = whole > 0.0f ? 1.0f / whole : 0.0f;
-    hits->triangle[lane] = polygon->triangles[which];
-    hits->b1[lane] = b * scale;
-    hits->b2[lane] = c * scale;
+    beside[4] = choose(second, none - diagonal, diagonal);
+    for (int k = 0; k < 3; k++) {
+        weights[k] = choose(second, beside[polygon->weights[1][k]], beside[polygon->weights[0][k]]);
+    }
+    const floats whole = weights[0] + weights[1] + weights[2];
+    const floats scale = choose(whole > 0.0f, 1.0f / whole, none);
+    met->triangle =
+        (second & (int32_t)polygon->triangles[1]) | (~second & (int32_t)polygon->triangles[0]);
+    met->b1 = weights[1] * scale;
+    met->b2 = weights[2] * scale;
 }
 
-static void nearest(const alpi_few *few, const alpi_rays *rays, uint32_t active, bool one_sided,
-                    alpi_hits *hits)
+/// The lanes of `which` of some numbers, the others as they are.
+static inline void store(masks which, masks numbers, void *lanes)
 {
-    alpi_few_list room;
-    uint32_t lanes[ALPI_PACKET];
-    for (int lane = 0; lane < ALPI_PACKET; lane++) {
-        lanes[lane] = 0u - (active >> lane & 1u);
+    masks before;
+    memcpy(&before, lanes, sizeof before);
+    before = (which & numbers) | (~which & before);
+    memcpy(lanes, &before, sizeof before);
+}
+
+/// Writes down what the lanes of a packet that take part met, WIDTH of them from `first` on:
+/// polygon by polygon, of which a packet meets two or three.
+static inline void take_hits(const alpi_few *few, seen_list *seen, const nearest_hits *found,
+                             const alpi_rays *rays, int first, masks active, alpi_hits *hits)
+{
+    floats direction[3];
+    const masks hit = active & (found->polygon != -1);
+    met_triangle all = {.triangle = (masks){0} - 1};
+    load_direction(rays, first, direction);
+    for (uint32_t left = bits_of(hit); left != 0;) {
+        const int32_t polygon = found->polygon[__builtin_ctz(left)];
+        const masks which = hit & (found->polygon == polygon);
+        met_triangle met;
+        find_triangle(&few->polygon[polygon], seen, direction, found, &met);
+        all.triangle = (which & met.triangle) | (~which & all.triangle);
+        all.b1 = choose(which, met.b1, all.b1);
+        all.b2 = choose(which, met.b2, all.b2);
+        left &= ~bits_of(which);
     }
-    const alpi_few_list *list = list_reached(few, rays, 1, lanes, &room);
-    hits->behind &= ~active;
-    for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
-        nearest_hits found;
-        find_nearest(few, list, rays, i, one_sided, &found);
-        for (int k = 0; k < WIDTH; k++) {
-            const int lane = i + k;
-            if ((active >> lane & 1u) == 0) {
-                continue;
+    const floats distance = choose(hit, found->distance, (floats){0} + INFINITY);
+    store(active, (masks)distance, hits->distance + first);
+    store(active, all.triangle, hits->triangle + first);
+    store(active, (masks)all.b1, hits->b1 + first);
+    store(active, (masks)all.b2, hits->b2 + first);
+    hits->behind |= bits_of(hit & found->behind) << first;
+}
+
+/// What packets see that share their origins with the one before, and reach everything, is what
+/// that one saw.
+static void nearest(const alpi_few *few, const alpi_rays *const *packets, const uint32_t *active,
+                    uint32_t count, bool one_sided, alpi_hits *hits)
+{
+    seen_list seen[ALPI_PACKET / WIDTH];
+    const alpi_few_list *before = NULL;
+    for (uint32_t p = 0; p < count; p++) {
+        const alpi_rays *rays = packets[p];
+        alpi_few_list room;
+        uint32_t lanes[ALPI_PACKET];
+        for (int lane = 0; lane < ALPI_PACKET; lane++) {
+            lanes[lane] = 0u - (active[p] >> lane & 1u);
+        }
+        const alpi_few_list *list = list_reached(few, rays, 1, lanes, &room);
+        const bool again =
+            before == list && list == &few->all && share_origins(packets[p - 1], rays);
+        before = list;
+        hits[p].behind &= ~active[p];
+        for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
+            nearest_hits found;
+            if (!again) {
+                see_list(few, list, rays, i, &seen[i / WIDTH]);
             }
-            hits->distance[lane] = INFINITY;
-            hits->triangle[lane] = ALPI_NONE;
-            hits->b1[lane] = hits->b2[lane] = 0.0f;
-            if (found.polygon[k] != -1) {
-                hits->distance[lane] = found.distance[k];
-                hits->behind |= found.behind[k] != 0 ? 1u << lane : 0u;
-                find_triangle(few, &found, k, rays, lane, hits);
-            }
+            find_nearest(few, list, &seen[i / WIDTH], rays, i, one_sided, &found);
+            take_hits(few, &seen[i / WIDTH], &found, rays, i, load_masks(lanes + i), &hits[p]);
         }
     }
 }

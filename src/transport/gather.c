@@ -124,7 +124,7 @@ static double weight_of(const alpi_gatherer *g, uint32_t packet, int lane)
 void alpi_gather_add(const alpi_gatherer *gatherer, uint32_t packet,
                      const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums)
 {
-    double *sum = sums->light[packet % gatherer->replicates];
+    double *sum = sums->light[alpi_gather_replicate(gatherer, packet)];
     for (int i = 0; i < ALPI_PACKET; i++) {
         const double weight = weight_of(gatherer, packet, i);
         sum[0] += weight * (double)radiance[i].x;
@@ -149,7 +149,7 @@ void alpi_gather_add_cells(const alpi_gatherer *gatherer, uint32_t packet,
                            alpi_gather_sums *sums)
 {
     static const float ones[ALPI_PACKET] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
-    double *sum = sums->light[packet % gatherer->replicates];
+    double *sum = sums->light[alpi_gather_replicate(gatherer, packet)];
     const bool even = gatherer->weights == NULL;
     const float *weights = even ? ones : gatherer->weights[packet];
     float parts[4] = {0.0f}; // the last, of sides, is not used: four floats make a vector
@@ -202,7 +202,7 @@ void alpi_gather_add_sky(const alpi_gatherer *gatherer, uint32_t packet,
                          const uint32_t cells[ALPI_PACKET], const vec3 skies[ALPI_PACKET],
                          alpi_gather_sums *sums)
 {
-    double *sum = sums->light[packet % gatherer->replicates];
+    double *sum = sums->light[alpi_gather_replicate(gatherer, packet)];
     const double even = weight_of(gatherer, packet, 0);
     for (int i = 0; i < ALPI_PACKET; i++) {
         if (cells[i] == ALPI_CELL_ESCAPED) {
@@ -294,16 +294,20 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
                        uint32_t count, bool coherent, alpi_hits *hits,
                        uint32_t (*cells)[ALPI_PACKET])
 {
-    uint32_t met[ALPI_GATHER_BATCH];
+    const alpi_rays *rays[ALPI_GATHER_BATCH];
+    uint32_t active[ALPI_GATHER_BATCH], met[ALPI_GATHER_BATCH];
     for (uint32_t k = 0; k < count; k++) {
+        rays[k] = &packets[k].rays;
+        active[k] = packets[k].active;
         if (coherent) {
-            alpi_trace_nearest_coherent(from->tracer, &packets[k].rays, packets[k].active,
-                                        from->filter, &hits[k]);
-        } else {
-            alpi_trace_nearest(from->tracer, &packets[k].rays, packets[k].active, from->filter,
-                               &hits[k]);
+            alpi_trace_nearest_coherent(from->tracer, rays[k], active[k], from->filter, &hits[k]);
         }
-        met[k] = list_surfaces(from, packets[k].active, &hits[k], cells[k]);
+    }
+    if (!coherent) {
+        alpi_trace_nearest_many(from->tracer, rays, active, count, from->filter, hits);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        met[k] = list_surfaces(from, active[k], &hits[k], cells[k]);
     }
     from->light.find(from->light.user, hits, met, count, cells);
 }

@@ -22,16 +22,18 @@ static void start_path(alpi_near_rays *n, uint32_t k, int lane, const alpi_rays 
                        const alpi_hits *hits)
 {
     const alpi_gather_scene *from = n->job->from;
-    const uint32_t replicates = n->job->gatherer->replicates, packet = n->first + k;
-    const uint32_t key = alpi_random_key(n->job->gatherer->seed, n->receiver, STREAM_NEAR_RAYS);
+    const alpi_gatherer *gatherer = n->job->gatherer;
+    const uint32_t packet = n->first + k, replicate = alpi_gather_replicate(gatherer, packet);
+    const uint32_t each = gatherer->packet_count / gatherer->replicates;
+    const uint32_t key = alpi_random_key(gatherer->seed, n->receiver, STREAM_NEAR_RAYS);
     const vec3 direction = {rays->direction_x[lane], rays->direction_y[lane],
                             rays->direction_z[lane]};
     const alpi_receiver_point at = alpi_hit_point(from->scene, hits, lane, direction, NULL);
     alpi_path_wave *w = &n->wave;
     const uint32_t slot = w->count++;
     alpi_paths_place(w, slot, &at);
-    w->key[slot] = alpi_hash32(key ^ alpi_hash32(packet % replicates + 1u));
-    w->sample[slot] = packet / replicates * ALPI_PACKET + (uint32_t)lane;
+    w->key[slot] = alpi_hash32(key ^ alpi_hash32(replicate + 1u));
+    w->sample[slot] = packet % each * ALPI_PACKET + (uint32_t)lane;
     w->event[slot] = 0;
     w->depth[slot] = 1; // has bounced once: light is asked by area, which takes less time
     w->slot[slot] = w->block[slot] = slot;

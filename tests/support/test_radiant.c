@@ -49,12 +49,17 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
     r->lit = test_lit_open(scene, options->lighting);
     make_atlas(options, r);
     make_gatherer(options, r);
+    if (options->soft_sky) {
+        ASSERT_OK(r->context, alpi_lighting_split_sky(r->lit.lighting, options->lighting, &r->soft,
+                                                      &r->direct));
+    }
     const alpi_radiosity_options o = {.context = r->context,
                                       .scene = scene,
                                       .tracer = r->lit.tracer,
-                                      .lighting = r->lit.lighting,
-                                      .direct = r->lit.lighting,
+                                      .lighting = options->soft_sky ? r->soft : r->lit.lighting,
+                                      .direct = options->soft_sky ? r->direct : r->lit.lighting,
                                       .gatherer = &r->gatherer,
+                                      .trial = options->trial,
                                       .bounces = options->bounces,
                                       .tolerance = 1e-5,
                                       .blocks = {.spacing = options->spacing},
@@ -70,6 +75,8 @@ void test_radiant_close(test_radiant *r)
     alpi_radiosity_destroy(&r->solution);
     alpi_release(r->context, r->values);
     alpi_hemicube_destroy(r->cube);
+    alpi_lighting_destroy(r->context, r->soft);
+    alpi_lighting_destroy(r->context, r->direct);
     alpi_lattice_destroy(&r->lattice);
     alpi_texels_destroy(r->context, &r->texels);
     alp_atlas_destroy(r->atlas);

@@ -20,6 +20,8 @@ typedef struct test_radiant_options {
     uint32_t hemicube; // pixels along an edge, in place of rays; 0: rays
     uint32_t direct_samples;
     uint64_t kept_limit, seed;
+    bool soft_sky; // a sky is what the rays of blocks find, not direct light
+    alpi_radiosity_trial trial;
 } test_radiant_options;
 
 /// A page of 64, a chart to each plane; all bounces; blocks of 4 with 64 rays, all kept; 256
@@ -37,6 +39,7 @@ typedef struct test_radiant {
     alpi_hemicube *cube;
     alpi_hemicube_options cubes;
     alpi_gatherer gatherer;
+    alpi_lighting *soft, *direct; // of a soft sky, else NULL
     alpi_radiosity solution;
     alpi_reference_value *values; // [texels] E, or NULL: see test_radiant_gather
 } test_radiant;

@@ -47,6 +47,13 @@ static int list_loops(const rig *r, const alpi_few_loops *loops[2])
     return loops[1] == loops[0] ? 1 : 2;
 }
 
+/// What one packet meets.
+static void meet(const alpi_few_loops *loops, const alpi_few *few, const alpi_rays *rays,
+                 uint32_t active, bool one_sided, alpi_hits *hits)
+{
+    loops->nearest(few, &rays, &active, 1, one_sided, hits);
+}
+
 static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, bool one_sided)
 {
     const alpi_trace_filter filter = {.one_sided = one_sided};
@@ -70,7 +77,7 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
         }
         memset(&fast, 0x55, sizeof fast);
         memset(&slow, 0x55, sizeof slow);
-        loops->nearest(r->few, &rays, active, one_sided, &fast);
+        meet(loops, r->few, &rays, active, one_sided, &fast);
         alpi_brute_force_nearest(r->scene, &rays, active, filter, &slow);
         alpi_rays shadow = rays;
         loops->occluded(r->few, &shadow, 1, lanes, one_sided);
@@ -227,7 +234,7 @@ static void no_ray_slips_between_two(void **state)
             alpi_rays shadow = rays;
             alpi_hits hits = {.behind = 0};
             loops[k]->occluded(r.few, &shadow, 1, ALL, false);
-            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            meet(loops[k], r.few, &rays, 0xffu, false, &hits);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 assert_true(shadow.maximum[i] < 0.0f);
                 assert_true(hits.triangle[i] != ALPI_NONE && hits.distance[i] < 2.0f);
@@ -262,7 +269,7 @@ static void grazing_rays_end_within(void **state)
         soup_aim_at_edges(r.scene, packet, &rays);
         for (int k = 0; k < count; k++) {
             alpi_hits hits = {.behind = 0};
-            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            meet(loops[k], r.few, &rays, 0xffu, false, &hits);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 const float rest = 1.0f - hits.b1[i] - hits.b2[i];
                 assert_true(hits.b1[i] >= 0.0f && hits.b2[i] >= 0.0f && rest >= -0x1p-22f);
@@ -297,7 +304,7 @@ static void meet_every_corner(alp_scene *scene)
             alpi_rays shadow = rays;
             alpi_hits hits = {.behind = 0};
             loops[k]->occluded(r.few, &shadow, 1, ALL, false);
-            loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+            meet(loops[k], r.few, &rays, 0xffu, false, &hits);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 assert_true(shadow.maximum[i] < 0.0f);
                 assert_true(hits.triangle[i] != ALPI_NONE && hits.distance[i] <= 1.0f);
@@ -355,13 +362,39 @@ static void planes_are_passed_within(void **state)
         alpi_rays shadow = rays;
         alpi_hits hits = {.behind = 0};
         loops[k]->occluded(r.few, &shadow, 1, ALL, false);
-        loops[k]->nearest(r.few, &rays, 0xffu, false, &hits);
+        meet(loops[k], r.few, &rays, 0xffu, false, &hits);
         for (int i = 0; i < ALPI_PACKET; i++) {
             assert_int_equal(shadow.maximum[i] < 0.0f, i % 4 == 3);
             assert_int_equal(hits.triangle[i] != ALPI_NONE, i % 4 == 3);
         }
     }
     close_rig(&r);
+}
+
+/// The nearest hits of a batch. @return rays that met something
+static int meet_nearest(const rig *r, const alpi_rays rays[BATCH])
+{
+    const alpi_few_loops *loops[2];
+    const int count = list_loops(r, loops);
+    const alpi_rays *packets[BATCH];
+    uint32_t active[BATCH];
+    alpi_hits alone[BATCH], together[BATCH];
+    int met = 0;
+    memset(alone, 0x55, sizeof alone);
+    for (uint32_t p = 0; p < BATCH; p++) {
+        packets[p] = &rays[p];
+        active[p] = p % 4 == 2 ? 0xdbu : 0xffu;
+        meet(&alpi_few_loops_baseline, r->few, packets[p], active[p], false, &alone[p]);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            met += (active[p] >> i & 1u) != 0 && alone[p].triangle[i] != ALPI_NONE;
+        }
+    }
+    for (int k = 0; k < count; k++) {
+        memset(together, 0x55, sizeof together);
+        loops[k]->nearest(r->few, packets, active, BATCH, false, together);
+        assert_memory_equal(together, alone, sizeof alone);
+    }
+    return met;
 }
 
 /// Batches of packets, some of which share their origins, with reaches of their own: what a packet
@@ -372,20 +405,21 @@ static void meet_batches(alp_scene *scene)
     open_rig(scene, &r);
     const alpi_few_loops *loops[2];
     const int count = list_loops(&r, loops);
-    int stopped = 0, left = 0;
+    int stopped = 0, left = 0, met = 0;
     for (uint32_t batch = 0; batch < 100; batch++) {
         alpi_rays rays[BATCH], alone[BATCH];
         for (uint32_t p = 0; p < BATCH; p++) {
             soup_rays(&rays[p], batch * BATCH + p);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 const float far = 0.1f + 0.1f * (float)(p % 7);
-                rays[p].maximum[i] = p % 11 == 10 ? INFINITY : far;
+                rays[p].maximum[i] = p % 11 == 10 || p / 5 % 2 == 1 ? INFINITY : far;
             }
             const uint32_t first = p / 5 * 5; // five packets from the same eight points
             memcpy(rays[p].origin_x, rays[first].origin_x, sizeof rays[p].origin_x);
             memcpy(rays[p].origin_y, rays[first].origin_y, sizeof rays[p].origin_y);
             memcpy(rays[p].origin_z, rays[first].origin_z, sizeof rays[p].origin_z);
         }
+        met += meet_nearest(&r, rays);
         memcpy(alone, rays, sizeof rays);
         for (uint32_t p = 0; p < BATCH; p++) {
             alpi_few_loops_baseline.occluded(r.few, &alone[p], 1, SOME, false);
@@ -403,8 +437,8 @@ static void meet_batches(alp_scene *scene)
             }
         }
     }
-    print_message("%d rays stopped, %d not\n", stopped, left);
-    assert_true(stopped > 200 && left > 200);
+    print_message("%d rays stopped, %d not; %d met something\n", stopped, left, met);
+    assert_true(stopped > 200 && left > 200 && met > 200);
     close_rig(&r);
 }
 

@@ -102,6 +102,42 @@ static void rays_are_spread_evenly(void **state)
     }
 }
 
+/// Packets of a replicate that follow each other leave from the same eight points, up to four rays
+/// of each; other points lie elsewhere.
+static void packets_share_points(void **state)
+{
+    (void)state;
+    static const uint32_t samples[] = {64, 96, 256, 1280};
+    alpi_gather_packet packets[160];
+    test_patches all;
+    const alpi_receivers receivers = sloping(&all);
+    for (int joined = 0; joined < 8; joined++) {
+        const alpi_cosine_rays rays = {.context = context,
+                                       .samples = samples[joined / 2],
+                                       .replicates = 4,
+                                       .joined = joined % 2 != 0,
+                                       .seed = 5};
+        const alpi_gatherer g = alpi_cosine_rays_gatherer(&rays);
+        const uint32_t each = g.packet_count / 4;
+        aim_all(&g, &receivers, ALPI_GATHER_BATCH, packets);
+        for (uint32_t p = 0; p < g.packet_count; p++) {
+            const alpi_rays *r = &packets[p].rays;
+            const uint32_t turn = p % each % 4; // of the packets from these points
+            assert_int_equal(alpi_gather_replicate(&g, p), p / each);
+            for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+                for (uint32_t before = 1; before <= turn; before++) {
+                    const alpi_rays *s = &packets[p - before].rays;
+                    assert_true(r->origin_x[i] == s->origin_x[i]);
+                    assert_true(r->origin_z[i] == s->origin_z[i]);
+                    assert_true(r->direction_x[i] != s->direction_x[i]);
+                }
+                assert_true(turn > 0 || p == 0 ||
+                            r->origin_x[i] != packets[p - 1].rays.origin_x[i]);
+            }
+        }
+    }
+}
+
 /// Packets are the same in whatever batches they are asked for, and others for other receivers,
 /// seeds and replicates.
 static void batches_change_nothing(void **state)
@@ -359,6 +395,7 @@ int main(void)
         cmocka_unit_test(joined_replicates_err_less),
         cmocka_unit_test(samples_are_rounded_up),
         cmocka_unit_test(rays_are_spread_evenly),
+        cmocka_unit_test(packets_share_points),
         cmocka_unit_test(batches_change_nothing),
         cmocka_unit_test(unit_squares),
         cmocka_unit_test(a_closed_cube_sums_to_one),
