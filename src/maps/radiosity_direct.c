@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Direct light of the patches: what is asked of lights and sky, and emissive surfaces that hemicubes
-// count.
+// Direct light of the patches: lights, sky, and emissive surfaces that hemicubes count.
 #include "maps/radiosity.h"
 
 #include "maps/counted_emitters.h"
