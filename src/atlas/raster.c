@@ -21,6 +21,7 @@ enum {
     CELLS_PER_BAND = 1 << 13, // half a megabyte a worker: they stay in its cache
     LEAST_ROWS = 4,           // a triangle is set up once for every band it reaches
     MOST_ROWS = 64,
+    BANDS_OF_PAGE = 32, // at least, of a page with as many rows: else workers wait for the last one
     TRIANGLES_PER_RANGE = 1 << 12,
     TICK_INTERVAL = 1 << 16 // triangles between two questions whether to go on
 };
@@ -60,6 +61,7 @@ typedef struct active {
 static uint32_t rows_of_band(const alp_atlas *atlas)
 {
     uint32_t rows = CELLS_PER_BAND / atlas->info.width;
+    rows = rows < atlas->info.height / BANDS_OF_PAGE ? rows : atlas->info.height / BANDS_OF_PAGE;
     rows = rows < LEAST_ROWS ? LEAST_ROWS : rows;
     return rows > MOST_ROWS ? MOST_ROWS : rows;
 }
