@@ -69,7 +69,7 @@ bool bench_scene_exists(const char *name);
 /// Path of a file below $ALPENGLOW_SHARED in a static buffer, or `otherwise` where that is absent.
 const char *bench_shared(const char *relative, const char *otherwise);
 
-/// An atlas with its texels in the order of packets.
+/// An atlas with its texels, neighbours together.
 typedef struct bench_map {
     alp_atlas *atlas;
     alpi_texels texels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The occlusion loop against its limit, the raw call on the very rays it sends, and against the
-// natural loop, which puts eight directions of one receiver into a packet.
+// natural loop, which puts eight samples of one point that follow each other into a packet.
 #include "bench.h"
 
 #include "raw_embree.h"
@@ -13,7 +13,7 @@
 
 enum {
     BLOCK = 512,          // packets that fit the second-level cache
-    TEXELS_PER_RUN = 512, // texels that follow each other in the order of packets
+    TEXELS_PER_RUN = 512, // texels that follow each other
     WORKER_LIMIT = 2
 };
 
@@ -202,7 +202,8 @@ int bench_transport(const bench_options *options)
     bench_table_start(&table, "Occlusion loop, Mrays/s",
                       "Limit: `rtcOccluded8` on the packets that our loop sends, recorded. Ratio: "
                       "limit's seconds over ours. Natural: seconds of the loop with eight "
-                      "directions of one receiver in a packet, over ours. Stream: "
+                      "samples of one point, as they follow each other, in a packet, over ours. "
+                      "Stream: "
                       "`rtcOccludedNM` in the place of `rtcOccluded8`.",
                       "scene|triangles|workers|limit|ours|ratio|natural/ours|stream");
     bool good = true;

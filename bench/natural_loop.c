@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The loop that one writes first: receiver by receiver, point by point, eight directions of one
-// point in a packet. Written with the same care as ours otherwise: the same points, the same
-// samples, directions made eight at a time.
+// The loop that one writes first: receiver by receiver, point by point, eight samples of one
+// point, as they follow each other, in a packet. Written with the same care as ours otherwise: the
+// same points, the same samples, directions made eight at a time.
 #include "recorded_rays.h"
 
 #include "base/random.h"

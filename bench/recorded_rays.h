@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The very rays that our loop sends: its kernel compiled once more with a tracer that writes
-// packets down. And the natural loop: eight directions of one receiver in a packet.
+// packets down. And the natural loop: eight samples of one point in a packet.
 #ifndef BENCH_RECORDED_RAYS_H
 #define BENCH_RECORDED_RAYS_H
 

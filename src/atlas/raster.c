@@ -21,7 +21,7 @@ enum {
     CELLS_PER_BAND = 1 << 13, // half a megabyte a worker: they stay in its cache
     LEAST_ROWS = 4,           // a triangle is set up once for every band it reaches
     MOST_ROWS = 64,
-    BANDS_OF_PAGE = 32, // at least, of a page with as many rows: else workers wait for the last one
+    BANDS_OF_PAGE = 32, // at least, of a page of 128 rows or more: else workers wait for the last
     TRIANGLES_PER_RANGE = 1 << 12,
     TICK_INTERVAL = 1 << 16 // triangles between two questions whether to go on
 };

@@ -167,6 +167,20 @@ static double count_bounced(const work_guess *g)
     return fmin(ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0), MOST_RAYS);
 }
 
+/// Rays of blocks, for each texel: what bounces at all is about half as much again as what bounces
+/// once, and uneven by as much.
+static double count_block_rays(const work_guess *g)
+{
+    enum { TEXELS_OF_BLOCK = 8 };
+    const alpi_pilot *p = &g->pilot;
+    const double once = p->once_bounced > p->mean ? 1.0 - p->mean / p->once_bounced : 0.0;
+    const alpi_trial_light light = {.blocks = (uint32_t)fmin(g->texels / TEXELS_OF_BLOCK, 1e9),
+                                    .mean = fmin(1.5 * once, 1.0),
+                                    .rms = fmin(2.25 * once, 1.0)};
+    return (double)alpi_light_sent_block_rays(&g->options->light, to_count(g->texels), &light) /
+           TEXELS_OF_BLOCK;
+}
+
 static void add_light(const work_guess *g, alp_bake_work *w)
 {
     const alp_light_options *l = &g->options->light;
@@ -180,7 +194,7 @@ static void add_light(const work_guess *g, alp_bake_work *w)
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
     double rays = count_bounced(g) * find_traced_share(g);
-    rays += l->bounces > 0 ? alpi_light_block_rays(l, w->texels) / 8.0 : 0.0;
+    rays += l->bounces > 0 ? count_block_rays(g) : 0.0;
     w->rays += to_count(g->texels * (rays + direct * g->pilot.rays));
     const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;
     w->seconds += g->texels * (LIT_SECONDS + rays * ray_seconds + direct * g->pilot.direct_seconds);

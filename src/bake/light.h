@@ -59,6 +59,9 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
 /// to the texels for an error.
 /// @param error over the mean, > 0
 uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light);
+/// Rays that a block sends about, those of a trial that finds `light` included.
+uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
+                                    const alpi_trial_light *light);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
@@ -96,6 +99,8 @@ void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, uint32_t rays, double *noise);
 
+/// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
+bool alpi_light_meets_solved(const alpi_radiosity_options *options);
 /// Error of a solution by one ray of each block, over the mean of the light: it falls with the root
 /// of their number.
 /// @param bounced root mean square of bounced light, over that mean

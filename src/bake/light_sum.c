@@ -19,6 +19,11 @@ static const double SOLVED_NOISE = 0.016;
 /// The most of it, over bounced light: that of the atrium, where it is most of that.
 static const double MOST_OF_BOUNCED = 0.16;
 
+bool alpi_light_meets_solved(const alpi_radiosity_options *o)
+{
+    return o->bounces > 1 || o->direct != o->lighting;
+}
+
 double alpi_light_solved_noise(double bounced)
 {
     return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced);
@@ -27,10 +32,7 @@ double alpi_light_solved_noise(double bounced)
 double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
                                double noise)
 {
-    const alpi_radiosity_options *o = &solution->options;
-    const bool met =
-        o->bounces > 1 || o->direct != o->lighting; // else rays meet direct light alone
-    if (!met || !(mean > 0.0)) {
+    if (!alpi_light_meets_solved(&solution->options) || !(mean > 0.0)) {
         return 0.0;
     }
     return alpi_light_solved_noise(bounced / mean) * noise;

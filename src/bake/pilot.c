@@ -15,7 +15,7 @@
 
 enum {
     STREAM_PLACE = 90,
-    BLOCK = ALPI_PACKET, // points of occlusion side by side, as texels of a packet are
+    BLOCK = ALPI_PACKET, // points of occlusion side by side, as texels that follow each other are
     BLOCKS = 256
 };
 // Time of a ray in a packet of a gatherer, over that of a path's. Measured on the truth table.

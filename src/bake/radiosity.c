@@ -78,7 +78,9 @@ uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_t
 {
     enum { FEWEST_RAYS = TRIAL_RAYS, MOST_RAYS = 1024 };
     const double noise = alpi_light_solved_noise(light->rms), blocks = fmax(light->blocks, 1.0);
-    const double least = pow(6.0 * light->mean / error, 2.0) / blocks; // for the whole map's bias
+    // The whole map's bias takes the square of that share, but what is told of the energy, by the
+    // same rays, none of it: between the two.
+    const double least = pow(6.0 / error, 2.0) * light->mean / blocks;
     const double others = guess_texel_rays(error, texels, light->rms);
     uint32_t best = MOST_RAYS;
     double best_cost = HUGE_VAL;
@@ -86,13 +88,34 @@ uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_t
         // What the solution leaves of the squared error is the texels': their error falls with the
         // .62th power of their rays.
         const double left = 1.0 - noise * noise / (rays * error * error);
-        const double cost = left > 0.0 ? blocks * rays + others * pow(left, -0.5 / 0.62) : HUGE_VAL;
+        if (!(left > 0.0)) {
+            break; // nor do fewer leave any
+        }
+        const double cost = blocks * rays + others * pow(left, -0.5 / 0.62);
         if (cost <= best_cost) {
             best_cost = cost;
             best = rays;
         }
     }
     return best;
+}
+
+/// Whether a trial tells how many, where `most` are sent if all light bounces.
+static bool is_tried(double error, uint32_t most)
+{
+    return error > 0.0 && most >= NO_TRIAL_BELOW;
+}
+
+uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
+                                    const alpi_trial_light *light)
+{
+    const double error = find_error(options);
+    const uint32_t most = alpi_light_block_rays(options, texels);
+    if (options->gather == ALP_GATHER_HEMICUBE || !is_tried(error, most)) {
+        return most;
+    }
+    const uint32_t rays = alpi_light_least_block_rays(error, texels, light);
+    return rays > TRIAL_RAYS ? TRIAL_RAYS + (rays < most ? rays : most) : TRIAL_RAYS;
 }
 
 /// How blocks gather, and, by hemicubes, how texels do.
@@ -156,9 +179,10 @@ static const alpi_gatherer *choose_rays(void *user, const alpi_trial_light *ligh
     return rays > TRIAL_RAYS ? &g->blocks : NULL;
 }
 
-static alpi_radiosity_trial trial_of(light_gatherers *g)
+/// @param met whether rays of texels meet light that blocks gathered
+static alpi_radiosity_trial trial_of(light_gatherers *g, bool met)
 {
-    const bool tried = g->error > 0.0 && g->block_rays.samples >= NO_TRIAL_BELOW;
+    const bool tried = met && is_tried(g->error, g->block_rays.samples);
     return (alpi_radiosity_trial){tried ? &g->trial : NULL, choose_rays, g};
 }
 
@@ -191,8 +215,8 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.counted = g->counts ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
-    options.trial = trial_of(g);
     options.bounces = o->light.bounces;
+    options.trial = trial_of(g, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;

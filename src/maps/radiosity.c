@@ -155,9 +155,11 @@ static uint32_t add_seen_backs(solver *s)
     return count;
 }
 
-/// Makes room for the rays of all who may gather, where they may be kept.
+/// Makes room for the rays of all who may gather, where they may be kept. Those of a trial go
+/// first: the limit is for either, not for both.
 static alp_result reserve_rays(solver *s)
 {
+    alpi_kept_rays_destroy(&s->kept);
     alpi_radiosity *r = s->r;
     const alpi_radiosity_options *o = &r->options;
     const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
@@ -443,6 +445,7 @@ static alp_result try_few(solver *s, bool *done)
     if (chosen != NULL) {
         r->options.gatherer = chosen;
         r->passes = 0;
+        memset(r->changes, 0, sizeof r->changes);
         s->from = alpi_radiosity_scene(r);
     }
     return ALP_OK;

@@ -410,8 +410,9 @@ static alp_result run(render_job *job)
     ALP_TRY(choose_occluders(job));
     ALP_TRY(alpi_occlusion_prepare(job->scene, job->occluders ? job->occluders : tracer, &occlusion,
                                    &job->occlusion));
-    ALP_TRY(alpi_sample_run_create(&job->occlusion, false, 0, job->occlusion.samples, 0,
-                                   job->occlusion.samples, &job->occlusion_samples));
+    const alpi_sample_range all = {.count = job->occlusion.samples,
+                                   .total = job->occlusion.samples};
+    ALP_TRY(alpi_sample_run_create(&job->occlusion, false, &all, &job->occlusion_samples));
     alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
     ALP_TRY(alp_image_create(job->scene->context, info, &job->image));
     ALP_TRY(prepare_light(job, info));

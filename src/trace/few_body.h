@@ -304,10 +304,22 @@ typedef struct nearest_hits {
     masks sides[2 * ALPI_FEW_EDGES]; // see pass_edge
 } nearest_hits;
 
-static inline void find_nearest(const alpi_few *few, const alpi_few_list *list,
-                                const seen_list *seen, const alpi_rays *rays, int i, bool one_sided,
-                                nearest_hits *hits)
+/// WIDTH lanes of a packet, from `first` on, and what they see.
+typedef struct packet_view {
+    const alpi_few *few;
+    const alpi_few_list *list;
+    seen_list *seen;
+    const alpi_rays *rays;
+    int first;
+} packet_view;
+
+static inline void find_nearest(const packet_view *view, bool one_sided, nearest_hits *hits)
 {
+    const alpi_few *few = view->few;
+    const alpi_few_list *list = view->list;
+    const seen_list *seen = view->seen;
+    const alpi_rays *rays = view->rays;
+    const int i = view->first;
     floats direction[3];
     const floats minimum = load(rays->minimum + i);
     hits->distance = load(rays->maximum + i);
@@ -370,31 +382,31 @@ static inline void store(masks which, masks numbers, void *lanes)
     memcpy(lanes, &before, sizeof before);
 }
 
-/// Writes down what the lanes of a packet that take part met, WIDTH of them from `first` on:
-/// polygon by polygon, of which a packet meets two or three.
-static inline void take_hits(const alpi_few *few, seen_list *seen, const nearest_hits *found,
-                             const alpi_rays *rays, int first, masks active, alpi_hits *hits)
+/// Writes down what the lanes that take part met: polygon by polygon, of which a packet meets two
+/// or three.
+static inline void take_hits(const packet_view *view, const nearest_hits *found, masks active,
+                             alpi_hits *hits)
 {
     floats direction[3];
     const masks hit = active & (found->polygon != -1);
     met_triangle all = {.triangle = (masks){0} - 1};
-    load_direction(rays, first, direction);
+    load_direction(view->rays, view->first, direction);
     for (uint32_t left = bits_of(hit); left != 0;) {
         const int32_t polygon = found->polygon[__builtin_ctz(left)];
         const masks which = hit & (found->polygon == polygon);
         met_triangle met;
-        find_triangle(&few->polygon[polygon], seen, direction, found, &met);
+        find_triangle(&view->few->polygon[polygon], view->seen, direction, found, &met);
         all.triangle = (which & met.triangle) | (~which & all.triangle);
         all.b1 = choose(which, met.b1, all.b1);
         all.b2 = choose(which, met.b2, all.b2);
         left &= ~bits_of(which);
     }
     const floats distance = choose(hit, found->distance, (floats){0} + INFINITY);
-    store(active, (masks)distance, hits->distance + first);
-    store(active, all.triangle, hits->triangle + first);
-    store(active, (masks)all.b1, hits->b1 + first);
-    store(active, (masks)all.b2, hits->b2 + first);
-    hits->behind |= bits_of(hit & found->behind) << first;
+    store(active, (masks)distance, hits->distance + view->first);
+    store(active, all.triangle, hits->triangle + view->first);
+    store(active, (masks)all.b1, hits->b1 + view->first);
+    store(active, (masks)all.b2, hits->b2 + view->first);
+    hits->behind |= bits_of(hit & found->behind) << view->first;
 }
 
 /// What packets see that share their origins with the one before, and reach everything, is what
@@ -417,12 +429,13 @@ static void nearest(const alpi_few *few, const alpi_rays *const *packets, const 
         before = list;
         hits[p].behind &= ~active[p];
         for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
+            const packet_view view = {few, list, &seen[i / WIDTH], rays, i};
             nearest_hits found;
             if (!again) {
-                see_list(few, list, rays, i, &seen[i / WIDTH]);
+                see_list(few, list, rays, i, view.seen);
             }
-            find_nearest(few, list, &seen[i / WIDTH], rays, i, one_sided, &found);
-            take_hits(few, &seen[i / WIDTH], &found, rays, i, load_masks(lanes + i), &hits[p]);
+            find_nearest(&view, one_sided, &found);
+            take_hits(&view, &found, load_masks(lanes + i), &hits[p]);
         }
     }
 }

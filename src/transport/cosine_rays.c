@@ -12,7 +12,7 @@ enum { STREAM_COSINE_RAYS = 8 };
 /// four rays from each. Placing every ray for itself is a tenth of the time where texels have many
 /// triangles, and four from one point err as four from four do (cornell, teapot-room, a sphere on a
 /// plane; eight err by an eighth more in teapot-room at 64 rays).
-enum { PACKETS_TOGETHER = 4 };
+enum { PACKETS_OF_POINTS = 4 };
 _Static_assert(ALPI_GATHER_BATCH *ALPI_PACKET <= ALPI_WAVE, "a batch is a wave at most");
 
 uint32_t alpi_cosine_rays_samples(uint32_t samples, uint32_t replicates)
@@ -32,7 +32,7 @@ typedef struct packet_place {
 static packet_place find_place(const alpi_cosine_rays *r, uint32_t receiver, uint32_t packet)
 {
     const uint32_t each = r->samples / ALPI_PACKET / r->replicates; // packets of a replicate
-    const uint32_t groups = (each + PACKETS_TOGETHER - 1) / PACKETS_TOGETHER;
+    const uint32_t groups = (each + PACKETS_OF_POINTS - 1) / PACKETS_OF_POINTS;
     const uint32_t replicate = packet / each, own = packet % each;
     const uint32_t key = alpi_random_key(r->seed, receiver, STREAM_COSINE_RAYS);
     return (packet_place){
@@ -40,7 +40,7 @@ static packet_place find_place(const alpi_cosine_rays *r, uint32_t receiver, uin
         .own = own,
         .key = alpi_hash32(key ^ alpi_hash32(r->joined ? 1u : replicate + 1u)),
         .before = r->joined ? replicate * each : 0,
-        .group = (r->joined ? replicate * groups : 0) + own / PACKETS_TOGETHER,
+        .group = (r->joined ? replicate * groups : 0) + own / PACKETS_OF_POINTS,
     };
 }
 

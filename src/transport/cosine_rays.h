@@ -6,7 +6,7 @@
 
 #include "transport/gather.h"
 
-/// Each replicate has as many packets. Apart, each has a sequence of its own, and the
+/// Replicates have the same number of packets. Apart, each has a sequence of its own, and the
 /// spread of their means tells the error. Joined, each is a run of one sequence, which is as well
 /// stratified as one replicate: half the variance of four apart (64 to 256 rays in a box), but
 /// their spread tells as much as before, which is too much by a factor that depends on what is

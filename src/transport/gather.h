@@ -63,15 +63,21 @@ typedef struct alpi_gatherer {
     const void *user;                    // what it reads
     uint32_t packet_count;               // of each receiver
     const float (*weights)[ALPI_PACKET]; // [packet_count], they sum to 1; NULL: all alike
-    uint32_t replicates; // as many packets each, one replicate's after the other's; 1: the error is
-                         // not known
+    uint32_t replicates; // of the same number of packets, which divides packet_count, one after the
+                         // other; 1: the error is not known
     bool coherent;       // the rays of a packet leave in about one direction
     uint64_t seed;       // of what is random where rays go on
 } alpi_gatherer;
 
+/// Packets of a replicate.
+static inline uint32_t alpi_gather_packets_each(const alpi_gatherer *gatherer)
+{
+    return gatherer->packet_count / gatherer->replicates;
+}
+/// The replicate of a packet.
 static inline uint32_t alpi_gather_replicate(const alpi_gatherer *gatherer, uint32_t packet)
 {
-    return packet * gatherer->replicates / gatherer->packet_count;
+    return gatherer->replicates == 1 ? 0 : packet / alpi_gather_packets_each(gatherer);
 }
 
 /// What is gathered, where and how; all borrowed.

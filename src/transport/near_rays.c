@@ -24,7 +24,7 @@ static void start_path(alpi_near_rays *n, uint32_t k, int lane, const alpi_rays 
     const alpi_gather_scene *from = n->job->from;
     const alpi_gatherer *gatherer = n->job->gatherer;
     const uint32_t packet = n->first + k, replicate = alpi_gather_replicate(gatherer, packet);
-    const uint32_t each = gatherer->packet_count / gatherer->replicates;
+    const uint32_t each = alpi_gather_packets_each(gatherer);
     const uint32_t key = alpi_random_key(gatherer->seed, n->receiver, STREAM_NEAR_RAYS);
     const vec3 direction = {rays->direction_x[lane], rays->direction_y[lane],
                             rays->direction_z[lane]};

@@ -62,11 +62,13 @@ static void add_hits(const alpi_occlusion_setup *setup, const alpi_rays *rays,
     }
 }
 
-/// The packets of one receiver.
+/// The packets of one receiver, number r of the stand.
 static void color_receiver(const alpi_occlusion_setup *setup, const alpi_sample_packet *packets,
-                           const alpi_sample_chunk *chunk, alpi_occlusion_lanes *groups,
-                           const uint32_t shift[3], alpi_rays *rays, alpi_occlusion_tally *tally)
+                           const alpi_sample_chunk *chunk, alpi_occlusion_stand *stand, uint32_t r,
+                           alpi_occlusion_tally *tally)
 {
+    alpi_occlusion_lanes *groups = stand->groups + r * (size_t)chunk->groups;
+    alpi_rays *rays = &stand->rays[0];
     alpi_hits hits;
     double sum[3][ALPI_PACKET] = {{0}}; // floats would drift: a room of one colour adds it up
     for (uint32_t g = 0; g < chunk->groups; g++) {
@@ -77,7 +79,7 @@ static void color_receiver(const alpi_occlusion_setup *setup, const alpi_sample_
         const uint32_t active =
             k + 1 < chunk->packet_count ? (1u << ALPI_PACKET) - 1u : chunk->last;
         alpi_lanes_start(lanes, rays);
-        alpi_lanes_aim(setup, lanes, &packets[k], shift, rays);
+        alpi_lanes_aim(setup, lanes, &packets[k], stand->shifts[r], rays);
         alpi_trace_nearest(setup->tracer, rays, active, setup->filter, &hits);
         add_hits(setup, rays, &hits, active, tally, sum);
     }
@@ -92,14 +94,11 @@ void alpi_obscurance_kernel(const alpi_occlusion_setup *setup, const alpi_sample
                             const alpi_sample_chunk *chunk, alpi_occlusion_stand *stand,
                             alpi_occlusion_tally *tallies)
 {
-    alpi_rays *rays = &stand->rays[0];
     for (int i = 0; i < ALPI_PACKET; i++) {
-        rays->maximum[i] = setup->distance;
+        stand->rays[0].maximum[i] = setup->distance;
     }
     for (uint32_t r = 0; r < stand->receivers; r++) {
-        color_receiver(setup, run->packets + chunk->first_packet, chunk,
-                       stand->groups + r * (size_t)chunk->groups, stand->shifts[r], rays,
-                       &tallies[r]);
+        color_receiver(setup, run->packets + chunk->first_packet, chunk, stand, r, &tallies[r]);
     }
 }
 

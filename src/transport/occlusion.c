@@ -116,7 +116,8 @@ static void fill_places(uint64_t seed, uint32_t count, uint32_t (*places)[2])
 /// The sequences of a setup of so many samples.
 static alp_result make_sequences(alpi_occlusion_setup *setup)
 {
-    // One may be in use already, and the last of eight lanes each with as many may be too many.
+    // Samples that begin within a block are of one more point, and a group of points is of eight,
+    // whether its lanes need them all or not.
     const uint32_t places = setup->samples / ALPI_SAMPLES_PER_POINT + 2 + ALPI_PACKET;
     setup->sequence = alpi_allocate(setup->context, setup->samples, sizeof *setup->sequence);
     setup->places = alpi_allocate(setup->context, places, sizeof *setup->places);

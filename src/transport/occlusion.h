@@ -48,7 +48,7 @@ typedef struct alpi_occlusion_setup {
     bool streams;            // rays in streams of many packets, which large scenes like
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
-    uint32_t (*places)[2];   // the same for their points
+    uint32_t (*places)[2];   // [samples / SAMPLES_PER_POINT + 2 + PACKET] the same for their points
 } alpi_occlusion_setup;
 
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
@@ -97,10 +97,11 @@ void alpi_occlusion_requarter(alpi_occlusion_sums *sums, uint32_t receiver, uint
 /// is receivers->count) on all workers and adds to `sums`: sample s counts in quarter s / (total /
 /// ALPI_QUARTERS), unless sums->parted says otherwise. Receivers that follow each other in the list
 /// should be neighbours in space: they meet the same parts of the scene. What a receiver gets does
-/// not depend on the list, but which of its points a sample leaves from on `first` and `count`.
-/// After CANCELLED `sums` holds what was sent.
+/// not depend on the list; which of its points a sample leaves from does on which samples are sent
+/// together, and where quarters end. After CANCELLED `sums` holds what was sent.
 /// @param total    of the samples that the receivers will have, a multiple of ALPI_QUARTERS
 /// @param progress NULL, or what to tell; units are filled in here, in rays
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               const uint32_t *list, uint32_t list_count, uint32_t first,
                               uint32_t count, uint32_t total, const alpi_task_progress *progress,

@@ -158,8 +158,8 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
         job.samples = count - done < SAMPLES_PER_ROUND ? count - done : SAMPLES_PER_ROUND;
         told.units_per_item = job.samples;
         told.units_before = before + (double)list_count * done;
-        ALP_TRY(alpi_sample_run_create(setup, receivers->extended, first + done, job.samples,
-                                       sums->parted, total, &job.run));
+        const alpi_sample_range range = {first + done, job.samples, sums->parted, total};
+        ALP_TRY(alpi_sample_run_create(setup, receivers->extended, &range, &job.run));
         const uint32_t grain = job.samples < RAYS_PER_RANGE ? RAYS_PER_RANGE / job.samples : 1;
         const alp_result result =
             alpi_parallel_for(setup->context, list_count, grain, run_range, &job, &told);

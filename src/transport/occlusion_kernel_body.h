@@ -99,13 +99,15 @@ static inline void leave_out(uint32_t active, alpi_rays *rays)
 }
 
 /// Traces a batch, of whose last packet only some lanes may take part.
-static inline void trace(const alpi_occlusion_setup *setup, alpi_rays *rays, uint32_t count,
-                         uint32_t last)
+static inline void trace_batch(const alpi_occlusion_setup *setup, alpi_rays *rays, uint32_t count,
+                               uint32_t last)
 {
     const uint32_t all = (1u << ALPI_PACKET) - 1u;
     const alpi_rays_spread spread = setup->streams ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR;
     const uint32_t whole = last == all ? count : count - 1;
-    alpi_trace_occluded(setup->tracer, rays, whole, all, setup->filter, spread);
+    if (whole > 0) {
+        alpi_trace_occluded(setup->tracer, rays, whole, all, setup->filter, spread);
+    }
     if (whole < count) {
         leave_out(last, &rays[whole]);
         alpi_trace_occluded(setup->tracer, &rays[whole], 1, last, setup->filter, ALPI_RAYS_NEAR);
@@ -113,8 +115,9 @@ static inline void trace(const alpi_occlusion_setup *setup, alpi_rays *rays, uin
 }
 
 /// Counts what a batch met, receiver by receiver. @param first packet of the batch, of all
-static inline void count(const alpi_occlusion_setup *setup, const alpi_rays *rays, uint32_t first,
-                         uint32_t made, uint32_t packets, alpi_occlusion_tally *tallies)
+static inline void count_batch(const alpi_occlusion_setup *setup, const alpi_rays *rays,
+                               uint32_t first, uint32_t made, uint32_t packets,
+                               alpi_occlusion_tally *tallies)
 {
     for (uint32_t k = 0; k < made;) {
         alpi_occlusion_tally *tally = &tallies[(first + k) / packets];
@@ -129,9 +132,10 @@ static inline void count(const alpi_occlusion_setup *setup, const alpi_rays *ray
 }
 
 /// Makes packets that leave from one group of points.
-static inline void make(const alpi_occlusion_setup *setup, const alpi_sample_packet *packets,
-                        uint32_t packet_count, const alpi_occlusion_lanes *lanes,
-                        const uint32_t shift[3], alpi_rays *rays)
+static inline void make_packets(const alpi_occlusion_setup *setup,
+                                const alpi_sample_packet *packets, uint32_t packet_count,
+                                const alpi_occlusion_lanes *lanes, const uint32_t shift[3],
+                                alpi_rays *rays)
 {
     for (uint32_t k = 0; k < packet_count; k++) {
         alpi_lanes_start(lanes, &rays[k]);
@@ -159,8 +163,9 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
         for (uint32_t k = 0; k < made;) {
             const uint32_t next = (group + 1) * chunk->block, end = next < each ? next : each;
             const uint32_t some = end - at < made - k ? end - at : made - k;
-            make(setup, packets + at, some, &stand->groups[receiver * chunk->groups + group],
-                 stand->shifts[receiver], &stand->rays[k]);
+            make_packets(setup, packets + at, some,
+                         &stand->groups[receiver * chunk->groups + group], stand->shifts[receiver],
+                         &stand->rays[k]);
             k += some;
             at += some;
             group += at == end ? 1 : 0;
@@ -169,8 +174,8 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
                 at = group = 0;
             }
         }
-        trace(setup, stand->rays, made,
-              first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u);
-        count(setup, stand->rays, first, made, each, tallies);
+        trace_batch(setup, stand->rays, made,
+                    first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u);
+        count_batch(setup, stand->rays, first, made, each, tallies);
     }
 }

@@ -3,8 +3,6 @@
 
 #include "base/memory.h"
 
-#include <string.h>
-
 typedef struct run_maker {
     const alpi_occlusion_setup *setup;
     bool extended;
@@ -54,7 +52,7 @@ static uint32_t spread_leading(uint32_t fraction)
     return (x | x << 1) & 0x55555555u;
 }
 
-/// Something with a number below 2^32 and a place on the curve, above it. Few, so by insertion.
+/// Items are place on the curve << 32 | number; they are few, so by insertion.
 static void insert(uint64_t item, uint32_t count, uint64_t *sorted)
 {
     for (; count > 0 && sorted[count - 1] > item; count--) {
@@ -124,20 +122,21 @@ static void deal(run_maker *m, uint32_t first, uint32_t end, alpi_sample_chunk *
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t from = part_of(first, end, i), part = part_of(first, end, i + 1) - from;
         uint32_t quarter_end;
-        chunk->quarter[i] = (uint8_t)find_quarter(m, from < end ? from : end - 1, &quarter_end);
+        chunk->quarter[i] = (uint8_t)find_quarter(m, from, &quarter_end);
         chunk->last |= (part == count ? 1u : 0u) << i;
         fill_lane(m, chunk, i, from, part);
     }
     m->packet_count += count;
 }
 
-alp_result alpi_sample_run_create(const alpi_occlusion_setup *setup, bool extended, uint32_t first,
-                                  uint32_t count, uint32_t parted, uint32_t total,
-                                  alpi_sample_run *run)
+alp_result alpi_sample_run_create(const alpi_occlusion_setup *setup, bool extended,
+                                  const alpi_sample_range *range, alpi_sample_run *run)
 {
+    const uint32_t first = range->first, count = range->count;
     // Chunks end where their samples do, or where a quarter does that no lane's part may leave.
     const uint32_t limit = count / ALPI_CHUNK_SAMPLES + 1 + 2 * ALPI_QUARTERS;
-    run_maker m = {setup, extended, parted, (total - parted) / ALPI_QUARTERS, run, 0};
+    run_maker m = {setup, extended, range->parted, (range->total - range->parted) / ALPI_QUARTERS,
+                   run,   0};
     *run = (alpi_sample_run){.context = setup->context};
     run->packets = ALPI_NEW(setup->context, alpi_sample_packet, count / ALPI_PACKET + limit);
     run->chunks = ALPI_NEW(setup->context, alpi_sample_chunk, limit);

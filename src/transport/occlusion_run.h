@@ -7,8 +7,9 @@
 // Of a scrambled (0,2)-sequence, a block of 2^k samples has exactly one in each of the 2^k cells
 // that the curve goes through, and 2^j such blocks one in each of these cells' 2^j parts: which,
 // the place of one of them tells of all, for a scrambling flips digits of all samples in a cell
-// alike. So sample k of block b of every lane is in one cell of 2^(j + k). Digital shifts only
-// change the cells' order: it is the same for every receiver.
+// alike. So sample n of block b of every lane is in one cell of 2^(j + k). Digital shifts only
+// change the cells' order: it is the same for every receiver. Where parts are no powers of two,
+// packets are wider, and right all the same.
 // Measured on six scenes (`rtcOccluded8`, 256 samples): 1.15 to 1.45 times as fast as one sample of
 // eight neighbouring texels that share the leading bits of their shifts, which neighbours of a
 // lattice, four texels apart, are too far from each other for.
@@ -49,13 +50,16 @@ typedef struct alpi_sample_run {
     uint32_t chunk_count;
 } alpi_sample_run;
 
-/// Samples [first, first + count) of a setup.
-/// @param extended whether receivers have more points than one
-/// @param parted, total as of alpi_occlusion_add: which quarter a sample counts in
+/// Samples [first, first + count); parted and total as of alpi_occlusion_add: which quarter a
+/// sample counts in.
+typedef struct alpi_sample_range {
+    uint32_t first, count, parted, total;
+} alpi_sample_range;
+
+/// Some samples of a setup. @param extended whether receivers have more points than one
 /// @return ALP_OK; OUT_OF_MEMORY
-alp_result alpi_sample_run_create(const alpi_occlusion_setup *setup, bool extended, uint32_t first,
-                                  uint32_t count, uint32_t parted, uint32_t total,
-                                  alpi_sample_run *run);
+alp_result alpi_sample_run_create(const alpi_occlusion_setup *setup, bool extended,
+                                  const alpi_sample_range *range, alpi_sample_run *run);
 void alpi_sample_run_destroy(alpi_sample_run *run);
 
 #endif

@@ -5,7 +5,6 @@
 #include "test_scenes.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { FEW = 16, MANY = 64 };
 
@@ -136,6 +135,33 @@ static void solutions_after_a_trial_are_those_without(void **state)
     try_room(false);
 }
 
+/// The rays of a trial are gone before those that were chosen are kept: at most as much memory as
+/// without, but for what asks and is asked.
+static void a_trial_takes_no_more_memory(void **state)
+{
+    (void)state;
+    uint64_t peaks[2];
+    for (int tried = 0; tried < 2; tried++) {
+        alp_context *outer = context;
+        context = test_context(1);
+        alpi_cosine_rays few, many;
+        const alpi_gatherer trial = gatherer_of(&few, FEW), more = gatherer_of(&many, MANY);
+        choice c = {.chosen = &more};
+        test_radiant r;
+        test_radiant_options o = test_radiant_default();
+        o.trial = (alpi_radiosity_trial){tried != 0 ? &trial : NULL, choose, &c};
+        test_radiant_open(make_room(), &o, &r);
+        assert_true(r.solution.kept);
+        // else nobody would see it
+        assert_true((uint64_t)r.solution.receiver_count * FEW * sizeof(uint32_t) > 16384);
+        test_radiant_close(&r);
+        peaks[tried] = alp_context_peak_memory(context);
+        alp_context_destroy(context);
+        context = outer;
+    }
+    assert_true(peaks[1] < peaks[0] + 4096);
+}
+
 /// In a closed room of reflectance ρ all of whose walls shine, what bounced is ρ of all light,
 /// everywhere.
 static void trials_tell_how_much_bounced(void **state)
@@ -165,6 +191,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions_after_a_trial_are_those_without),
+        cmocka_unit_test(a_trial_takes_no_more_memory),
         cmocka_unit_test(trials_tell_how_much_bounced),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

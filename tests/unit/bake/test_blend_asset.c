@@ -300,10 +300,10 @@ static void light_and_occlusion_keep_their_sums(void **state)
     assert_true(charts->known && blend->known);
     // The lamp is flat: all of it in one chart, but for the areas of texels at its rim, in floats.
     ASSERT_NEAR(blend->emitted, charts->emitted, 1e-4 * charts->emitted);
-    // What is lost is of rays and of texels that see in part: a hundredth in the mean over seeds at
-    // 64² and 64 rays, where counting each place once for each of its charts would be threefold.
+    // What is lost or found is of rays and of texels that see in part: .004 ± .010 of it over 12
+    // seeds at 64² and 64 rays. Counting each place once for each of its charts would be threefold.
     ASSERT_NEAR(blend->absorbed + blend->escaped + blend->behind + blend->unshot, blend->emitted,
-                0.04 * blend->emitted);
+                0.045 * blend->emitted);
     ASSERT_NEAR(reports[1].ao_mean, reports[0].ao_mean, 0.01);
     alp_scene_destroy(scene);
     alp_context_destroy(context);

@@ -36,13 +36,18 @@ static void rays_are_fewer_where_less_bounces(void **state)
 static void rays_are_more_for_less_error(void **state)
 {
     (void)state;
-    uint32_t before = 16;
-    for (double error = 0.1; error > 1e-6; error *= 0.7) {
-        const uint32_t rays = alpi_light_least_block_rays(error, 47290, &BOX);
-        assert_true(rays >= before && rays <= 1024);
-        before = rays;
+    static const uint32_t blocks[] = {2897, 7750, 100000};
+    for (int k = 0; k < 6; k++) {
+        alpi_trial_light light = k % 2 == 0 ? BOX : SPHERE;
+        light.blocks = blocks[k / 2];
+        uint32_t before = 16;
+        for (double error = 0.1; error > 1e-6; error *= 0.7) {
+            const uint32_t rays = alpi_light_least_block_rays(error, 6 * light.blocks, &light);
+            assert_true(rays >= before && rays <= 1024);
+            before = rays;
+        }
+        assert_int_equal(before, 1024);
     }
-    assert_int_equal(before, 1024);
 }
 
 /// Few blocks together must send enough for the mean of the map, which no texel's rays make better.
@@ -52,8 +57,29 @@ static void few_blocks_send_more(void **state)
     alpi_trial_light light = BOX;
     light.blocks = 100;
     const uint32_t rays = alpi_light_least_block_rays(0.02, 100, &light);
-    assert_true(rays * 1.4143 >= (6.0 * 0.47 / 0.02) * (6.0 * 0.47 / 0.02) / 100.0);
+    assert_true(rays * 1.4143 >= (6.0 / 0.02) * (6.0 / 0.02) * 0.47 / 100.0);
     assert_true(rays < 1024);
+}
+
+/// What is sent is at most what would be without a trial, and the trial's own.
+static void trials_are_counted(void **state)
+{
+    (void)state;
+    alp_light_options o = alp_bake_options_default().light;
+    const alpi_trial_light dark = {.blocks = 2897};
+    o.error = 0.0055f;
+    const uint32_t most = alpi_light_block_rays(&o, 28684);
+    assert_int_equal(most, 256);
+    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &SPHERE), 16 + 64);
+    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &dark), 16);
+    o.error = 1e-3f; // as many as there may be
+    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &BOX), 16 + 1024);
+    o.error = 0.01f; // too few for a trial
+    assert_int_equal(alpi_light_sent_block_rays(&o, 47290, &dark),
+                     alpi_light_block_rays(&o, 47290));
+    o.gather = ALP_GATHER_HEMICUBE;
+    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &dark),
+                     alpi_light_block_rays(&o, 28684));
 }
 
 int main(void)
@@ -63,6 +89,7 @@ int main(void)
         cmocka_unit_test(rays_are_fewer_where_less_bounces),
         cmocka_unit_test(rays_are_more_for_less_error),
         cmocka_unit_test(few_blocks_send_more),
+        cmocka_unit_test(trials_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,6 @@
 
 #include "transport/occlusion_run.h"
 
-#include <string.h>
-
 /// A setup of some scene: only its sequence and its places matter.
 static void set_up(uint32_t samples, alp_context **context, alp_scene **scene,
                    alpi_occlusion_setup *setup)
@@ -92,8 +90,8 @@ static void every_sample_is_there_once(void **state)
         const bool extended = k % 2 != 0;
         found_run found = {{0}, {0}};
         alpi_sample_run run;
-        ASSERT_OK(context, alpi_sample_run_create(&setup, extended, first, count,
-                                                  runs[k / 2].parted, runs[k / 2].total, &run));
+        const alpi_sample_range range = {first, count, runs[k / 2].parted, runs[k / 2].total};
+        ASSERT_OK(context, alpi_sample_run_create(&setup, extended, &range, &run));
         for (uint32_t c = 0; c < run.chunk_count; c++) {
             read_chunk(&setup, &run, &run.chunks[c], runs[k / 2].parted, runs[k / 2].total, &found);
         }
@@ -131,8 +129,8 @@ static void packets_go_into_one_cell(void **state)
             alpi_sample_run run;
             bool seen[128] = {false};
             set_up(samples, &context, &scene, &setup);
-            ASSERT_OK(context,
-                      alpi_sample_run_create(&setup, extended != 0, 0, samples, 0, samples, &run));
+            const alpi_sample_range all = {.count = samples, .total = samples};
+            ASSERT_OK(context, alpi_sample_run_create(&setup, extended != 0, &all, &run));
             assert_int_equal(run.chunk_count, 1);
             assert_int_equal(run.chunks[0].packet_count, samples / ALPI_PACKET);
             for (uint32_t k = 0; k < run.chunks[0].packet_count; k++) {
@@ -162,7 +160,8 @@ static void points_keep_their_samples(void **state)
     found_run found = {{0}, {0}};
     set_up(1024, &context, &scene, &setup);
     for (uint32_t first = 0; first < 1024; first += 256) {
-        ASSERT_OK(context, alpi_sample_run_create(&setup, true, first, 256, 0, 1024, &run));
+        const alpi_sample_range range = {first, 256, 0, 1024};
+        ASSERT_OK(context, alpi_sample_run_create(&setup, true, &range, &run));
         for (uint32_t c = 0; c < run.chunk_count; c++) {
             read_chunk(&setup, &run, &run.chunks[c], 0, 1024, &found);
         }
