@@ -100,27 +100,27 @@ uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_t
     return best;
 }
 
-/// Whether a trial tells how many, where `most` are sent if all light bounces.
-static bool is_tried(double error, uint32_t most)
+/// Whether a trial tells how many, where `most` are sent if all light bounces. Not where the number
+/// of samples is given: then what a light brings does not hang on other lights.
+static bool is_tried(const alp_light_options *o, uint32_t most)
 {
-    return error > 0.0 && most >= NO_TRIAL_BELOW;
+    return o->gather == ALP_GATHER_RAYS && o->error > 0.0f && most >= NO_TRIAL_BELOW;
 }
 
 uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
                                     const alpi_trial_light *light)
 {
-    const double error = find_error(options);
     const uint32_t most = alpi_light_block_rays(options, texels);
-    if (options->gather == ALP_GATHER_HEMICUBE || !is_tried(error, most)) {
+    if (!is_tried(options, most)) {
         return most;
     }
-    const uint32_t rays = alpi_light_least_block_rays(error, texels, light);
+    const uint32_t rays = alpi_light_least_block_rays((double)options->error, texels, light);
     return rays > TRIAL_RAYS ? TRIAL_RAYS + (rays < most ? rays : most) : TRIAL_RAYS;
 }
 
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
-    double error;         // see find_error
+    double error;         // that is wanted
     uint64_t texel_count; // that there are
     alpi_cosine_rays trial_rays, block_rays;
     alpi_gatherer trial;                    // of blocks
@@ -156,7 +156,7 @@ static alp_result make_gatherers(const alpi_bake_job *job, uint64_t texels, ligh
     if (o->gather == ALP_GATHER_HEMICUBE) {
         return make_hemicubes(job, seed, g);
     }
-    g->error = find_error(o);
+    g->error = (double)o->error;
     g->texel_count = texels;
     g->block_rays = (alpi_cosine_rays){.context = job->context,
                                        .samples = alpi_light_block_rays(o, texels),
@@ -180,9 +180,9 @@ static const alpi_gatherer *choose_rays(void *user, const alpi_trial_light *ligh
 }
 
 /// @param met whether rays of texels meet light that blocks gathered
-static alpi_radiosity_trial trial_of(light_gatherers *g, bool met)
+static alpi_radiosity_trial trial_of(light_gatherers *g, const alp_light_options *o, bool met)
 {
-    const bool tried = met && is_tried(g->error, g->block_rays.samples);
+    const bool tried = met && is_tried(o, g->block_rays.samples);
     return (alpi_radiosity_trial){tried ? &g->trial : NULL, choose_rays, g};
 }
 
@@ -216,7 +216,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
-    options.trial = trial_of(g, alpi_light_meets_solved(&options));
+    options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;

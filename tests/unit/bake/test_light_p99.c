@@ -85,23 +85,27 @@ static void small_shadows_come_down(void **state)
 }
 
 /// Beside strips of sun bounced light is what is noisy: few texels get more rays, which the map as
-/// a whole does not need. If all of them got these, they would have 224 in the end; with this seed,
-/// as how many it takes is chance.
+/// a whole does not need. How many all of them have in the end is chance: over eight seeds 160 to
+/// 320, in the mean 228, and 256 where all got what the few want.
 static void few_texels_get_more_rays(void **state)
 {
     (void)state;
+    enum { SEEDS = 8, MEAN_WITHOUT = 256 };
     alp_light_options light = alp_bake_options_default().light;
+    uint32_t samples = 0;
     light.error = 0.04f;
-    const uint64_t seed = 2;
-    const alp_bake_report r = bake_seed("builtin:windows", 2 * SIZE, light, seed);
-    print_message("windows: %.2f %% and %.2f %% with %u rays of each texel\n",
-                  100.0 * r.light_relative_error, 100.0 * r.light_p99_error, r.light_samples);
-    assert_true(r.light_relative_error <= 0.04 && r.light_p99_error <= 0.16);
-    assert_true(r.light_samples < 224);
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        const alp_bake_report r = bake_seed("builtin:windows", 2 * SIZE, light, seed);
+        assert_true(r.light_relative_error <= 0.04 && r.light_p99_error <= 0.16);
+        samples += r.light_samples;
+    }
+    print_message("windows: %u rays of each texel in the mean\n", samples / SEEDS);
+    assert_true(samples < SEEDS * (MEAN_WITHOUT - 12));
+    const alp_bake_report r = bake("builtin:windows", 2 * SIZE, light);
     for (uint32_t workers = 1; workers <= 7; workers += 6) { // those two are the same bits
         alp_context *two = context;
         context = test_context(workers);
-        const alp_bake_report same = bake_seed("builtin:windows", 2 * SIZE, light, seed);
+        const alp_bake_report same = bake("builtin:windows", 2 * SIZE, light);
         assert_true(same.light_relative_error == r.light_relative_error);
         assert_true(same.light_p99_error == r.light_p99_error && same.rays == r.rays);
         alp_context_destroy(context);
