@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "maps/counted_emitters.h"
 #include "maps/stated_error.h"
 #include "transport/direct.h"
 #include "transport/occlusion.h"
@@ -169,11 +170,11 @@ static alp_result light_directly(const light_pilot *l)
 }
 
 /// @param next_event false: light is found by cosine rays alone
-static alp_result send_paths(const light_pilot *l, const alpi_lighting *lighting, uint32_t bounces,
-                             bool next_event)
+static alp_result send_paths(const light_pilot *l, const alp_scene *scene,
+                             const alpi_lighting *lighting, uint32_t bounces, bool next_event)
 {
     const alpi_reference paths = {.context = l->job->context,
-                                  .scene = l->job->scene,
+                                  .scene = scene,
                                   .tracer = l->tracer,
                                   .lighting = lighting,
                                   .filter = {.one_sided = l->job->options.occlusion.one_sided},
@@ -197,11 +198,21 @@ static double mean_variance(const light_pilot *l)
 static alp_result time_rays(const light_pilot *l)
 {
     const stopwatch began = start_watch();
-    ALP_TRY(send_paths(l, l->lighting, 1, false));
+    ALP_TRY(send_paths(l, l->job->scene, l->lighting, 1, false));
     const double paths = (double)l->pilot->count * ALPI_PILOT_RAYS;
     l->pilot->path_seconds = read_watch(l->job, &began) / paths;
     l->pilot->ray_seconds = PACKET_SHARE * l->pilot->path_seconds;
     return ALP_OK;
+}
+
+/// The soft part of a sky alone: emissive surfaces that rays meet are direct light's.
+static alp_result send_to_sky(const light_pilot *l)
+{
+    alp_scene dark;
+    ALP_TRY(alpi_scene_without_emitters(l->job->scene, &dark));
+    const alp_result result = send_paths(l, &dark, l->soft, 0, false);
+    alpi_scene_without_emitters_clear(&dark);
+    return result;
 }
 
 /// What rays will gather: bounced light, which is what a bounce adds to the variance, and the soft
@@ -210,15 +221,15 @@ static alp_result light_by_bounces(const light_pilot *l)
 {
     alpi_pilot *p = l->pilot;
     ALP_TRY(time_rays(l));
-    ALP_TRY(send_paths(l, l->lighting, 1, true));
+    ALP_TRY(send_paths(l, l->job->scene, l->lighting, 1, true));
     for (uint32_t i = 0; i < p->count; i++) {
         p->once_bounced += mean_of(l->values[i].mean) / p->count;
     }
     double variance = mean_variance(l);
-    ALP_TRY(send_paths(l, l->lighting, 0, true));
+    ALP_TRY(send_paths(l, l->job->scene, l->lighting, 0, true));
     variance -= mean_variance(l);
     if (l->soft != NULL) {
-        ALP_TRY(send_paths(l, l->soft, 0, false));
+        ALP_TRY(send_to_sky(l));
         variance += mean_variance(l);
     }
     p->bounced_error = sqrt(fmax(variance, 0.0));

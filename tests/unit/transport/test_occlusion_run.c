@@ -121,7 +121,7 @@ static void packets_go_into_one_cell(void **state)
 {
     (void)state;
     for (uint32_t bits = 3; bits <= 7; bits++) {
-        const uint32_t samples = ALPI_PACKET << bits;
+        const uint32_t samples = (uint32_t)ALPI_PACKET << bits;
         for (int extended = 0; extended < 2; extended++) {
             alp_context *context;
             alp_scene *scene;
