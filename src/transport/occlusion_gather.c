@@ -106,7 +106,7 @@ static void run_chunk(const gather_job *job, const alpi_sample_chunk *chunk, uin
     const uint32_t together = receivers_of(chunk);
     for (uint32_t at = begin; at < end; at += stand->receivers) {
         alpi_occlusion_tally tallies[ALPI_PACKET] = {0};
-        uint32_t ids[ALPI_PACKET];
+        uint32_t ids[ALPI_PACKET] = {0};
         stand->receivers = end - at < together ? end - at : together;
         for (uint32_t r = 0; r < stand->receivers; r++) {
             ids[r] = job->list != NULL ? job->list[at + r] : at + r;

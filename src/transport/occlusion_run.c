@@ -80,7 +80,7 @@ static void fill_lane(const run_maker *m, alpi_sample_chunk *chunk, uint32_t lan
     const uint32_t(*samples)[3] = (const uint32_t(*)[3])m->setup->sequence;
     const uint32_t whole = part / chunk->block; // blocks; what is left over comes last
     alpi_sample_packet *packet = m->run->packets + chunk->first_packet;
-    uint64_t sorted[ALPI_CHUNK_SAMPLES / ALPI_PACKET], order[ALPI_CHUNK_GROUPS] = {0};
+    uint64_t sorted[ALPI_CHUNK_SAMPLES / ALPI_PACKET] = {0}, order[ALPI_CHUNK_GROUPS] = {0};
     for (uint32_t b = 0; b < chunk->groups; b++) {
         const uint32_t at = b * chunk->block;
         const uint32_t count = b < whole ? chunk->block : at < part ? part - at : 0;
