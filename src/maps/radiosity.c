@@ -445,7 +445,6 @@ static alp_result try_few(solver *s, bool *done)
     if (chosen != NULL) {
         r->options.gatherer = chosen;
         r->passes = 0;
-        memset(r->changes, 0, sizeof r->changes);
         s->from = alpi_radiosity_scene(r);
     }
     return ALP_OK;

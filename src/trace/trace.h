@@ -130,8 +130,8 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);
-/// The same of several packets. Where those that follow each other share their origins, lane by
-/// lane, scenes of few triangles take half as long.
+/// The same of several packets. In scenes of few triangles, what those that follow each other see
+/// from the same origins, lane by lane, is found once.
 void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                              const uint32_t *active, uint32_t count, alpi_trace_filter filter,
                              alpi_hits *hits);

@@ -15,7 +15,7 @@
 enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 
 /// From about here rays that start in one packet part ways below the first levels of the hierarchy,
-/// and streams overtake packets: 0.7 times as fast at 15,000 triangles, 1.2 at 50,000, 1.4 at a
+/// and streams overtake packets: 0.7 times as fast at 15,000 triangles, 1.1 at 50,000, 1.3 at a
 /// million (alpenglow bench transport).
 enum { STREAM_TRIANGLES = 40000 };
 

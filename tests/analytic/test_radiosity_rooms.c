@@ -194,9 +194,9 @@ static void energy_is_accounted_for(void **state)
             assert_true(e->known && e->emitted > 0.0 && e->absorbed > 0.0);
             assert_true(e->escaped >= 0.0 && e->unshot >= 0.0);
             // What escapes of a lamp's own light is told by the rays of its few blocks: cornell's
-            // sum is 1.7e-3 about its mean over ten seeds, and that 4e-3 too large, by texels of
-            // 64² that lie partly under its blocks. Smooth normals tilt hemispheres, and what one
-            // texel loses by that no other finds.
+            // sum is 1.7e-3 about its mean over ten seeds. That is 4e-3 too large, by texels that
+            // lie partly under the boxes: it halves with their size, as does what ends behind.
+            // Smooth normals tilt hemispheres, and what one texel loses by that no other finds.
             static const double apart[] = {1.1e-2, 5e-3, 1e-2};
             ASSERT_NEAR(sum, e->emitted, apart[i] * e->emitted);
             assert_true(e->escaped > (i == 2 ? 0.0 : 0.2 * e->emitted));
