@@ -80,11 +80,11 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     bool worth = true;
-    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL, &worth));
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e7, NULL, NULL, &worth));
     assert_false(worth); // too few
     ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e9, NULL, NULL, &worth));
     assert_true(worth);
-    ASSERT_OK(context, alpi_tracer_quicken(tracer, 2e7, NULL, NULL, &worth));
+    ASSERT_OK(context, alpi_tracer_quicken(tracer, 1e7, NULL, NULL, &worth));
     assert_false(worth); // whatever was before
     assert_int_equal(count_slips(scene, tracer, careful, few, true), 0);
     const uint32_t aimed = count_slips(scene, tracer, quick, few, true);
