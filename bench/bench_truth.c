@@ -394,7 +394,7 @@ static void print_all(const truth_summary *told, int count, const bench_options 
         "√ mean of squared error over texels and channels, over the mean of the truth, "
         "without the truth's own error, which stands in the first row. The colours of "
         "the ambient models are those of least squares: no other choice brings them "
-        "nearer. Occlusion is baked with default options. What is for 1 % is asked with three "
+        "nearer. Occlusion is baked with default options. What is for 1 % is asked with eight "
         "seeds: means of their squares here, of their biases below.",
         options);
     print_matrix(told, count, MATRIX_BIAS, "Bias of the mean, in percent",

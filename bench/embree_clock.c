@@ -87,12 +87,16 @@ static void write_down(embree_call_kind kind, const int *valid,
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c)
 void __real_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays);
+void __real_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                           struct RTCRayHit16 *rays);
 void __real_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                          struct RTCRay8 *rays);
 void __real_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
                           unsigned n, unsigned m, size_t stride);
 void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                           struct RTCRayHit8 *rays);
+void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                           struct RTCRayHit16 *rays);
 void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                          struct RTCRay8 *rays);
 void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
@@ -105,6 +109,24 @@ void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectC
     write_down(EMBREE_NEAREST, valid, context, &rays->ray, 1, 0);
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcIntersect8(valid, scene, context, rays);
+    take(started);
+}
+
+/// Written down as the two packets of eight that they are for the limit.
+void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                           struct RTCRayHit16 *rays)
+{
+    const char *fields = (const char *)&rays->ray;
+    for (int half = 0; half < 2 && record_in_use != NULL; half++) {
+        struct RTCRay8 packet;
+        for (size_t k = 0; k < sizeof packet / sizeof packet.org_x; k++) {
+            memcpy((char *)&packet + k * sizeof packet.org_x,
+                   fields + (2 * k + (size_t)half) * sizeof packet.org_x, sizeof packet.org_x);
+        }
+        write_down(EMBREE_NEAREST, valid + half * ALPI_PACKET, context, &packet, 1, 0);
+    }
+    const double started = running ? alpi_seconds() : 0.0;
+    __real_rtcIntersect16(valid, scene, context, rays);
     take(started);
 }
 

@@ -277,7 +277,7 @@ const bench_technique *bench_technique_at(int index)
         {"radiosity, 256 rays", run_radiosity, 256, false, false, 1},
         {"radiosity, for 4 %", run_radiosity_for, 25, false, false, 1},
         // Held to its stated error, which is as true as the chance of a seed lets it be.
-        {"radiosity, for 1 %", run_radiosity_for, 100, false, false, 3},
+        {"radiosity, for 1 %", run_radiosity_for, 100, false, false, 8},
         // Has no bias either, but where a sun is small so few paths meet it that 256 of them say
         // too little of their own spread.
         {"without next event, 256 paths", run_by_chance, 256, false, false, 1},

@@ -41,7 +41,7 @@ PUBLIC = {
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)
 THIRD_PARTY = {
-    r"embree3/.*": ["src/trace/embree.c", "bench"],
+    r"embree3/.*": ["src/trace/embree.h", "bench"],
     r"jansson\.h": ["src/formats", "src/bake", "apps"],
     r"png\.h": ["src/formats"],
     r"jpeglib\.h|jerror\.h": ["src/formats"],

@@ -20,6 +20,8 @@ static const double GROUND_ALBEDO = 0.2;
 /// Size of the table of the clear sky: its horizon lies between two rows. Small enough to stay in a
 /// processor's cache beside the scene; directions are only drawn from it.
 enum { CLEAR_WIDTH = 64, CLEAR_HEIGHT = 32 };
+/// Directions that are asked together.
+enum { CLEAR_BATCH = 64 };
 /// In how many places across and down its light on level ground is summed up, for each of those.
 enum { GROUND_FINER = 4 };
 /// Of the soft part of an image. More leaves fewer spots and makes rays noisier: radiosity of a
@@ -196,11 +198,38 @@ static alp_result make_image(alp_context *context, const alp_sky_options *o, alp
     return ALP_OK;
 }
 
+/// Of up to CLEAR_BATCH directions: the sky's above the horizon, the ground's below.
+static void clear_batch(const alpi_sky *sky, const vec3 *directions, uint32_t count,
+                        vec3 *radiances)
+{
+    vec3 above[CLEAR_BATCH], seen[CLEAR_BATCH];
+    uint32_t up = 0, next = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        above[up] = directions[i];
+        up += directions[i].y >= 0.0f ? 1 : 0;
+    }
+    sky->clear.radiances(&sky->clear, above, up, seen);
+    for (uint32_t i = 0; i < count; i++) {
+        radiances[i] =
+            directions[i].y >= 0.0f ? vec3_scale(seen[next++], sky->strength) : sky->ground;
+    }
+}
+
+static void clear_radiances(const alpi_sky *sky, const vec3 *directions, uint32_t count,
+                            vec3 *radiances)
+{
+    for (uint32_t first = 0; first < count; first += CLEAR_BATCH) {
+        const uint32_t left = count - first;
+        clear_batch(sky, directions + first, left < CLEAR_BATCH ? left : CLEAR_BATCH,
+                    radiances + first);
+    }
+}
+
 static vec3 clear_radiance(const alpi_sky *sky, vec3 direction)
 {
-    return direction.y >= 0.0f
-               ? vec3_scale(alpi_clear_sky_radiance(&sky->clear, direction), sky->strength)
-               : sky->ground;
+    vec3 radiance;
+    clear_radiances(sky, &direction, 1, &radiance);
+    return radiance;
 }
 
 /// What the ground gives back of what falls onto it from the sky.
@@ -241,6 +270,7 @@ static alp_result make_clear(alp_context *context, const alp_sky_options *o, vec
                              alpi_sky *sky)
 {
     double fading = alpi_clear_sky_init(&sky->clear, sun, (double)o->turbidity);
+    sky->clear.radiances = alpi_clear_sky_radiances_for(context);
     sky->strength = (float)((double)o->strength * fading);
     if (fading < 1.0) {
         alpi_warn(context, "sun-below-horizon", NULL,
@@ -391,6 +421,10 @@ void alpi_sky_radiances(const alpi_sky *sky, const vec3 *directions, uint32_t co
 {
     if (sky->kind == ALP_SKY_IMAGE) {
         alpi_sky_table_radiances(&sky->table, directions, count, radiances);
+        return;
+    }
+    if (sky->kind == ALP_SKY_CLEAR) {
+        clear_radiances(sky, directions, count, radiances);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {

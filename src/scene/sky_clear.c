@@ -32,9 +32,8 @@ static const double ZENITH[2][3][4] = {
 /// @param cos_gamma, gamma angle to the sun
 static double distribution(const double p[5], double cosine, double cos_gamma, double gamma)
 {
-    // Exponentials to float, which is what comes out in the end.
-    return (1.0 + p[0] * (double)expf((float)(p[1] / cosine))) *
-           (1.0 + p[2] * (double)expf((float)(p[3] * gamma)) + p[4] * cos_gamma * cos_gamma);
+    return (1.0 + p[0] * exp(p[1] / cosine)) *
+           (1.0 + p[2] * exp(p[3] * gamma) + p[4] * cos_gamma * cos_gamma);
 }
 
 static double zenith_chromaticity(const double rows[3][4], double turbidity, double theta)
@@ -67,6 +66,7 @@ double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
     const double zenith[3] = {1000.0 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192),
                               zenith_chromaticity(ZENITH[0], t, theta),
                               zenith_chromaticity(ZENITH[1], t, theta)};
+    sky->radiances = alpi_clear_sky_radiances_baseline;
     sky->sun = sun;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 5; k++) {
@@ -77,21 +77,13 @@ double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
     return fading;
 }
 
-vec3 alpi_clear_sky_radiance(const alpi_clear_sky *sky, vec3 direction)
+alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context)
 {
-    // At the horizon itself the term of 1/cosθ has vanished.
-    double cosine = fmax((double)direction.y, 1e-6);
-    double dot = (double)vec3_dot(direction, sky->sun);
-    double cos_gamma = fmax(fmin(dot, 1.0), -1.0), gamma = (double)acosf((float)cos_gamma);
-    double value[3];
-    for (int i = 0; i < 3; i++) {
-        value[i] = sky->scale[i] * distribution(sky->perez[i], cosine, cos_gamma, gamma);
+#ifdef ALPI_HAS_V3_KERNEL
+    if (alpi_context_has_v3(context)) {
+        return alpi_clear_sky_radiances_v3;
     }
-    double luminance = value[0], x = value[1], y = value[2];
-    double per_y = luminance / y, z = 1.0 - x - y;
-    // CIE XYZ to linear Rec.709 (IEC 61966-2-1).
-    double red = (3.2406 * x - 1.5372 * y - 0.4986 * z) * per_y;
-    double green = (-0.9689 * x + 1.8758 * y + 0.0415 * z) * per_y;
-    double blue = (0.0557 * x - 0.2040 * y + 1.0570 * z) * per_y;
-    return (vec3){(float)fmax(red, 0.0), (float)fmax(green, 0.0), (float)fmax(blue, 0.0)};
+#endif
+    (void)context;
+    return alpi_clear_sky_radiances_baseline;
 }

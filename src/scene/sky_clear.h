@@ -3,10 +3,22 @@
 #ifndef ALPI_SCENE_SKY_CLEAR_H
 #define ALPI_SCENE_SKY_CLEAR_H
 
+#include "base/context.h"
 #include "base/vec.h"
 
+struct alpi_clear_sky;
+/// Radiances from `count` unit directions, none below the horizon, to 1e-6 of them: linear Rec.709
+/// whose luminance is the sky's in cd/m². What Rec.709 cannot show is clamped at 0.
+typedef void alpi_clear_sky_fn(const struct alpi_clear_sky *sky, const vec3 *directions,
+                               uint32_t count, vec3 *radiances);
+/// For any machine and for x86-64-v3: the same bits.
+alpi_clear_sky_fn alpi_clear_sky_radiances_baseline, alpi_clear_sky_radiances_v3;
+/// The one for this machine, unless the context asks for less.
+alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context);
+
 typedef struct alpi_clear_sky {
-    vec3 sun;           // unit, not below the horizon
+    alpi_clear_sky_fn *radiances; // for any machine, until its owner knows better
+    vec3 sun;                     // unit, not below the horizon
     double perez[3][5]; // A…E for Y, x, y
     double scale[3];    // Y [cd/m²], x and y at the zenith over the distribution there
 } alpi_clear_sky;
@@ -17,9 +29,5 @@ typedef struct alpi_clear_sky {
 /// @param turbidity [1.7, 10]
 /// @return the factor of that fading, 0 to 1
 double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity);
-
-/// Radiance from a unit direction above the horizon: linear Rec.709 whose luminance is the sky's in
-/// cd/m². What Rec.709 cannot show is clamped at 0.
-vec3 alpi_clear_sky_radiance(const alpi_clear_sky *sky, vec3 direction);
 
 #endif

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Rays through Embree 3: the only file of the library that knows it.
-// Based on: Wald, Woop, Benthin, Johnson, Ernst. Embree: A Kernel Framework for Efficient CPU Ray
-// Tracing. SIGGRAPH 2014.
-#include "trace/few.h"
-#include "trace/trace.h"
+// Builds what Embree 3 traces.
+#include "trace/embree.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
 
-#include <embree3/rtcore.h>
-
-#include <assert.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-
-/// Triangles are in three geometries: those that always stop a ray, and those whose material may
-/// cut it or let it through in part, which alone pay for a filter call at every hit.
-typedef enum geometry_kind {
-    GEOMETRY_SOLID = 0,
-    GEOMETRY_CUT = 1,
-    GEOMETRY_PANE = 2,
-    GEOMETRY_COUNT = 3
-} geometry_kind;
 
 /// A ray gains 4 to 7 ns and a triangle costs 300, on one thread: for four that share the rays they
 /// are even at 170 to 300 rays. Of the rays that a map might take an adaptive one sends a fifth to
@@ -30,117 +14,6 @@ typedef enum geometry_kind {
 /// bakes of a torus and of a room are even at 230 to 290, and take 3 to 4 % less time at 390 to
 /// 450, 8 to 10 % less at 590 to 910. The number of workers may not decide: it changes no bit.
 static const double QUICK_RAYS_PER_TRIANGLE = 500.0;
-
-struct alpi_tracer {
-    const alp_scene *scene;
-    RTCDevice device;
-    RTCScene embree_scene;
-    alpi_few *few;                       // its triangles, where they are few and solid, or NULL
-    RTCScene quick_scene;                // the same geometries without care for edges, or NULL
-    uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
-    uint32_t count[GEOMETRY_COUNT];
-    uint32_t in_row[GEOMETRY_COUNT];   // of the first so many, triangle i is triangle 0 plus i: to
-                                       // read it would mostly be a miss
-    uint32_t first_vertex, end_vertex; // of the scene: all that the triangles use are between
-};
-
-/// Our data behind Embree's context, which the filters get.
-typedef struct trace_context {
-    struct RTCIntersectContext embree; // first: filters get its address
-    const alpi_tracer *tracer;
-    bool panes; // the caller sees to them
-} trace_context;
-
-// --- filters -------------------------------------------------------------------------------------
-
-// RTCRayN and RTCHitN are structures of arrays of N floats, in the order of the fields of RTCRay
-// and RTCHit; the accessors that Embree ships are C++ only.
-enum { RAY_DIRECTION_X = 4 };
-enum { HIT_NORMAL_X = 0, HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6 };
-
-static float lane_float(const void *fields, unsigned n, unsigned field, unsigned lane)
-{
-    float value;
-    memcpy(&value, (const char *)fields + sizeof value * ((size_t)field * n + lane), sizeof value);
-    return value;
-}
-
-static uint32_t lane_uint(const void *fields, unsigned n, unsigned field, unsigned lane)
-{
-    uint32_t value;
-    memcpy(&value, (const char *)fields + sizeof value * ((size_t)field * n + lane), sizeof value);
-    return value;
-}
-
-static uint32_t find_triangle(const alpi_tracer *tracer, uint32_t geometry, uint32_t primitive)
-{
-    return primitive < tracer->in_row[geometry] ? tracer->triangles[geometry][0] + primitive
-                                                : tracer->triangles[geometry][primitive];
-}
-
-static uint32_t lane_triangle(const struct RTCFilterFunctionNArguments *a, unsigned lane)
-{
-    const trace_context *context = (const void *)a->context;
-    uint32_t geometry = lane_uint(a->hit, a->N, HIT_GEOMETRY, lane);
-    return find_triangle(context->tracer, geometry, lane_uint(a->hit, a->N, HIT_PRIMITIVE, lane));
-}
-
-/// Lets rays through where alpha cuts the surface.
-static void cut_filter(const struct RTCFilterFunctionNArguments *a)
-{
-    const trace_context *context = (const void *)a->context;
-    for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] != 0 && alpi_surface_is_cut(context->tracer->scene, lane_triangle(a, i),
-                                                    lane_float(a->hit, a->N, HIT_U, i),
-                                                    lane_float(a->hit, a->N, HIT_V, i))) {
-            a->valid[i] = 0;
-        }
-    }
-}
-
-/// Panes do not stop shadow rays whose caller sees to them.
-static void pane_shadow_filter(const struct RTCFilterFunctionNArguments *a)
-{
-    const trace_context *context = (const void *)a->context;
-    if (!context->panes) {
-        cut_filter(a);
-        return;
-    }
-    for (unsigned i = 0; i < a->N; i++) {
-        a->valid[i] = 0;
-    }
-}
-
-static void pane_filter(const struct RTCFilterFunctionNArguments *a)
-{
-    const trace_context *context = (const void *)a->context;
-    if (!context->panes) {
-        cut_filter(a);
-    }
-}
-
-/// Lets rays through single-sided surfaces from behind. Embree's normal is (v1−v0)×(v2−v0), which
-/// points outside for a counter-clockwise triangle.
-static void one_sided_filter(const struct RTCFilterFunctionNArguments *a)
-{
-    const trace_context *context = (const void *)a->context;
-    for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] == 0) {
-            continue;
-        }
-        float along = 0.0f;
-        for (unsigned k = 0; k < 3; k++) {
-            along += lane_float(a->ray, a->N, RAY_DIRECTION_X + k, i) *
-                     lane_float(a->hit, a->N, HIT_NORMAL_X + k, i);
-        }
-        if (along > 0.0f &&
-            !alpi_surface_is_double_sided(context->tracer->scene, lane_triangle(a, i))) {
-            a->valid[i] = 0;
-        }
-    }
-}
-
-// --- building ------------------------------------------------------------------------------------
 
 typedef struct build_progress {
     alp_progress_fn *callback;
@@ -283,12 +156,12 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
     if (kind == GEOMETRY_CUT) {
-        rtcSetGeometryIntersectFilterFunction(geometry, cut_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, cut_filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, alpi_embree_cut_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, alpi_embree_cut_filter);
     }
     if (kind == GEOMETRY_PANE) {
-        rtcSetGeometryIntersectFilterFunction(geometry, pane_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, pane_shadow_filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, alpi_embree_pane_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, alpi_embree_pane_shadow_filter);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tracer->embree_scene, geometry, kind);
@@ -336,6 +209,8 @@ static alp_result build(alpi_tracer *tracer, const bool *surfaces, build_progres
     if (tracer->device == NULL) {
         return fail_embree(scene, NULL, "starting");
     }
+    tracer->wide =
+        rtcGetDeviceProperty(tracer->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
     // Robust: no ray slips through the edge between two triangles.
     ALP_TRY(start_scene(tracer, RTC_SCENE_FLAG_ROBUST, progress, &tracer->embree_scene));
     ALP_TRY(sort_triangles(tracer, surfaces));
@@ -396,36 +271,6 @@ alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn
     return result;
 }
 
-// --- tracing -------------------------------------------------------------------------------------
-
-static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
-{
-    trace_context context = {.tracer = tracer, .panes = filter.panes};
-    rtcInitIntersectContext(&context.embree);
-    context.embree.filter = filter.one_sided ? one_sided_filter : NULL;
-    return context;
-}
-
-_Static_assert(sizeof(alpi_rays) == sizeof(struct RTCRay8) &&
-                   offsetof(alpi_rays, direction_x) == offsetof(struct RTCRay8, dir_x) &&
-                   offsetof(alpi_rays, maximum) == offsetof(struct RTCRay8, tfar) &&
-                   offsetof(alpi_rays, flags) == offsetof(struct RTCRay8, flags),
-               "alpi_rays is what Embree takes");
-
-static const _Alignas(32) int ALL_VALID[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
-
-/// Which lanes take part, as Embree wants it.
-static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
-{
-    if (active == (1u << ALPI_PACKET) - 1u) {
-        return ALL_VALID;
-    }
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        valid[i] = (active >> i & 1u) != 0 ? -1 : 0;
-    }
-    return valid;
-}
-
 uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer)
 {
     return tracer->count[GEOMETRY_SOLID] + tracer->count[GEOMETRY_CUT] +
@@ -440,152 +285,4 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer)
 bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach)
 {
     return tracer->few != NULL && alpi_few_near(tracer->few, reach) <= (float)ALPI_FEW_NEAR;
-}
-
-void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
-                         uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
-{
-    _Alignas(32) int some[ALPI_PACKET];
-    const int *valid = spread_bits(active, some);
-    assert(!filter.few || tracer->few != NULL);
-    if (filter.few) {
-        tracer->few->loops->occluded(tracer->few, packets, count, (const uint32_t *)valid,
-                                     filter.one_sided);
-        return;
-    }
-    trace_context context = start_context(tracer, filter);
-    assert(!filter.quick || tracer->quick_scene != NULL);
-    RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
-    if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
-        rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
-                      sizeof *packets);
-        return;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        rtcOccluded8(valid, scene, &context.embree, (struct RTCRay8 *)&packets[i]);
-    }
-}
-
-static const _Alignas(32) uint32_t LANE_BITS[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
-
-/// Lanes whose ray goes along Embree's normal, (v1−v0)×(v2−v0).
-static uint32_t find_behind(const struct RTCRayHit8 *found)
-{
-    uint32_t behind = 0;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const float along = found->ray.dir_x[i] * found->hit.Ng_x[i] +
-                            found->ray.dir_y[i] * found->hit.Ng_y[i] +
-                            found->ray.dir_z[i] * found->hit.Ng_z[i];
-        behind |= along > 0.0f ? LANE_BITS[i] : 0u;
-    }
-    return behind;
-}
-
-/// Hits of the lanes that take part.
-static void take_some(const alpi_tracer *tracer, const struct RTCRayHit8 *found, uint32_t active,
-                      alpi_hits *hits)
-{
-    uint32_t hit_lanes = 0;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const uint32_t geometry = found->hit.geomID[i];
-        if ((active >> i & 1u) == 0) {
-            continue;
-        }
-        const bool hit = geometry != RTC_INVALID_GEOMETRY_ID;
-        hits->distance[i] = hit ? found->ray.tfar[i] : INFINITY;
-        hits->b1[i] = hit ? found->hit.u[i] : 0.0f;
-        hits->b2[i] = hit ? found->hit.v[i] : 0.0f;
-        hits->triangle[i] = hit ? find_triangle(tracer, geometry, found->hit.primID[i]) : ALPI_NONE;
-        hit_lanes |= hit ? 1u << i : 0u;
-    }
-    hits->behind = (hits->behind & ~active) | (find_behind(found) & hit_lanes);
-}
-
-/// The same of all lanes, where triangle i is that of primitive i, but for `first`: without a
-/// branch.
-static void take_all(uint32_t first, const struct RTCRayHit8 *found, alpi_hits *hits)
-{
-    _Alignas(32) uint32_t hit[ALPI_PACKET];
-    uint32_t hit_lanes = 0;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        hit[i] = found->hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? UINT32_MAX : 0;
-        hit_lanes |= hit[i] & LANE_BITS[i];
-        hits->triangle[i] = (first + found->hit.primID[i]) | ~hit[i]; // ALPI_NONE is all ones
-    }
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        hits->distance[i] = hit[i] != 0 ? found->ray.tfar[i] : INFINITY;
-        hits->b1[i] = hit[i] != 0 ? found->hit.u[i] : 0.0f;
-        hits->b2[i] = hit[i] != 0 ? found->hit.v[i] : 0.0f;
-    }
-    hits->behind = find_behind(found) & hit_lanes;
-}
-
-/// Whether all its triangles are solid, and one after the other in the scene too.
-static bool is_in_row(const alpi_tracer *tracer)
-{
-    const uint32_t count = tracer->in_row[GEOMETRY_SOLID];
-    return count > 0 && count == alpi_tracer_triangle_count(tracer);
-}
-
-/// Field by field: see alpi_rays_clear.
-static void copy_rays(const alpi_rays *rays, struct RTCRay8 *to)
-{
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        to->org_x[i] = rays->origin_x[i];
-        to->org_y[i] = rays->origin_y[i];
-        to->org_z[i] = rays->origin_z[i];
-        to->tnear[i] = rays->minimum[i];
-        to->dir_x[i] = rays->direction_x[i];
-        to->dir_y[i] = rays->direction_y[i];
-        to->dir_z[i] = rays->direction_z[i];
-        to->time[i] = rays->time[i];
-        to->tfar[i] = rays->maximum[i];
-        to->mask[i] = UINT32_MAX; // this build of Embree has ray masks on
-        to->id[i] = to->flags[i] = 0;
-    }
-}
-
-static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                          trace_context *context, alpi_hits *hits)
-{
-    struct RTCRayHit8 found;
-    _Alignas(32) int some[ALPI_PACKET];
-    const int *valid = spread_bits(active, some);
-    copy_rays(rays, &found.ray);
-    memset(found.hit.geomID, 0xff, sizeof found.hit.geomID); // RTC_INVALID_GEOMETRY_ID
-    memset(found.hit.instID, 0xff, sizeof found.hit.instID);
-    rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
-    if (valid == ALL_VALID && is_in_row(tracer)) {
-        take_all(tracer->triangles[GEOMETRY_SOLID][0], &found, hits);
-    } else {
-        take_some(tracer, &found, active, hits);
-    }
-}
-
-void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
-                             const uint32_t *active, uint32_t count, alpi_trace_filter filter,
-                             alpi_hits *hits)
-{
-    if (tracer->few != NULL && tracer->few->edge_count <= ALPI_FEW_NEAREST) {
-        tracer->few->loops->nearest(tracer->few, packets, active, count, filter.one_sided, hits);
-        return;
-    }
-    trace_context context = start_context(tracer, filter);
-    for (uint32_t p = 0; p < count; p++) {
-        trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
-    }
-}
-
-void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                        alpi_trace_filter filter, alpi_hits *hits)
-{
-    alpi_trace_nearest_many(tracer, &rays, &active, 1, filter, hits);
-}
-
-void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                                 alpi_trace_filter filter, alpi_hits *hits)
-{
-    trace_context context = start_context(tracer, filter);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    trace_nearest(tracer, rays, active, &context, hits);
 }

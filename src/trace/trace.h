@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays against a scene: nearest hit, and whether anything is hit. embree.c is the only file of the
-// library that knows Embree; few.h answers for scenes of few triangles, brute_force.c, in tests, by
-// testing every triangle.
+// Rays against a scene: nearest hit, and whether anything is hit. embree.h and the
+// files behind it alone know Embree; few.h answers for scenes of few triangles, brute_force.c, in
+// tests, by testing every triangle.
 #ifndef ALPI_TRACE_TRACE_H
 #define ALPI_TRACE_TRACE_H
 
@@ -139,6 +139,11 @@ void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *
 /// camera's), and twice as slow where they do not.
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits);
+/// The same of several packets, two that follow each other together where the machine has vectors
+/// of sixteen: up to a fifth faster where they leave from about one place in about one direction too.
+void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
+                                      const uint32_t *active, uint32_t count,
+                                      alpi_trace_filter filter, alpi_hits *hits);
 
 /// The oracle: the same answers over all triangles in double precision, one ray at a time.
 void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,

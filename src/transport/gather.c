@@ -299,11 +299,10 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
     for (uint32_t k = 0; k < count; k++) {
         rays[k] = &packets[k].rays;
         active[k] = packets[k].active;
-        if (coherent) {
-            alpi_trace_nearest_coherent(from->tracer, rays[k], active[k], from->filter, &hits[k]);
-        }
     }
-    if (!coherent) {
+    if (coherent) {
+        alpi_trace_nearest_coherent_many(from->tracer, rays, active, count, from->filter, hits);
+    } else {
         alpi_trace_nearest_many(from->tracer, rays, active, count, from->filter, hits);
     }
     for (uint32_t k = 0; k < count; k++) {

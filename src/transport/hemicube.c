@@ -183,6 +183,18 @@ static alp_result fill(alpi_hemicube *cube)
     return fill_weights(cube);
 }
 
+/// The loops for this machine, unless the context asks for less.
+static alpi_hemicube_aim_fn *aim_of(const alp_context *context)
+{
+#ifdef ALPI_HAS_V3_KERNEL
+    if (alpi_context_has_v3(context)) {
+        return alpi_hemicube_aim_v3;
+    }
+#endif
+    (void)context;
+    return alpi_hemicube_aim_baseline;
+}
+
 alp_result alpi_hemicube_create(alp_context *context, uint32_t resolution, alpi_hemicube **cube)
 {
     *cube = NULL;
@@ -197,7 +209,7 @@ alp_result alpi_hemicube_create(alp_context *context, uint32_t resolution, alpi_
     if (made == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    *made = (alpi_hemicube){.context = context, .resolution = resolution};
+    *made = (alpi_hemicube){.context = context, .resolution = resolution, .aim = aim_of(context)};
     const alp_result result = fill(made);
     if (result != ALP_OK) {
         alpi_hemicube_destroy(made);
@@ -238,20 +250,9 @@ alpi_hemicube_frame alpi_hemicube_frame_upright(vec3 normal)
 
 // --- gathering -----------------------------------------------------------------------------------
 
-/// Aims the rays of a packet. Those below the surface itself, where shading is smooth, meet it from
-/// above and get its own light, as in the reference. @return those of pixels
-static uint32_t aim(const alpi_hemicube_packet *packet, const alpi_receiver_point *p,
-                    const alpi_hemicube_frame *f, alpi_rays *rays)
+static vec3 start_of(const alpi_receiver_point *p)
 {
-    const vec3 start = vec3_mad(p->position, p->offset, p->geometric_normal);
-    alpi_rays_start(rays, start);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const float x = packet->x[i], y = packet->y[i], z = packet->z[i];
-        rays->direction_x[i] = x * f->right.x + y * f->up.x + z * f->forward.x;
-        rays->direction_y[i] = x * f->right.y + y * f->up.y + z * f->forward.y;
-        rays->direction_z[i] = x * f->right.z + y * f->up.z + z * f->forward.z;
-    }
-    return packet->active;
+    return vec3_mad(p->position, p->offset, p->geometric_normal);
 }
 
 void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receiver_point *point,
@@ -259,9 +260,10 @@ void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receive
                         vec3 radiance[ALPI_PACKET])
 {
     alpi_rays rays;
-    const uint32_t active = aim(&options->cube->packets[packet], point, frame, &rays);
-    alpi_gather_look(&options->from, &rays, active, options->cube->resolution >= COHERENT_FROM,
-                     radiance, NULL);
+    const alpi_hemicube_packet *pixels = &options->cube->packets[packet];
+    options->cube->aim(pixels, start_of(point), frame, &rays);
+    alpi_gather_look(&options->from, &rays, pixels->active,
+                     options->cube->resolution >= COHERENT_FROM, radiance, NULL);
 }
 
 alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
@@ -316,9 +318,11 @@ static void aim_receiver(const void *user, const alpi_receivers *receivers, uint
     receivers->place(receivers->user, receiver, 1, square, &point);
     const alpi_hemicube_frame frame =
         alpi_hemicube_frame_about(point.shading_normal, turn_of(o, receiver));
+    const vec3 start = start_of(&point);
     for (uint32_t k = 0; k < count; k++) {
         const alpi_hemicube_packet *pixels = &o->cube->packets[first + k];
-        packets[k].active = aim(pixels, &point, &frame, &packets[k].rays);
+        o->cube->aim(pixels, start, &frame, &packets[k].rays);
+        packets[k].active = pixels->active;
         for (int i = 0; i < ALPI_PACKET && ways != NULL; i++) {
             ways[k].normals[i] = frame.forward;
             ways[k].cosines[i] = pixels->z[i];

@@ -32,8 +32,21 @@ typedef struct alpi_hemicube_packet {
     uint32_t active;                                      // bit i: there is a pixel
 } alpi_hemicube_packet;
 
+/// How the cube stands: orthonormal, and right is to the right of who looks forward with up above.
+typedef struct alpi_hemicube_frame {
+    vec3 right, up, forward;
+} alpi_hemicube_frame;
+
+/// Aims the rays of a packet from a point. Those below the surface itself, where shading is smooth,
+/// meet it from above and get its own light, as in the reference.
+typedef void alpi_hemicube_aim_fn(const alpi_hemicube_packet *packet, vec3 start,
+                                  const alpi_hemicube_frame *frame, alpi_rays *rays);
+/// For any machine and for x86-64-v3: the same bits.
+alpi_hemicube_aim_fn alpi_hemicube_aim_baseline, alpi_hemicube_aim_v3;
+
 typedef struct alpi_hemicube {
     alp_context *context;
+    alpi_hemicube_aim_fn *aim;
     uint32_t resolution; // n
     uint32_t packet_count;
     alpi_hemicube_packet *packets;
@@ -55,10 +68,6 @@ double alpi_hemicube_weight(uint32_t resolution, uint32_t column, uint32_t row);
 /// @return false: a corner of the cross, which belongs to no face
 bool alpi_hemicube_pixel(uint32_t resolution, uint32_t column, uint32_t row, double local[3]);
 
-/// How the cube stands: orthonormal, and right is to the right of who looks forward with up above.
-typedef struct alpi_hemicube_frame {
-    vec3 right, up, forward;
-} alpi_hemicube_frame;
 /// @param turn radians about the normal, from right towards up
 alpi_hemicube_frame alpi_hemicube_frame_about(vec3 normal, float turn);
 /// With +Y above as far as the normal lets it, for pictures; −Z above where it looks straight up or

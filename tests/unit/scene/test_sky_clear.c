@@ -96,7 +96,8 @@ static void there_is_light_everywhere(void **state)
             ASSERT_NEAR(alpi_clear_sky_init(&sky, sun_at(e, 1.0), fmin(t, 10.0)), 1.0, 0.0);
             for (int i = 0; i < 500; i++) {
                 vec3 d = sky_polar(ALPI_PI / 2.0 * (i % 25) / 24.0, 0.31 * i);
-                vec3 radiance = alpi_clear_sky_radiance(&sky, d);
+                vec3 radiance;
+                sky.radiances(&sky, &d, 1, &radiance);
                 assert_true(vec3_is_finite(radiance));
                 assert_true(fminf(fminf(radiance.x, radiance.y), radiance.z) >= 0.0f);
                 double luminance = sky_luminance(radiance);
@@ -106,6 +107,86 @@ static void there_is_light_everywhere(void **state)
             }
         }
     }
+}
+
+/// In doubles, from the coefficients that the sky has.
+static void radiance_in_doubles(const alpi_clear_sky *sky, vec3 d, double rgb[3])
+{
+    const double dot = (double)vec3_dot(d, sky->sun); // a float's: beside the sun it tells
+    const double cosine = fmax(fmin(dot, 1.0), -1.0), gamma = acos(cosine);
+    double v[3];
+    for (int k = 0; k < 3; k++) {
+        const double *p = sky->perez[k];
+        v[k] = sky->scale[k] * (1.0 + p[0] * exp(p[1] / fmax((double)d.y, 1e-6))) *
+               (1.0 + p[2] * exp(p[3] * gamma) + p[4] * cosine * cosine);
+    }
+    const double X = v[1] / v[2] * v[0], Z = (1.0 - v[1] - v[2]) / v[2] * v[0];
+    rgb[0] = fmax(3.2406 * X - 1.5372 * v[0] - 0.4986 * Z, 0.0);
+    rgb[1] = fmax(-0.9689 * X + 1.8758 * v[0] + 0.0415 * Z, 0.0);
+    rgb[2] = fmax(0.0557 * X - 0.2040 * v[0] + 1.0570 * Z, 0.0);
+}
+
+/// Any number of directions at once, by any instructions, each as by itself, and as in doubles.
+static void many_directions_are_as_one_by_one(void **state)
+{
+    (void)state;
+    enum { MANY = 997 };
+    static vec3 directions[MANY], radiances[2][MANY];
+    alp_context *context = test_context(1);
+    double worst = 0.0;
+    for (int e = 0; e <= 90; e += 15) {
+        alpi_clear_sky sky;
+        (void)alpi_clear_sky_init(&sky, sun_at(e, 1.0), 2.0 + e / 15.0);
+        for (int i = 0; i < MANY; i++) { // to the horizon itself, and about the sun
+            directions[i] = i % 4 == 0 ? vec3_normalize_or((vec3){sky.sun.x + 1e-4f * (float)i,
+                                                                  sky.sun.y + 1e-3f, sky.sun.z},
+                                                           sky.sun)
+                                       : sky_polar(ALPI_PI / 2.0 * (i % 50) / 49.0, 0.37 * i);
+            directions[i].y = fmaxf(directions[i].y, 0.0f);
+        }
+        alpi_clear_sky_radiances_baseline(&sky, directions, MANY, radiances[0]);
+        alpi_clear_sky_radiances_for(context)(&sky, directions, MANY, radiances[1]);
+        for (int i = 0; i < MANY; i++) {
+            vec3 alone;
+            double exact[3];
+            sky.radiances(&sky, &directions[i], 1, &alone);
+            radiance_in_doubles(&sky, directions[i], exact);
+            const double whole = exact[0] + exact[1] + exact[2];
+            for (int k = 0; k < 2; k++) {
+                assert_memory_equal(&radiances[k][i], &alone, sizeof alone);
+            }
+            worst = fmax(worst, fabs((double)alone.x - exact[0]) / whole);
+            worst = fmax(worst, fabs((double)alone.y - exact[1]) / whole);
+            worst = fmax(worst, fabs((double)alone.z - exact[2]) / whole);
+        }
+    }
+    print_message("largest difference from doubles: %.2g of the radiance\n", worst);
+    assert_true(worst < 1e-6);
+    alp_context_destroy(context);
+}
+
+/// A sky asked in directions above and below the horizon at once.
+static void sky_and_ground_are_told_apart(void **state)
+{
+    (void)state;
+    enum { MANY = 203 };
+    vec3 directions[MANY], radiances[MANY];
+    alp_context *context = test_context(1);
+    alp_sky_options o = sky_options(ALP_SKY_CLEAR);
+    alpi_sky *sky = sky_make(context, &o, sun_at(30.0, 2.5));
+    int below = 0;
+    for (int i = 0; i < MANY; i++) {
+        directions[i] = sky_polar(0.013 * ((i * 89) % 240), 0.7 * i);
+        below += directions[i].y < 0.0f;
+    }
+    assert_true(below > 60 && below < 140);
+    alpi_sky_radiances(sky, directions, MANY, radiances);
+    for (int i = 0; i < MANY; i++) {
+        const vec3 alone = alpi_sky_radiance(sky, directions[i]);
+        assert_memory_equal(&radiances[i], &alone, sizeof alone);
+    }
+    alpi_sky_destroy(context, sky);
+    alp_context_destroy(context);
 }
 
 static void brightest_at_the_sun_and_symmetric_about_it(void **state)
@@ -218,6 +299,8 @@ int main(void)
         cmocka_unit_test(luminance_is_the_published_one),
         cmocka_unit_test(the_zenith_is_blue),
         cmocka_unit_test(there_is_light_everywhere),
+        cmocka_unit_test(many_directions_are_as_one_by_one),
+        cmocka_unit_test(sky_and_ground_are_told_apart),
         cmocka_unit_test(brightest_at_the_sun_and_symmetric_about_it),
         cmocka_unit_test(ground_and_samples),
         cmocka_unit_test(the_mean_is_the_integral),

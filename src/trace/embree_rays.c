@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// Packets of rays through Embree 3.
+#include "trace/embree.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <string.h>
+
+static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    trace_context context = {.tracer = tracer, .panes = filter.panes};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = filter.one_sided ? alpi_embree_one_sided_filter : NULL;
+    return context;
+}
+
+_Static_assert(sizeof(alpi_rays) == sizeof(struct RTCRay8) &&
+                   offsetof(alpi_rays, direction_x) == offsetof(struct RTCRay8, dir_x) &&
+                   offsetof(alpi_rays, maximum) == offsetof(struct RTCRay8, tfar) &&
+                   offsetof(alpi_rays, flags) == offsetof(struct RTCRay8, flags),
+               "alpi_rays is what Embree takes");
+_Static_assert(2 * sizeof(alpi_rays) == sizeof(struct RTCRay16) &&
+                   2 * offsetof(alpi_rays, flags) == offsetof(struct RTCRay16, flags),
+               "two of them are what it takes of sixteen");
+
+static const _Alignas(32) int ALL_VALID[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+/// Which lanes take part, as Embree wants it.
+static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
+{
+    if (active == (1u << ALPI_PACKET) - 1u) {
+        return ALL_VALID;
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        valid[i] = (active >> i & 1u) != 0 ? -1 : 0;
+    }
+    return valid;
+}
+
+void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
+                         uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
+{
+    _Alignas(32) int some[ALPI_PACKET];
+    const int *valid = spread_bits(active, some);
+    assert(!filter.few || tracer->few != NULL);
+    if (filter.few) {
+        tracer->few->loops->occluded(tracer->few, packets, count, (const uint32_t *)valid,
+                                     filter.one_sided);
+        return;
+    }
+    trace_context context = start_context(tracer, filter);
+    assert(!filter.quick || tracer->quick_scene != NULL);
+    RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
+    if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
+        rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
+                      sizeof *packets);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        rtcOccluded8(valid, scene, &context.embree, (struct RTCRay8 *)&packets[i]);
+    }
+}
+
+static const _Alignas(32) uint32_t LANE_BITS[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
+
+/// Eight lanes of what a packet of 8 or 16 met.
+typedef struct found_lanes {
+    const float *direction[3], *normal[3], *far, *u, *v;
+    const unsigned *geometry, *primitive;
+} found_lanes;
+
+/// @param found pointer to a packet and its hits   @param at the first lane
+#define FOUND_LANES(found, at)                                                                     \
+    ((found_lanes){                                                                                \
+        {(found)->ray.dir_x + (at), (found)->ray.dir_y + (at), (found)->ray.dir_z + (at)},         \
+        {(found)->hit.Ng_x + (at), (found)->hit.Ng_y + (at), (found)->hit.Ng_z + (at)},            \
+        (found)->ray.tfar + (at),                                                                  \
+        (found)->hit.u + (at),                                                                     \
+        (found)->hit.v + (at),                                                                     \
+        (found)->hit.geomID + (at),                                                                \
+        (found)->hit.primID + (at)})
+
+/// Lanes whose ray goes along Embree's normal, (v1−v0)×(v2−v0).
+static inline uint32_t find_behind(const found_lanes *found)
+{
+    const float *dx = found->direction[0], *dy = found->direction[1], *dz = found->direction[2];
+    const float *nx = found->normal[0], *ny = found->normal[1], *nz = found->normal[2];
+    float along[ALPI_PACKET]; // written first: else compilers do lane by lane
+    uint32_t behind = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        along[i] = dx[i] * nx[i] + dy[i] * ny[i] + dz[i] * nz[i];
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        behind |= along[i] > 0.0f ? LANE_BITS[i] : 0u;
+    }
+    return behind;
+}
+
+/// Hits of the lanes that take part.
+static void take_some(const alpi_tracer *tracer, const found_lanes *found, uint32_t active,
+                      alpi_hits *hits)
+{
+    uint32_t hit_lanes = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const uint32_t geometry = found->geometry[i];
+        if ((active >> i & 1u) == 0) {
+            continue;
+        }
+        const bool hit = geometry != RTC_INVALID_GEOMETRY_ID;
+        hits->distance[i] = hit ? found->far[i] : INFINITY;
+        hits->b1[i] = hit ? found->u[i] : 0.0f;
+        hits->b2[i] = hit ? found->v[i] : 0.0f;
+        hits->triangle[i] =
+            hit ? alpi_embree_triangle(tracer, geometry, found->primitive[i]) : ALPI_NONE;
+        hit_lanes |= hit ? 1u << i : 0u;
+    }
+    hits->behind = (hits->behind & ~active) | (find_behind(found) & hit_lanes);
+}
+
+/// The same of all lanes, where triangle i is that of primitive i, but for `first`: without a
+/// branch. Not within the loop over packets: there gcc takes the lanes apart before it sees that
+/// they are a vector.
+__attribute__((noinline)) static void take_all(uint32_t first, const found_lanes *found,
+                                               alpi_hits *restrict hits)
+{
+    const unsigned *geometry = found->geometry, *primitive = found->primitive;
+    uint32_t hit[ALPI_PACKET], hit_lanes = 0;
+    float far[ALPI_PACKET], u[ALPI_PACKET], v[ALPI_PACKET]; // copies, which may be read unasked
+    memcpy(far, found->far, sizeof far);
+    memcpy(u, found->u, sizeof u);
+    memcpy(v, found->v, sizeof v);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        hit[i] = geometry[i] != RTC_INVALID_GEOMETRY_ID ? UINT32_MAX : 0;
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        hit_lanes |= hit[i] & LANE_BITS[i];
+        hits->triangle[i] = (first + primitive[i]) | ~hit[i]; // ALPI_NONE is all ones
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        hits->distance[i] = hit[i] != 0 ? far[i] : INFINITY;
+        hits->b1[i] = hit[i] != 0 ? u[i] : 0.0f;
+        hits->b2[i] = hit[i] != 0 ? v[i] : 0.0f;
+    }
+    hits->behind = find_behind(found) & hit_lanes;
+}
+
+/// Whether all its triangles are solid, and one after the other in the scene too.
+static bool is_in_row(const alpi_tracer *tracer)
+{
+    const uint32_t count = tracer->in_row[GEOMETRY_SOLID];
+    return count > 0 && count == alpi_tracer_triangle_count(tracer);
+}
+
+/// Field by field: see alpi_rays_clear.
+static void copy_rays(const alpi_rays *rays, struct RTCRay8 *to)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        to->org_x[i] = rays->origin_x[i];
+        to->org_y[i] = rays->origin_y[i];
+        to->org_z[i] = rays->origin_z[i];
+        to->tnear[i] = rays->minimum[i];
+        to->dir_x[i] = rays->direction_x[i];
+        to->dir_y[i] = rays->direction_y[i];
+        to->dir_z[i] = rays->direction_z[i];
+        to->time[i] = rays->time[i];
+        to->tfar[i] = rays->maximum[i];
+        to->mask[i] = UINT32_MAX; // this build of Embree has ray masks on
+        to->id[i] = to->flags[i] = 0;
+    }
+}
+
+static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                          trace_context *context, alpi_hits *hits)
+{
+    struct RTCRayHit8 found;
+    _Alignas(32) int some[ALPI_PACKET];
+    const int *valid = spread_bits(active, some);
+    copy_rays(rays, &found.ray);
+    memset(found.hit.geomID, 0xff, sizeof found.hit.geomID); // RTC_INVALID_GEOMETRY_ID
+    memset(found.hit.instID, 0xff, sizeof found.hit.instID);
+    rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
+    const found_lanes lanes = FOUND_LANES(&found, 0);
+    if (valid == ALL_VALID && is_in_row(tracer)) {
+        take_all(tracer->triangles[GEOMETRY_SOLID][0], &lanes, hits);
+    } else {
+        take_some(tracer, &lanes, active, hits);
+    }
+}
+
+/// Field by field, each of which is twice as long there. @param half which of the two
+static inline void copy_half(const alpi_rays *rays, size_t half, struct RTCRay16 *to)
+{
+    enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
+    for (size_t k = 0; k < FIELDS; k++) { // memcpy of a size that is known: one or two moves
+        memcpy((char *)to + (2 * k + half) * FIELD, (const char *)rays + k * FIELD, FIELD);
+    }
+}
+
+enum { PAIRS_TOGETHER = 4 };
+
+/// Packets of which all lanes take part, two at a time. All are laid out before the first is
+/// traced: vectors of sixteen that are read just after their halves were written wait for the
+/// memory.
+static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packets, uint32_t pairs,
+                        trace_context *context, alpi_hits *hits)
+{
+    static const _Alignas(64) int valid[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                            -1, -1, -1, -1, -1, -1, -1, -1};
+    struct RTCRayHit16 found[PAIRS_TOGETHER];
+    const bool in_row = is_in_row(tracer);
+    for (uint32_t p = 0; p < pairs; p++) {
+        copy_half(packets[2 * p], 0, &found[p].ray);
+        copy_half(packets[2 * p + 1], 1, &found[p].ray);
+        memset(found[p].hit.geomID, 0xff, sizeof found[p].hit.geomID);
+        memset(found[p].hit.instID, 0xff, sizeof found[p].hit.instID);
+    }
+    for (uint32_t p = 0; p < pairs; p++) {
+        rtcIntersect16(valid, tracer->embree_scene, &context->embree, &found[p]);
+    }
+    for (uint32_t i = 0; i < 2 * pairs; i++) {
+        const found_lanes lanes = FOUND_LANES(&found[i / 2], i % 2 * ALPI_PACKET);
+        if (in_row) {
+            take_all(tracer->triangles[GEOMETRY_SOLID][0], &lanes, &hits[i]);
+        } else {
+            take_some(tracer, &lanes, 0xffu, &hits[i]);
+        }
+    }
+}
+
+void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
+                             const uint32_t *active, uint32_t count, alpi_trace_filter filter,
+                             alpi_hits *hits)
+{
+    if (tracer->few != NULL && tracer->few->edge_count <= ALPI_FEW_NEAREST) {
+        tracer->few->loops->nearest(tracer->few, packets, active, count, filter.one_sided, hits);
+        return;
+    }
+    trace_context context = start_context(tracer, filter);
+    for (uint32_t p = 0; p < count; p++) {
+        trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
+    }
+}
+
+void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                        alpi_trace_filter filter, alpi_hits *hits)
+{
+    alpi_trace_nearest_many(tracer, &rays, &active, 1, filter, hits);
+}
+
+void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
+                                 alpi_trace_filter filter, alpi_hits *hits)
+{
+    alpi_trace_nearest_coherent_many(tracer, &rays, &active, 1, filter, hits);
+}
+
+void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
+                                      const uint32_t *active, uint32_t count,
+                                      alpi_trace_filter filter, alpi_hits *hits)
+{
+    const uint32_t all = (1u << ALPI_PACKET) - 1u;
+    trace_context context = start_context(tracer, filter);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (uint32_t p = 0; p < count;) {
+        uint32_t pairs = 0;
+        while (tracer->wide && pairs < PAIRS_TOGETHER && p + 2 * pairs + 1 < count &&
+               (active[p + 2 * pairs] & active[p + 2 * pairs + 1]) == all) {
+            pairs++;
+        }
+        if (pairs > 0) {
+            trace_pairs(tracer, packets + p, pairs, &context, hits + p);
+            p += 2 * pairs;
+        } else {
+            trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
+            p++;
+        }
+    }
+}
