@@ -23,19 +23,14 @@ typedef struct setting {
     alpi_patches patches;
 } setting;
 
-/// @param each 1: all texels have light of their own; n: those not divisible by n; 0: all, 5 to a
-/// metre
-static void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_angle,
-                         uint32_t spacing, uint32_t each)
+/// @param each 1 or 0: all texels have light of their own; n: those not divisible by n
+static void open_on(setting *s, alp_scene *scene, const alp_atlas_options *options,
+                    uint32_t spacing, uint32_t each)
 {
     static uint32_t order[1u << 18];
     uint32_t count = 0;
-    alp_atlas_options a = alp_atlas_options_default();
     *s = (setting){.context = scene->context, .scene = scene};
-    a.size = size;
-    a.texels_per_metre = each == 0 ? 5.0 : 0.0;
-    a.max_angle = max_angle;
-    ASSERT_OK(s->context, alp_atlas_create(scene, &a, &s->atlas));
+    ASSERT_OK(s->context, alp_atlas_create(scene, options, &s->atlas));
     ASSERT_OK(s->context, alpi_texels_create(s->atlas, &s->texels));
     ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, &s->lattice));
     assert_true(s->texels.count <= sizeof order / sizeof *order);
@@ -46,6 +41,18 @@ static void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_
     }
     ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, order, count,
                                               &(alpi_block_rule){.spacing = spacing}, &s->patches));
+}
+
+/// @param each 1: all texels have light of their own; n: those not divisible by n; 0: all, 5 to a
+/// metre
+static void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_angle,
+                         uint32_t spacing, uint32_t each)
+{
+    alp_atlas_options a = alp_atlas_options_default();
+    a.size = size;
+    a.texels_per_metre = each == 0 ? 5.0 : 0.0;
+    a.max_angle = max_angle;
+    open_on(s, scene, &a, spacing, each);
 }
 
 static void close_setting(setting *s)
@@ -199,6 +206,22 @@ static void lookups_stay_in_their_charts(void **state)
         assert_int_equal(black, 0);
         close_setting(&s);
     }
+}
+
+static void lookups_stay_on_their_pages(void **state)
+{
+    (void)state;
+    setting s;
+    uint32_t black;
+    alp_atlas_options a = alp_atlas_options_default();
+    a.size = 64;
+    a.texels_per_metre = 40.0;
+    a.max_angle = 0.3f;
+    open_on(&s, make_ball(test_context(2), 24, 12), &a, 4, 1);
+    assert_true(alp_atlas_get_info(s.atlas).pages >= 4);
+    (void)hold_lookups(&s, 1.5, &black);
+    assert_int_equal(black, 0);
+    close_setting(&s);
 }
 
 /// Two squares whose kept charts share a column of texels, which belongs to one of them: the other
@@ -469,6 +492,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lookups_stay_in_their_charts),
+        cmocka_unit_test(lookups_stay_on_their_pages),
         cmocka_unit_test(charts_that_share_a_texel),
         cmocka_unit_test(texels_without_light_have_stand_ins),
         cmocka_unit_test(blocks_hold_every_texel_once),
