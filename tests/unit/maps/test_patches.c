@@ -215,10 +215,10 @@ static void lookups_stay_on_their_pages(void **state)
     uint32_t black;
     alp_atlas_options a = alp_atlas_options_default();
     a.size = 64;
-    a.texels_per_metre = 40.0;
+    a.texels_per_metre = 14.0;
     a.max_angle = 0.3f;
     open_on(&s, make_ball(test_context(2), 24, 12), &a, 4, 1);
-    assert_true(alp_atlas_get_info(s.atlas).pages >= 4);
+    assert_true(alp_atlas_get_info(s.atlas).pages >= 2);
     (void)hold_lookups(&s, 1.5, &black);
     assert_int_equal(black, 0);
     close_setting(&s);
