@@ -19,8 +19,8 @@ alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context);
 typedef struct alpi_clear_sky {
     alpi_clear_sky_fn *radiances; // for any machine, until its owner knows better
     vec3 sun;                     // unit, not below the horizon
-    double perez[3][5]; // A…E for Y, x, y
-    double scale[3];    // Y [cd/m²], x and y at the zenith over the distribution there
+    double perez[3][5];           // A…E for Y, x, y
+    double scale[3];              // Y [cd/m²], x and y at the zenith over the distribution there
 } alpi_clear_sky;
 
 /// @param sun towards the sun, unit; one below the horizon is lifted to it, and the sky fades: by

@@ -140,7 +140,8 @@ void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets, two that follow each other together where the machine has vectors
-/// of sixteen: up to a fifth faster where they leave from about one place in about one direction too.
+/// of sixteen: up to a fifth faster where they leave from about one place in about one direction
+/// too.
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                                       const uint32_t *active, uint32_t count,
                                       alpi_trace_filter filter, alpi_hits *hits);
