@@ -122,6 +122,9 @@ static void make_parallel(const alpi_rays *first, uint32_t each, uint32_t sample
 static bool record_parallel(measured_case *c)
 {
     const uint32_t each = c->samples / ALPI_PACKET; // packets of a receiver
+    if (c->record.count != c->list_count * each || c->list_count < ALPI_PACKET) {
+        return false; // then a receiver's packets are not one after the other
+    }
     c->parallel.packets = new_packets(c->record.count);
     for (uint32_t i = 0; i + ALPI_PACKET <= c->list_count && c->parallel.packets != NULL;
          i += ALPI_PACKET) {

@@ -227,8 +227,11 @@ static void clear_radiances(const alpi_sky *sky, const vec3 *directions, uint32_
 
 static vec3 clear_radiance(const alpi_sky *sky, vec3 direction)
 {
-    vec3 radiance;
-    clear_radiances(sky, &direction, 1, &radiance);
+    vec3 radiance = sky->ground;
+    if (direction.y >= 0.0f) {
+        alpi_clear_sky_radiances_one_by_one(&sky->clear, &direction, 1, &radiance);
+        radiance = vec3_scale(radiance, sky->strength);
+    }
     return radiance;
 }
 

@@ -11,8 +11,9 @@ struct alpi_clear_sky;
 /// whose luminance is the sky's in cd/m². What Rec.709 cannot show is clamped at 0.
 typedef void alpi_clear_sky_fn(const struct alpi_clear_sky *sky, const vec3 *directions,
                                uint32_t count, vec3 *radiances);
-/// For any machine and for x86-64-v3: the same bits.
-alpi_clear_sky_fn alpi_clear_sky_radiances_baseline, alpi_clear_sky_radiances_v3;
+/// One after the other, where there are few; for any machine, and for x86-64-v3: the same bits.
+alpi_clear_sky_fn alpi_clear_sky_radiances_one_by_one, alpi_clear_sky_radiances_baseline,
+    alpi_clear_sky_radiances_v3;
 /// The one for this machine, unless the context asks for less.
 alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context);
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The clear sky in many directions, included once for each instruction set: every inner loop runs
-// over eight of them and becomes a few vector instructions (gcc -fopt-info-vec shows it). No fused
-// operations in either: the same bits.
+// over LANES of them, eight but for single ones, and becomes a few vector instructions (gcc
+// -fopt-info-vec shows it). No fused operations in either: the same bits.
 #include "scene/sky_clear.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { LANES = 8 };
+#ifndef ALPI_CLEAR_SKY_LANES
+#define ALPI_CLEAR_SKY_LANES 8
+#endif
+
+enum { LANES = ALPI_CLEAR_SKY_LANES };
 
 #define EACH_LANE for (int i = 0; i < LANES; i++)
 

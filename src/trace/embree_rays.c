@@ -187,7 +187,7 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     }
 }
 
-/// Field by field, each of which is twice as long there. @param half which of the two
+/// All fields as they are, masks too; each is twice as long there. @param half which of the two
 static inline void copy_half(const alpi_rays *rays, size_t half, struct RTCRay16 *to)
 {
     enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
@@ -250,7 +250,9 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits)
 {
-    alpi_trace_nearest_coherent_many(tracer, &rays, &active, 1, filter, hits);
+    trace_context context = start_context(tracer, filter);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    trace_nearest(tracer, rays, active, &context, hits);
 }
 
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,

@@ -97,9 +97,9 @@ alp_result alpi_tracer_for_scene(const alp_scene *scene, alp_progress_fn *progre
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails); CANCELLED
 alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
                               alp_progress_fn *progress, void *progress_user, alpi_tracer **tracer);
-/// Readies a tracer for a job of so many rays, where they are worth a second hierarchy: a tenth to
-/// a quarter less time. Of random rays less than one in a million slips through an edge (a sphere
-/// of 40,000 triangles; counted), of those aimed at edges one in 20.
+/// Readies a tracer for a job of so many rays, where they are worth a second hierarchy: some per
+/// cent to a quarter less time. Of random rays less than one in a million slips through an edge (a
+/// sphere of 40,000 triangles; counted), of those aimed at edges one in 20.
 /// @param quick out: whether the job's rays may be quick (alpi_trace_filter). Depends on their
 ///              number alone, not on what the tracer was readied for before
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED; CANCELLED: the tracer is what it was
@@ -141,7 +141,8 @@ void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *ray
                                  alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets, two that follow each other together where the machine has vectors
 /// of sixteen: up to a fifth faster where they leave from about one place in about one direction
-/// too.
+/// too. Masks must be all ones, id and flags 0.
+/// @param hits [count]
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                                       const uint32_t *active, uint32_t count,
                                       alpi_trace_filter filter, alpi_hits *hits);
