@@ -101,6 +101,12 @@ def fault_of_system(target, place):
     return None
 
 
+def brings_third_party(header):
+    """Whether a header of ours includes one of another project."""
+    return any(angled and any(re.fullmatch(p, angled) for p in THIRD_PARTY)
+               for _, angled, _ in includes(header))
+
+
 def fault_of_quoted(root, place, room, target):
     """Fault of including "target" from a file of a room (None: of an app)."""
     if place.startswith("bench/"): # any header of ours
@@ -116,6 +122,8 @@ def fault_of_quoted(root, place, room, target):
         return f'"{target}" is no header of a room (write it from src/, as "room/name.h")'
     if not may_use(room, other):
         return f'{room} may not include "{target}": it may use {", ".join(ROOMS[room]) or "none"}'
+    if other != room and brings_third_party(root / "src" / target):
+        return f'"{target}" brings in another project: only {other} may include it'
     return None
 
 

@@ -46,6 +46,14 @@ struct alpi_loop;
 struct alpi_loop **alpi_context_loop(alp_context *context);
 /// Whether code for x86-64-v3 (AVX2) may run: this machine has it, and max_isa allows it.
 bool alpi_context_has_v3(const alp_context *context);
+/// Of what alp_compile_twice of CMakeLists.txt compiles, functions or tables of them: name_v3 where
+/// it may run, else name_baseline.
+#if defined(__x86_64__)
+#define ALPI_COMPILED_FOR(context, name)                                                           \
+    (*(alpi_context_has_v3(context) ? &name##_v3 : &name##_baseline))
+#else
+#define ALPI_COMPILED_FOR(context, name) (*((void)(context), &name##_baseline))
+#endif
 /// The host's scheduler, or NULL.
 const alp_context_options *alpi_context_options(const alp_context *context);
 

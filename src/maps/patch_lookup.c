@@ -131,22 +131,11 @@ static void look_up(const void *user, const alpi_surface_point *points, uint32_t
     }
 }
 
-/// The loops for this machine, unless the context asks for less.
-static alpi_light_cells_fn *cells_of(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return alpi_patches_find_cells_v3;
-    }
-#endif
-    (void)context;
-    return alpi_patches_find_cells_baseline;
-}
-
 alpi_surface_light alpi_patches_light(const alpi_patches *patches)
 {
     return (alpi_surface_light){.reflected = look_up,
                                 .user = patches,
-                                .find = cells_of(patches->context),
+                                .find =
+                                    ALPI_COMPILED_FOR(patches->context, alpi_patches_find_cells),
                                 .cells = (const float(*)[4])patches->cells};
 }

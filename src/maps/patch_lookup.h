@@ -11,8 +11,7 @@
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_patch_places_create(alpi_patches *patches);
 
-// --- what the look-ups of packets (patch_cells_body.h) share with those of points
-// -----------------
+// --- shared by look-ups of points and of packets (patch_cells_body.h) ----------------------------
 
 /// The pixel of a point of a triangle, which may be off the page.
 static inline void alpi_patches_pixel(const alpi_patch_triangle *t, float b1, float b2,

@@ -3,17 +3,6 @@
 
 #include <math.h>
 
-static const alpi_camera_loops *choose_loops(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return &alpi_camera_loops_v3;
-    }
-#endif
-    (void)context;
-    return &alpi_camera_loops_baseline;
-}
-
 alp_result alpi_view_place(alp_context *context, const alp_camera *c, uint32_t width,
                            uint32_t height, alpi_view *view)
 {
@@ -33,7 +22,7 @@ alp_result alpi_view_place(alp_context *context, const alp_camera *c, uint32_t w
                         .up = vec3_scale(vec3_cross(right, forward), half),
                         .width = width,
                         .height = height,
-                        .loops = choose_loops(context)};
+                        .loops = &ALPI_COMPILED_FOR(context, alpi_camera_loops)};
     return ALP_OK;
 }
 

@@ -273,7 +273,7 @@ static alp_result make_clear(alp_context *context, const alp_sky_options *o, vec
                              alpi_sky *sky)
 {
     double fading = alpi_clear_sky_init(&sky->clear, sun, (double)o->turbidity);
-    sky->clear.radiances = alpi_clear_sky_radiances_for(context);
+    sky->clear.radiances = ALPI_COMPILED_FOR(context, alpi_clear_sky_radiances);
     sky->strength = (float)((double)o->strength * fading);
     if (fading < 1.0) {
         alpi_warn(context, "sun-below-horizon", NULL,

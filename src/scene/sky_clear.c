@@ -76,14 +76,3 @@ double alpi_clear_sky_init(alpi_clear_sky *sky, vec3 sun, double turbidity)
     }
     return fading;
 }
-
-alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return alpi_clear_sky_radiances_v3;
-    }
-#endif
-    (void)context;
-    return alpi_clear_sky_radiances_baseline;
-}

@@ -14,8 +14,6 @@ typedef void alpi_clear_sky_fn(const struct alpi_clear_sky *sky, const vec3 *dir
 /// One after the other, where there are few; for any machine, and for x86-64-v3: the same bits.
 alpi_clear_sky_fn alpi_clear_sky_radiances_one_by_one, alpi_clear_sky_radiances_baseline,
     alpi_clear_sky_radiances_v3;
-/// The one for this machine, unless the context asks for less.
-alpi_clear_sky_fn *alpi_clear_sky_radiances_for(const alp_context *context);
 
 typedef struct alpi_clear_sky {
     alpi_clear_sky_fn *radiances; // for any machine, until its owner knows better

@@ -49,7 +49,7 @@ void alpi_tracer_destroy(alpi_tracer *tracer)
         rtcReleaseDevice(tracer->device);
     }
     alpi_release(tracer->scene->context, tracer->few);
-    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+    for (int g = 0; g < ALPI_GEOMETRY_COUNT; g++) {
         alpi_release(tracer->scene->context, tracer->triangles[g]);
     }
     alpi_release(tracer->scene->context, tracer);
@@ -70,19 +70,19 @@ static bool is_chosen(const bool *surfaces, uint32_t surface)
     return surfaces == NULL || surfaces[surface];
 }
 
-/// The geometry that a triangle goes to, GEOMETRY_COUNT for none.
-static geometry_kind kind_of(const alp_scene *scene, const bool *surfaces, uint32_t triangle)
+/// The geometry that a triangle goes to, ALPI_GEOMETRY_COUNT for none.
+static alpi_geometry_kind kind_of(const alp_scene *scene, const bool *surfaces, uint32_t triangle)
 {
     const uint32_t surface = scene->triangle_surface[triangle];
     if (!scene->triangle_usable[triangle] || !is_chosen(surfaces, surface)) {
-        return GEOMETRY_COUNT;
+        return ALPI_GEOMETRY_COUNT;
     }
-    return alpi_surface_is_pane(scene, surface)    ? GEOMETRY_PANE
-           : alpi_surface_has_cuts(scene, surface) ? GEOMETRY_CUT
-                                                   : GEOMETRY_SOLID;
+    return alpi_surface_is_pane(scene, surface)    ? ALPI_GEOMETRY_PANE
+           : alpi_surface_has_cuts(scene, surface) ? ALPI_GEOMETRY_CUT
+                                                   : ALPI_GEOMETRY_SOLID;
 }
 
-static void add_triangle(alpi_tracer *tracer, geometry_kind kind, uint32_t triangle)
+static void add_triangle(alpi_tracer *tracer, alpi_geometry_kind kind, uint32_t triangle)
 {
     const uint32_t place = tracer->count[kind]++;
     tracer->triangles[kind][place] = triangle;
@@ -109,17 +109,17 @@ static alp_result sort_triangles(alpi_tracer *tracer, const bool *surfaces)
             end = surface_end > end ? surface_end : end;
         }
     }
-    size_t room[GEOMETRY_COUNT + 1] = {0};
+    size_t room[ALPI_GEOMETRY_COUNT + 1] = {0};
     for (uint32_t t = first; t < end; t++) {
         room[kind_of(scene, surfaces, t)]++;
     }
-    for (int g = 0; g < GEOMETRY_COUNT; g++) {
+    for (int g = 0; g < ALPI_GEOMETRY_COUNT; g++) {
         ALPI_TRY_NEW(scene->context, tracer->triangles[g], room[g]);
     }
     tracer->first_vertex = scene->vertex_count;
     for (uint32_t t = first; t < end; t++) {
-        const geometry_kind kind = kind_of(scene, surfaces, t);
-        if (kind != GEOMETRY_COUNT) {
+        const alpi_geometry_kind kind = kind_of(scene, surfaces, t);
+        if (kind != ALPI_GEOMETRY_COUNT) {
             add_triangle(tracer, kind, t);
         }
     }
@@ -127,7 +127,7 @@ static alp_result sort_triangles(alpi_tracer *tracer, const bool *surfaces)
 }
 
 /// Vertices are copied: Embree reads 16 bytes at each of 12, past the end of an array of ours.
-static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
+static alp_result attach_geometry(alpi_tracer *tracer, alpi_geometry_kind kind)
 {
     const alp_scene *scene = tracer->scene;
     uint32_t count = tracer->count[kind];
@@ -155,11 +155,11 @@ static alp_result attach_geometry(alpi_tracer *tracer, geometry_kind kind)
         }
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-    if (kind == GEOMETRY_CUT) {
+    if (kind == ALPI_GEOMETRY_CUT) {
         rtcSetGeometryIntersectFilterFunction(geometry, alpi_embree_cut_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, alpi_embree_cut_filter);
     }
-    if (kind == GEOMETRY_PANE) {
+    if (kind == ALPI_GEOMETRY_PANE) {
         rtcSetGeometryIntersectFilterFunction(geometry, alpi_embree_pane_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, alpi_embree_pane_shadow_filter);
     }
@@ -214,12 +214,12 @@ static alp_result build(alpi_tracer *tracer, const bool *surfaces, build_progres
     // Robust: no ray slips through the edge between two triangles.
     ALP_TRY(start_scene(tracer, RTC_SCENE_FLAG_ROBUST, progress, &tracer->embree_scene));
     ALP_TRY(sort_triangles(tracer, surfaces));
-    if (tracer->count[GEOMETRY_SOLID] == alpi_tracer_triangle_count(tracer)) {
-        ALP_TRY(alpi_few_create(scene, tracer->triangles[GEOMETRY_SOLID],
-                                tracer->count[GEOMETRY_SOLID], &tracer->few));
+    if (tracer->count[ALPI_GEOMETRY_SOLID] == alpi_tracer_triangle_count(tracer)) {
+        ALP_TRY(alpi_few_create(scene, tracer->triangles[ALPI_GEOMETRY_SOLID],
+                                tracer->count[ALPI_GEOMETRY_SOLID], &tracer->few));
     }
-    for (int g = 0; g < GEOMETRY_COUNT; g++) {
-        ALP_TRY(attach_geometry(tracer, (geometry_kind)g));
+    for (int g = 0; g < ALPI_GEOMETRY_COUNT; g++) {
+        ALP_TRY(attach_geometry(tracer, (alpi_geometry_kind)g));
     }
     return commit_scene(tracer, progress, tracer->embree_scene);
 }
@@ -254,7 +254,7 @@ alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn
     build_progress report = {progress, progress_user, alpi_seconds(), false};
     RTCScene made = NULL;
     alp_result result = start_scene(tracer, RTC_SCENE_FLAG_NONE, &report, &made);
-    for (unsigned g = 0; g < GEOMETRY_COUNT && result == ALP_OK; g++) {
+    for (unsigned g = 0; g < ALPI_GEOMETRY_COUNT && result == ALP_OK; g++) {
         if (tracer->count[g] > 0) {
             rtcAttachGeometryByID(made, rtcGetGeometry(tracer->embree_scene, g), g);
         }
@@ -273,13 +273,13 @@ alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn
 
 uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer)
 {
-    return tracer->count[GEOMETRY_SOLID] + tracer->count[GEOMETRY_CUT] +
-           tracer->count[GEOMETRY_PANE];
+    return tracer->count[ALPI_GEOMETRY_SOLID] + tracer->count[ALPI_GEOMETRY_CUT] +
+           tracer->count[ALPI_GEOMETRY_PANE];
 }
 
 bool alpi_tracer_has_panes(const alpi_tracer *tracer)
 {
-    return tracer->count[GEOMETRY_PANE] > 0;
+    return tracer->count[ALPI_GEOMETRY_PANE] > 0;
 }
 
 bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach)

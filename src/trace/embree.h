@@ -12,12 +12,12 @@
 
 /// Triangles are in three geometries: those that always stop a ray, and those whose material may
 /// cut it or let it through in part, which alone pay for a filter call at every hit.
-typedef enum geometry_kind {
-    GEOMETRY_SOLID = 0,
-    GEOMETRY_CUT = 1,
-    GEOMETRY_PANE = 2,
-    GEOMETRY_COUNT = 3
-} geometry_kind;
+typedef enum alpi_geometry_kind {
+    ALPI_GEOMETRY_SOLID = 0,
+    ALPI_GEOMETRY_CUT = 1,
+    ALPI_GEOMETRY_PANE = 2,
+    ALPI_GEOMETRY_COUNT = 3
+} alpi_geometry_kind;
 
 struct alpi_tracer {
     const alp_scene *scene;
@@ -26,19 +26,19 @@ struct alpi_tracer {
     alpi_few *few;        // its triangles, where they are few and solid, or NULL
     RTCScene quick_scene; // the same geometries without care for edges, or NULL
     bool wide; // packets of 16 are met as fast as two of 8, or up to a fifth faster where coherent
-    uint32_t *triangles[GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
-    uint32_t count[GEOMETRY_COUNT];
-    uint32_t in_row[GEOMETRY_COUNT];   // of the first so many, triangle i is triangle 0 plus i: to
-                                       // read it would mostly be a miss
+    uint32_t *triangles[ALPI_GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry
+    uint32_t count[ALPI_GEOMETRY_COUNT];
+    uint32_t in_row[ALPI_GEOMETRY_COUNT]; // of the first so many, triangle i is triangle 0 plus i:
+                                          // to read it would mostly be a miss
     uint32_t first_vertex, end_vertex; // of the scene: all that the triangles use are between
 };
 
 /// Our data behind Embree's context, which the filters get.
-typedef struct trace_context {
+typedef struct alpi_trace_context {
     struct RTCIntersectContext embree; // first: filters get its address
     const alpi_tracer *tracer;
     bool panes; // the caller sees to them
-} trace_context;
+} alpi_trace_context;
 
 /// The scene's triangle of a hit.
 static inline uint32_t alpi_embree_triangle(const alpi_tracer *tracer, uint32_t geometry,

@@ -25,7 +25,7 @@ static uint32_t lane_uint(const void *fields, unsigned n, unsigned field, unsign
 
 static uint32_t lane_triangle(const struct RTCFilterFunctionNArguments *a, unsigned lane)
 {
-    const trace_context *context = (const void *)a->context;
+    const alpi_trace_context *context = (const void *)a->context;
     uint32_t geometry = lane_uint(a->hit, a->N, HIT_GEOMETRY, lane);
     return alpi_embree_triangle(context->tracer, geometry,
                                 lane_uint(a->hit, a->N, HIT_PRIMITIVE, lane));
@@ -34,7 +34,7 @@ static uint32_t lane_triangle(const struct RTCFilterFunctionNArguments *a, unsig
 /// Lets rays through where alpha cuts the surface.
 void alpi_embree_cut_filter(const struct RTCFilterFunctionNArguments *a)
 {
-    const trace_context *context = (const void *)a->context;
+    const alpi_trace_context *context = (const void *)a->context;
     for (unsigned i = 0; i < a->N; i++) {
         if (a->valid[i] != 0 && alpi_surface_is_cut(context->tracer->scene, lane_triangle(a, i),
                                                     lane_float(a->hit, a->N, HIT_U, i),
@@ -47,7 +47,7 @@ void alpi_embree_cut_filter(const struct RTCFilterFunctionNArguments *a)
 /// Panes do not stop shadow rays whose caller sees to them.
 void alpi_embree_pane_shadow_filter(const struct RTCFilterFunctionNArguments *a)
 {
-    const trace_context *context = (const void *)a->context;
+    const alpi_trace_context *context = (const void *)a->context;
     if (!context->panes) {
         alpi_embree_cut_filter(a);
         return;
@@ -59,7 +59,7 @@ void alpi_embree_pane_shadow_filter(const struct RTCFilterFunctionNArguments *a)
 
 void alpi_embree_pane_filter(const struct RTCFilterFunctionNArguments *a)
 {
-    const trace_context *context = (const void *)a->context;
+    const alpi_trace_context *context = (const void *)a->context;
     if (!context->panes) {
         alpi_embree_cut_filter(a);
     }
@@ -69,7 +69,7 @@ void alpi_embree_pane_filter(const struct RTCFilterFunctionNArguments *a)
 /// points outside for a counter-clockwise triangle.
 void alpi_embree_one_sided_filter(const struct RTCFilterFunctionNArguments *a)
 {
-    const trace_context *context = (const void *)a->context;
+    const alpi_trace_context *context = (const void *)a->context;
     for (unsigned i = 0; i < a->N; i++) {
         if (a->valid[i] == 0) {
             continue;

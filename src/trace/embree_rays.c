@@ -6,9 +6,9 @@
 #include <stddef.h>
 #include <string.h>
 
-static trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
+static alpi_trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
 {
-    trace_context context = {.tracer = tracer, .panes = filter.panes};
+    alpi_trace_context context = {.tracer = tracer, .panes = filter.panes};
     rtcInitIntersectContext(&context.embree);
     context.embree.filter = filter.one_sided ? alpi_embree_one_sided_filter : NULL;
     return context;
@@ -23,12 +23,16 @@ _Static_assert(2 * sizeof(alpi_rays) == sizeof(struct RTCRay16) &&
                    2 * offsetof(alpi_rays, flags) == offsetof(struct RTCRay16, flags),
                "two of them are what it takes of sixteen");
 
-static const _Alignas(32) int ALL_VALID[ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
+enum { ALL_LANES = (1 << ALPI_PACKET) - 1 };
+
+/// Of a packet, or of two.
+static const _Alignas(64) int ALL_VALID[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                            -1, -1, -1, -1, -1, -1, -1, -1};
 
 /// Which lanes take part, as Embree wants it.
 static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
 {
-    if (active == (1u << ALPI_PACKET) - 1u) {
+    if (active == ALL_LANES) {
         return ALL_VALID;
     }
     for (int i = 0; i < ALPI_PACKET; i++) {
@@ -48,7 +52,7 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
                                      filter.one_sided);
         return;
     }
-    trace_context context = start_context(tracer, filter);
+    alpi_trace_context context = start_context(tracer, filter);
     assert(!filter.quick || tracer->quick_scene != NULL);
     RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
     if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
@@ -147,7 +151,7 @@ __attribute__((noinline)) static void take_all(uint32_t first, const found_lanes
 /// Whether all its triangles are solid, and one after the other in the scene too.
 static bool is_in_row(const alpi_tracer *tracer)
 {
-    const uint32_t count = tracer->in_row[GEOMETRY_SOLID];
+    const uint32_t count = tracer->in_row[ALPI_GEOMETRY_SOLID];
     return count > 0 && count == alpi_tracer_triangle_count(tracer);
 }
 
@@ -170,7 +174,7 @@ static void copy_rays(const alpi_rays *rays, struct RTCRay8 *to)
 }
 
 static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
-                          trace_context *context, alpi_hits *hits)
+                          alpi_trace_context *context, alpi_hits *hits)
 {
     struct RTCRayHit8 found;
     _Alignas(32) int some[ALPI_PACKET];
@@ -181,7 +185,7 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
     const found_lanes lanes = FOUND_LANES(&found, 0);
     if (valid == ALL_VALID && is_in_row(tracer)) {
-        take_all(tracer->triangles[GEOMETRY_SOLID][0], &lanes, hits);
+        take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], &lanes, hits);
     } else {
         take_some(tracer, &lanes, active, hits);
     }
@@ -202,10 +206,8 @@ enum { PAIRS_TOGETHER = 4 };
 /// traced: vectors of sixteen that are read just after their halves were written wait for the
 /// memory.
 static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packets, uint32_t pairs,
-                        trace_context *context, alpi_hits *hits)
+                        alpi_trace_context *context, alpi_hits *hits)
 {
-    static const _Alignas(64) int valid[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                            -1, -1, -1, -1, -1, -1, -1, -1};
     struct RTCRayHit16 found[PAIRS_TOGETHER];
     const bool in_row = is_in_row(tracer);
     for (uint32_t p = 0; p < pairs; p++) {
@@ -215,14 +217,14 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
         memset(found[p].hit.instID, 0xff, sizeof found[p].hit.instID);
     }
     for (uint32_t p = 0; p < pairs; p++) {
-        rtcIntersect16(valid, tracer->embree_scene, &context->embree, &found[p]);
+        rtcIntersect16(ALL_VALID, tracer->embree_scene, &context->embree, &found[p]);
     }
     for (uint32_t i = 0; i < 2 * pairs; i++) {
         const found_lanes lanes = FOUND_LANES(&found[i / 2], i % 2 * ALPI_PACKET);
         if (in_row) {
-            take_all(tracer->triangles[GEOMETRY_SOLID][0], &lanes, &hits[i]);
+            take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], &lanes, &hits[i]);
         } else {
-            take_some(tracer, &lanes, 0xffu, &hits[i]);
+            take_some(tracer, &lanes, ALL_LANES, &hits[i]);
         }
     }
 }
@@ -235,7 +237,7 @@ void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *
         tracer->few->loops->nearest(tracer->few, packets, active, count, filter.one_sided, hits);
         return;
     }
-    trace_context context = start_context(tracer, filter);
+    alpi_trace_context context = start_context(tracer, filter);
     for (uint32_t p = 0; p < count; p++) {
         trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
     }
@@ -250,7 +252,7 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits)
 {
-    trace_context context = start_context(tracer, filter);
+    alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     trace_nearest(tracer, rays, active, &context, hits);
 }
@@ -259,13 +261,12 @@ void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays
                                       const uint32_t *active, uint32_t count,
                                       alpi_trace_filter filter, alpi_hits *hits)
 {
-    const uint32_t all = (1u << ALPI_PACKET) - 1u;
-    trace_context context = start_context(tracer, filter);
+    alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (uint32_t p = 0; p < count;) {
         uint32_t pairs = 0;
         while (tracer->wide && pairs < PAIRS_TOGETHER && p + 2 * pairs + 1 < count &&
-               (active[p + 2 * pairs] & active[p + 2 * pairs + 1]) == all) {
+               (active[p + 2 * pairs] & active[p + 2 * pairs + 1]) == ALL_LANES) {
             pairs++;
         }
         if (pairs > 0) {

@@ -10,17 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-static const alpi_few_loops *choose_loops(alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return &alpi_few_loops_v3;
-    }
-#endif
-    (void)context;
-    return &alpi_few_loops_baseline;
-}
-
 // --- corners and edges, each once ----------------------------------------------------------------
 
 static vec3 corner_of(const alpi_few *few, uint32_t corner)
@@ -299,7 +288,7 @@ alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, ui
     if (made == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    made->loops = choose_loops(scene->context);
+    made->loops = &ALPI_COMPILED_FOR(scene->context, alpi_few_loops);
     for (uint32_t t = 0; t < count; t++) {
         add_triangle(scene, triangles[t], made, &raw[t]);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays against a scene: nearest hit, and whether anything is hit. embree.h and the
-// files behind it alone know Embree; few.h answers for scenes of few triangles, brute_force.c, in
-// tests, by testing every triangle.
+// Rays against a scene: nearest hit, and whether anything is hit. embree.h and the files behind it
+// alone know Embree; few.h answers for scenes of few triangles, brute_force.c, in tests, by testing
+// every triangle.
 #ifndef ALPI_TRACE_TRACE_H
 #define ALPI_TRACE_TRACE_H
 

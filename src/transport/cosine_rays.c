@@ -70,7 +70,7 @@ static void place_rays(const alpi_cosine_rays *r, const alpi_receivers *receiver
         }
     }
     w->count = groups * ALPI_PACKET;
-    alpi_wave_loops_for(r->context)->draw(w, ALPI_USE_PLACE, 0);
+    ALPI_COMPILED_FOR(r->context, alpi_wave_loops).draw(w, ALPI_USE_PLACE, 0);
     for (uint32_t i = 0; i < w->count; i++) {
         square[i][0] = w->u[i];
         square[i][1] = w->v[i];
@@ -87,7 +87,7 @@ static void place_rays(const alpi_cosine_rays *r, const alpi_receivers *receiver
 static void aim_rays(const alpi_cosine_rays *r, const packet_place *places, uint32_t count,
                      alpi_path_wave *w)
 {
-    const alpi_wave_loops *loops = alpi_wave_loops_for(r->context);
+    const alpi_wave_loops *loops = &ALPI_COMPILED_FOR(r->context, alpi_wave_loops);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t first = (places[k].before + places[k].own) * ALPI_PACKET;
         for (uint32_t lane = 0; lane < ALPI_PACKET; lane++) {

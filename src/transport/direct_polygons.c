@@ -17,18 +17,6 @@ _Static_assert(CHUNK % R == 0 && SCOUTS % R == 0 && MISSED % R == 0, "replicates
 /// mean than this over the root of all samples.
 static const double UNEVEN = 0.25;
 
-/// The loops for this machine, unless the context asks for less.
-static const alpi_polygon_loops *loops_of(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return &alpi_polygon_loops_v3;
-    }
-#endif
-    (void)context;
-    return &alpi_polygon_loops_baseline;
-}
-
 // --- which there are -----------------------------------------------------------------------------
 
 static bool is_even(const alp_scene *scene, uint32_t triangle)
@@ -513,7 +501,7 @@ void alpi_polygons_start(const alpi_direct_options *options, const alpi_receiver
     g->options = options;
     g->receivers = receivers;
     g->samples = samples;
-    g->loops = loops_of(options->context);
+    g->loops = &ALPI_COMPILED_FOR(options->context, alpi_polygon_loops);
     g->rays = 0;
     g->above = false;
     memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set

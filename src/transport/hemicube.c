@@ -183,18 +183,6 @@ static alp_result fill(alpi_hemicube *cube)
     return fill_weights(cube);
 }
 
-/// The loops for this machine, unless the context asks for less.
-static alpi_hemicube_aim_fn *aim_of(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return alpi_hemicube_aim_v3;
-    }
-#endif
-    (void)context;
-    return alpi_hemicube_aim_baseline;
-}
-
 alp_result alpi_hemicube_create(alp_context *context, uint32_t resolution, alpi_hemicube **cube)
 {
     *cube = NULL;
@@ -209,7 +197,9 @@ alp_result alpi_hemicube_create(alp_context *context, uint32_t resolution, alpi_
     if (made == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    *made = (alpi_hemicube){.context = context, .resolution = resolution, .aim = aim_of(context)};
+    *made = (alpi_hemicube){.context = context,
+                            .resolution = resolution,
+                            .aim = ALPI_COMPILED_FOR(context, alpi_hemicube_aim)};
     const alp_result result = fill(made);
     if (result != ALP_OK) {
         alpi_hemicube_destroy(made);

@@ -130,18 +130,6 @@ static alp_result make_sequences(alpi_occlusion_setup *setup)
     return ALP_OK;
 }
 
-/// The kernel for this machine, unless the context asks for less.
-static alpi_occlusion_kernel *choose_kernel(alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return alpi_occlusion_kernel_v3;
-    }
-#endif
-    (void)context;
-    return alpi_occlusion_kernel_baseline;
-}
-
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options, alpi_occlusion_setup *setup)
 {
@@ -150,7 +138,7 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .context = scene->context,
         .scene = scene,
         .tracer = tracer,
-        .kernel = choose_kernel(scene->context),
+        .kernel = ALPI_COMPILED_FOR(scene->context, alpi_occlusion_kernel),
         .options = *options,
         .distance = alp_occlusion_distance(scene, options),
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),

@@ -70,7 +70,5 @@ typedef struct alpi_wave_loops {
 } alpi_wave_loops;
 
 extern const alpi_wave_loops alpi_wave_loops_baseline, alpi_wave_loops_v3;
-/// Those for this machine, unless the context asks for less.
-const alpi_wave_loops *alpi_wave_loops_for(const alp_context *context);
 
 #endif

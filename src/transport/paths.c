@@ -38,20 +38,9 @@ void alpi_paths_place(alpi_path_wave *w, uint32_t i, const alpi_receiver_point *
     w->offset[i] = p->offset;
 }
 
-const alpi_wave_loops *alpi_wave_loops_for(const alp_context *context)
-{
-#ifdef ALPI_HAS_V3_KERNEL
-    if (alpi_context_has_v3(context)) {
-        return &alpi_wave_loops_v3;
-    }
-#endif
-    (void)context;
-    return &alpi_wave_loops_baseline;
-}
-
 void alpi_paths_draw_places(const alpi_reference *r, alpi_path_wave *w)
 {
-    alpi_wave_loops_for(r->context)->draw(w, ALPI_USE_PLACE, 0);
+    ALPI_COMPILED_FOR(r->context, alpi_wave_loops).draw(w, ALPI_USE_PLACE, 0);
 }
 
 // --- light that is asked for ---------------------------------------------------------------------
@@ -468,7 +457,7 @@ void alpi_paths_run(const alpi_reference *r, alpi_path_wave *w)
     if (w->count == 0) {
         return;
     }
-    const alpi_wave_loops *loops = alpi_wave_loops_for(r->context);
+    const alpi_wave_loops *loops = &ALPI_COMPILED_FOR(r->context, alpi_wave_loops);
     w->first = w->throughput.x[0];
     ready(w);
     if (w->depth[0] < 0) {

@@ -36,6 +36,7 @@ UNLAWFUL = [  # file, its text, words of the fault
     ("src/trace/loop_v4.c", "", "not listed"),
     ("src/trace/embree.c", "#include <pthread.h>\n", "may only be included from src/base"),
     ("src/trace/embree.c", '#include "base/a.c"\n', "is not a header"),
+    ("src/maps/a.h", '#include "trace/embree.h"\n', "only trace may include it"),
     ("src/cellar/a.c", "", "is not a room"),
     ("include/alpenglow/result.h", "#include <stdio.h>\n", "public header may not include"),
     ("include/alpenglow/result.h", '#include "base/a.h"\n', "C headers only"),
