@@ -125,6 +125,37 @@ double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, 
     return seconds;
 }
 
+double raw_embree_time_pairs(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
+                             double (*clock)(void))
+{
+    enum { BLOCK = 128, FIELD = sizeof packets->origin_x, FIELDS = sizeof *packets / FIELD };
+    static const _Alignas(64) int valid[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                            -1, -1, -1, -1, -1, -1, -1, -1};
+    static _Thread_local struct RTCRayHit16 block[BLOCK];
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    double seconds = 0.0;
+    for (uint32_t first = 0; first + 2 <= count; first += 2 * BLOCK) {
+        const uint32_t left = (count - first) / 2, some = left < BLOCK ? left : BLOCK;
+        for (uint32_t i = 0; i < 2 * some; i++) {
+            char *to = (char *)&block[i / 2].ray + i % 2 * FIELD;
+            for (size_t k = 0; k < FIELDS; k++) {
+                memcpy(to + 2 * k * FIELD, (const char *)&packets[first + i] + k * FIELD, FIELD);
+            }
+        }
+        for (uint32_t i = 0; i < some; i++) {
+            memset(&block[i].hit, 0xff, sizeof block[i].hit);
+        }
+        const double started = clock();
+        for (uint32_t i = 0; i < some; i++) {
+            rtcIntersect16(valid, raw->scene, &context, &block[i]);
+        }
+        seconds += clock() - started;
+    }
+    return seconds;
+}
+
 static void call_again(const raw_embree *raw, const embree_packet *p, struct RTCRayHit8 *packet,
                        alpi_rays *stream)
 {

@@ -23,6 +23,9 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
 /// @return its seconds of the calls alone
 double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
                                bool coherent, double (*clock)(void));
+/// The same of pairs of packets by rtcIntersect16, with the coherent flag. An odd last is left out.
+double raw_embree_time_pairs(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
+                             double (*clock)(void));
 /// The recorded calls that begin at packets [begin, end), in the same way.
 double raw_embree_time_calls(const raw_embree *raw, const embree_record *record, uint32_t begin,
                              uint32_t end, double (*clock)(void));
