@@ -67,7 +67,6 @@ enum {
     // Of later rounds: fresh 24, counts 4, lists 8, noisy 1, halves of samples 1, between 1;
     // rays of each 4, the worst 5.
     ROUND_BYTES = 48,
-    SHARE_BYTES = 12, // and of those halves, where emissive polygons may stand beside other light
     // Texels held out, with what they found in a round; and in all rounds; and probes.
     HELD_OUT_BYTES = sizeof(alpi_held_out) +
                      (ALPI_HELD_OUT + ALPI_BOUNCED_PROBES) * sizeof(alpi_reference_value),
@@ -110,23 +109,14 @@ static bool has_occlusion(const alp_bake_options *options)
     return (options->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
 }
 
-/// Whether there is direct light beside that of emissive surfaces; other skies than pictures are
-/// met.
-static bool has_others(const alp_scene *scene, const alp_lighting_options *o)
-{
-    return o->sky.kind == ALP_SKY_IMAGE || o->sun.illuminance > 0.0f || o->lamp_count > 0 ||
-           scene->light_count > 0;
-}
-
 /// Bytes of a texel in the rounds, but for what is left of the solution.
-static uint64_t find_round_bytes(const alp_scene *scene, const alp_bake_options *options)
+static uint64_t find_round_bytes(const alp_bake_options *options)
 {
     const alp_light_options *o = &options->light;
     const bool again = alpi_light_has_rounds(options), apart = o->direct == ALP_DIRECT_APART;
     const uint64_t sky = o->lighting.sky.kind != ALP_SKY_NONE ? SKY_BYTES : 0u;
     const uint64_t levels = has_occlusion(options) ? LEVEL_BYTES : 0u;
-    const uint64_t shares = has_others(scene, &o->lighting) ? SHARE_BYTES : 0u;
-    const uint64_t later = again ? ROUND_BYTES + shares + sky : levels;
+    const uint64_t later = again ? ROUND_BYTES + sky : levels;
     return GATHER_BYTES + VALUE_BYTES + sky + // the second are those of direct light
            larger(larger(o->denoise ? DENOISE_BYTES_PER_TEXEL : 0u, later),
                   apart ? APART_BYTES : 0u);
@@ -174,7 +164,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
-    m.rounds = larger(m.rounds, find_round_bytes(scene, options) * texels +
+    m.rounds = larger(m.rounds, find_round_bytes(options) * texels +
                                     (bands < most ? bands : most) + HELD_OUT_BYTES +
                                     (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
                                                : places + find_settled(atlas, options, sides)));

@@ -20,10 +20,10 @@
 /// many here, for they cost stratification, of which direct light lives: 16 have an error 15 to
 /// 20 % larger at the same number of rays (penumbrae and polygons of test_direct.c).
 enum { ALPI_DIRECT_REPLICATES = 8 };
-/// Replicates of one half of the samples are not even that: apart from polygons, each half is one
-/// sequence, dealt out to its replicates. One of 4 n points errs less than four of n: on zdm2 under
-/// its sky 2000 samples by as much as 3600 of eight sequences. The difference of the halves tells
-/// how much less, see direct_sums.h.
+/// Replicates of one half of the samples are not even that: each half is one sequence, dealt out to
+/// its replicates. One of 4 n points errs less than four of n: on zdm2 under its sky 2000 samples
+/// by as much as 3600 of eight sequences. The difference of the halves tells how much less, see
+/// direct_sums.h.
 enum { ALPI_DIRECT_HALF = ALPI_DIRECT_REPLICATES / 2 };
 /// Up to here each light, and each emissive material, has a part of its own. More lights are drawn
 /// in proportion to what they give, with as many samples as one of them would have.

@@ -28,6 +28,7 @@ typedef struct alpi_polygon {
 typedef struct alpi_polygon_wave {
     uint32_t count;
     uint32_t scouts; // the last of them count in no sum
+    uint32_t each;   // samples that each replicate is to have
     _Alignas(32) float position[3][ALPI_POLYGON_CHUNK][ALPI_PACKET]; // metres
     float normal[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // unit, the hemisphere's axis
     float origin[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // metres: where rays start
@@ -52,7 +53,9 @@ typedef struct alpi_polygon_tally {
 
 /// The loops that are compiled for each instruction set.
 typedef struct alpi_polygon_loops {
-    /// u and v of samples from `first` on, for one use. The replicates take turns.
+    /// u and v of samples from `first` on, for one use. The replicates take turns, and those of a
+    /// half are one sequence.
+    /// @param keys [ALPI_POLYGON_HALVES] of the receivers
     void (*draw)(alpi_polygon_wave *wave, const uint32_t (*keys)[ALPI_PACKET], uint32_t use,
                  uint32_t first);
     /// Form factors, weights and rays to the points of the polygon that u and v tell.

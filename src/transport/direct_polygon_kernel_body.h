@@ -8,13 +8,26 @@
 #include "scene/double3.h"
 #include "transport/occlusion_aim.h"
 
+static inline uint32_t half_of(uint32_t sample) // chunks begin with the first replicate
+{
+    return sample % ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALF;
+}
+
+/// Where a sample is in the sequence of its half: each replicate has a run of it, and samples
+/// beyond all runs take turns.
+static inline uint32_t place_in_half(uint32_t sample, uint32_t each)
+{
+    const uint32_t replicate = sample % ALPI_POLYGON_HALF, own = sample / ALPI_DIRECT_REPLICATES;
+    return own < each ? replicate * each + own : own * ALPI_POLYGON_HALF + replicate;
+}
+
 static void draw(alpi_polygon_wave *w, const uint32_t (*keys)[ALPI_PACKET], uint32_t use,
                  uint32_t first)
 {
     const uint32_t of_use = alpi_hash32(use + 1u);
     for (uint32_t s = 0; s < w->count; s++) {
-        const uint32_t *key = keys[(first + s) % ALPI_DIRECT_REPLICATES];
-        const uint32_t sample = (first + s) / ALPI_DIRECT_REPLICATES;
+        const uint32_t *key = keys[half_of(first + s)];
+        const uint32_t sample = place_in_half(first + s, w->each);
         ALPI_EACH_LANE
         {
             const vec2 u = alpi_sample_2d(alpi_hash32(key[i] ^ of_use), sample);
@@ -182,11 +195,6 @@ static void add_clipped(lanes_view *v)
         add_arc(&from, &to, v);
     }
     add_arc(&h.left, &h.risen, v);
-}
-
-static inline uint32_t half_of(uint32_t sample) // chunks begin with the first replicate
-{
-    return sample % ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALF;
 }
 
 /// Form factors from the points of a sample, 0 where a point is behind, or so close to its plane

@@ -505,6 +505,7 @@ void alpi_polygons_start(const alpi_direct_options *options, const alpi_receiver
     g->rays = 0;
     g->above = false;
     memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set
+    g->wave.each = samples / R;
     for (uint32_t s = 0; s < CHUNK; s++) {
         alpi_rays_clear(&g->wave.rays[s]);
     }
@@ -515,8 +516,8 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         const uint32_t receiver = receivers[i < count ? i : count - 1];
         const uint32_t key = alpi_random_key(g->options->seed, receiver, STREAM_POLYGON);
-        for (uint32_t r = 0; r < R; r++) {
-            g->keys[r][i] = alpi_hash32(key ^ alpi_hash32(r + 1u));
+        for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+            g->keys[h][i] = alpi_hash32(key ^ alpi_hash32(h + 1u));
         }
     }
     memset(g->tallies, 0, g->polygon_count * sizeof *g->tallies);

@@ -6,7 +6,7 @@
 // ray is free and c the light that it would bring. Where all rays agree, as where a polygon is
 // wholly visible or hidden, V has no noise. It is a ratio of means: its bias, where rays disagree,
 // falls as 1 / samples, and is far below its noise (16 samples of a half hidden quad: below 1 %,
-// noise 18 %; test_direct_polygons.c).
+// noise 11 %; test_direct_polygons.c).
 //
 // Points of a polygon are of even density over its area, which is fast; for a receiver closer than
 // its diameter, over its solid angle; where none of them was above the horizon, over what is.
@@ -48,7 +48,7 @@ typedef struct alpi_polygon_gather {
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint8_t scouts[ALPI_POLYGON_LIMIT][2];                    // whether any was free, any stopped
     uint32_t missed[ALPI_POLYGON_LIMIT]; // bit i: no ray of lane i went to what it sees
-    uint32_t keys[ALPI_DIRECT_REPLICATES][ALPI_PACKET];
+    uint32_t keys[ALPI_POLYGON_HALVES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];

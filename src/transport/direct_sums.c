@@ -30,49 +30,23 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
     }
 }
 
-/// Whether the replicates of a half are one sequence. Polygons have all emissive materials, or
-/// none.
-static bool is_joined(const alpi_direct *d, uint32_t part)
-{
-    const alpi_direct_kind kind = d->parts[part].kind;
-    return d->polygon_count == 0 || (kind != ALPI_DIRECT_MATERIAL && kind != ALPI_DIRECT_MATERIALS);
-}
-
-static bool has_joined(const alpi_direct *d)
-{
-    bool any = false;
-    for (uint32_t p = 0; p < d->part_count; p++) {
-        any = any || is_joined(d, p);
-    }
-    return any;
-}
-
 alp_result alpi_direct_halves_create(const alpi_direct *d, uint32_t count,
                                      alpi_direct_halves *halves)
 {
-    *halves = (alpi_direct_halves){NULL, NULL};
-    if (!has_joined(d)) {
-        return ALP_OK;
-    }
+    *halves = (alpi_direct_halves){NULL};
     ALPI_TRY_NEW(d->options.context, halves->sums, count / ALPI_PACKET + 1);
-    if (d->polygon_count > 0) {
-        ALPI_TRY_NEW(d->options.context, halves->shares, count);
-    }
     return ALP_OK;
 }
 
 void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves)
 {
     alpi_release(d->options.context, halves->sums);
-    alpi_release(d->options.context, halves->shares);
 }
 
-/// @param sums of the joined parts together  @param all that there is
+/// @param sums of all parts together
 static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_reference_value *all,
                            uint32_t place, const alpi_direct_halves *halves)
 {
-    alpi_reference_value joined;
-    alpi_reference_mean(sums, R, each, &joined);
     double apart = 0.0, variance = 0.0;
     for (int k = 0; k < 3; k++) {
         double half[2] = {0.0, 0.0};
@@ -80,23 +54,17 @@ static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_re
             half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
         }
         apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
-        variance += (double)joined.variance[k];
-        if (halves->shares != NULL) { // all may have less than a part of it, by chance
-            halves->shares[place][k] = fminf(joined.variance[k] / all->variance[k], 1.0f);
-        }
+        variance += (double)all->variance[k];
     }
     halves->sums[place / ALPI_PACKET][0] += (float)apart;
     halves->sums[place / ALPI_PACKET][1] += (float)variance;
 }
 
-/// Adds up the parts, or those of them that are joined.
-static void add_parts(const alpi_direct *d, const double (*sums)[R][3], bool all, double out[R][3])
+/// Adds up the parts.
+static void add_parts(const alpi_direct *d, const double (*sums)[R][3], double out[R][3])
 {
     memset(out, 0, R * sizeof *out);
     for (uint32_t p = 0; p < d->part_count; p++) {
-        if (!all && !is_joined(d, p)) {
-            continue;
-        }
         for (int i = 0; i < 3 * R; i++) {
             out[i / 3][i % 3] += sums[p][i / 3][i % 3];
         }
@@ -119,15 +87,12 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
         *value = part; // of one part: all there is
     }
+    add_parts(d, sums, together);
     if (d->part_count != 1) {
-        add_parts(d, sums, true, together);
         alpi_reference_mean((const double(*)[3])together, R, each, value);
         memcpy(value->mean, mean, sizeof mean);
     }
-    if (halves->sums != NULL) {
-        add_parts(d, sums, false, together);
-        compare_halves((const double(*)[3])together, each, value, place, halves);
-    }
+    compare_halves((const double(*)[3])together, each, value, place, halves);
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
@@ -153,7 +118,7 @@ static void scale_parts(const alpi_direct *d, uint32_t receiver, float scale,
 {
     for (uint32_t p = 0; p < d->part_count && output->parts != NULL; p++) {
         float *v = output->parts[(size_t)receiver * d->part_count + p].variance;
-        for (int k = 0; k < 3 && is_joined(d, p); k++) {
+        for (int k = 0; k < 3; k++) {
             v[k] *= scale;
         }
     }
@@ -164,16 +129,12 @@ alp_result alpi_direct_scale_variances(const alpi_direct *d, const uint32_t *lis
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
     const uint32_t blocks = count / ALPI_PACKET + 1;
-    if (halves->sums == NULL) {
-        return ALP_OK;
-    }
     ALP_TRY(alpi_parallel_sum(d->options.context, blocks, add_halves, halves, NULL, sums));
     const float scale = find_scale(sums);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t receiver = list != NULL ? list[i] : i;
         for (int k = 0; k < 3; k++) {
-            const float share = halves->shares != NULL ? halves->shares[i][k] : 1.0f;
-            output->values[receiver].variance[k] *= 1.0f + share * (scale - 1.0f);
+            output->values[receiver].variance[k] *= scale;
         }
         scale_parts(d, receiver, scale, output);
     }

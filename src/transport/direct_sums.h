@@ -22,10 +22,8 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
 /// Few receivers do not tell, nor many of which few have all the noise: of those V partly stays,
 /// which is too large.
 typedef struct alpi_direct_halves {
-    float (*sums)[2]; // [(count + 7) / 8] (a − b)² / 4 and V of what is not of polygons, over the
-                      // channels and the receivers of a block; NULL where polygons are all there is
-    float (*shares)[3]; // [count] that V over that of all, by channel; NULL where polygons are
-                        // none, or all there is
+    float (*sums)[2]; // [(count + 7) / 8] (a − b)² / 4 and V, over the channels and the receivers
+                      // of a block
 } alpi_direct_halves;
 
 /// @param count of receivers listed  @return ALP_OK; OUT_OF_MEMORY. Release on failure too

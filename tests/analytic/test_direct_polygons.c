@@ -222,7 +222,8 @@ static void neighbours_find(void **state)
 }
 
 /// The same bits alone or among others where nothing is hidden, though some are cut by the horizon
-/// or near, and by the loops for other machines.
+/// or near, and by the loops for other machines. (What is left of variances, rounding, is scaled by
+/// what all of a call tell: see direct_sums.h.)
 static void the_same_bits(void **state)
 {
     (void)state;
@@ -233,8 +234,8 @@ static void the_same_bits(void **state)
     gather(&s, points, NULL, 0, values);
     for (uint32_t i = 0; i < POINTS; i++) {
         gather(&s, points, &i, 1, others);
+        assert_memory_equal(values[i].mean, others[i].mean, sizeof values[i].mean);
     }
-    assert_memory_equal(values, others, sizeof values);
     test_stage_close(&s);
     alp_context_options o = alp_context_options_default();
     alp_context *plain = NULL;
