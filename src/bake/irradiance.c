@@ -13,6 +13,8 @@
 
 #include <math.h>
 
+enum { TEXELS_PER_RANGE = 4096 };
+
 bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
 {
     return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
@@ -24,6 +26,27 @@ static bool is_by_hemicubes(const alpi_bake_job *job)
     return o->gather == ALP_GATHER_HEMICUBE && o->bounces > 0;
 }
 
+typedef struct take_job {
+    alpi_bake_job *job;
+    const uint32_t *order;
+    const alpi_reference_value *values;
+} take_job;
+
+static alp_result take_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const take_job *t = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = t->order[i];
+        const alpi_reference_value *v = &t->values[texel];
+        for (int k = 0; k < 3; k++) {
+            t->job->irradiance[texel][k] = v->mean[k];
+            t->job->irradiance_errors[texel][k] = sqrtf(v->variance[k]);
+        }
+    }
+    return ALP_OK;
+}
+
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
 static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
                               const alpi_reference_value *values)
@@ -31,13 +54,8 @@ static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_
     const uint32_t texels = job->lightmap->texels.count;
     ALPI_TRY_NEW(job->context, job->irradiance, texels);
     ALPI_TRY_NEW(job->context, job->irradiance_errors, texels);
-    for (uint32_t i = 0; i < count; i++) {
-        const alpi_reference_value *v = &values[order[i]];
-        for (int k = 0; k < 3; k++) {
-            job->irradiance[order[i]][k] = v->mean[k];
-            job->irradiance_errors[order[i]][k] = sqrtf(v->variance[k]);
-        }
-    }
+    take_job take = {job, order, values};
+    ALP_TRY(alpi_parallel_for(job->context, count, TEXELS_PER_RANGE, take_range, &take, NULL));
     alpi_light_error error;
     ALP_TRY(alpi_light_find_error(job->context, values, texels, order, count, &error));
     const bool told = !is_by_hemicubes(job);

@@ -111,11 +111,9 @@ double alpi_light_solved_noise(double bounced);
 /// @param noise 1 / √ rays that a block's light is known by
 double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
                                double noise);
-/// Adds it to the variances of task->values, as a share of the bounced light of each texel.
-/// @param skies as of alpi_light_sum
-void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share);
 
 /// What the two make of the light so far, which stays as it is.
+/// @param share error of the solution, over the bounced light of each texel: added to variances
 /// @param whole [texels] out
 /// @return ALP_OK
 alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
@@ -124,9 +122,10 @@ alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task
 
 /// Adds direct light to bounced light, and keeps them apart where that is asked for.
 /// @param skies [texels] or NULL: what of the bounced light is a soft sky's
+/// @param share as of alpi_light_peek
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
-                          const alpi_radiosity *solution, float (*skies)[3]);
+                          const alpi_radiosity *solution, const float (*skies)[3], double share);
 
 /// Takes noise off task->values, and keeps the sky's share of them. Whoever ends the bake before,
 /// or meanwhile, and keeps what there is, gets the light as it was gathered: no texel is changed

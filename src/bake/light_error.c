@@ -4,6 +4,7 @@
 #include "bake/light_error.h"
 
 #include "base/memory.h"
+#include "base/tasks.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,26 +14,40 @@ static double sum_variances(const alpi_reference_value *v)
     return (double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2];
 }
 
+typedef struct error_job {
+    const alpi_reference_value *values;
+    const uint32_t *order;
+    float *errors; // [texels] out
+} error_job;
+
+/// Sums means and variances of the channels.
+static void sum_errors(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+{
+    const error_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const alpi_reference_value *v = &job->values[job->order[i]];
+        const double square = sum_variances(v);
+        sums[0] += (double)v->mean[0] + (double)v->mean[1] + (double)v->mean[2];
+        sums[1] += square;
+        job->errors[job->order[i]] = (float)sqrt(square / 3.0); // of its channels
+    }
+}
+
 alp_result alpi_light_find_error(alp_context *context, const alpi_reference_value *values,
                                  uint32_t texels, const uint32_t *order, uint32_t count,
                                  alpi_light_error *error)
 {
-    double mean = 0.0, squares = 0.0, p99 = 0.0;
-    float *errors = ALPI_NEW(context, float, texels);
-    if (errors == NULL) {
+    double sums[ALPI_SUM_LIMIT] = {0.0}, p99 = 0.0;
+    const error_job job = {values, order, ALPI_NEW(context, float, texels)};
+    if (job.errors == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const alpi_reference_value *v = &values[order[i]];
-        const double square = sum_variances(v);
-        for (int k = 0; k < 3; k++) {
-            mean += (double)v->mean[k];
-        }
-        errors[order[i]] = (float)sqrt(square / 3.0); // of its channels
-        squares += square;
+    alp_result result = alpi_parallel_sum(context, count, sum_errors, &job, NULL, sums);
+    if (result == ALP_OK) {
+        result = alpi_percentile(context, job.errors, order, count, 0.99, &p99);
     }
-    const alp_result result = alpi_percentile(context, errors, order, count, 0.99, &p99);
-    alpi_release(context, errors);
+    alpi_release(context, job.errors);
+    const double mean = sums[0], squares = sums[1];
     const double all = 3.0 * fmax((double)count, 1.0);
     *error = (alpi_light_error){.mean = mean / all, .over_mean = {(double)NAN, (double)NAN}};
     if (mean > 0.0) {

@@ -438,9 +438,8 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
         result = alpi_light_denoise(job, task, r.skies);
     }
     if (result == ALP_OK) {
-        alpi_light_state_solved(task, (const float(*)[3])r.skies,
+        result = alpi_light_sum(job, task, solution, (const float(*)[3])r.skies,
                                 alpi_light_round_solved_share(&r));
-        result = alpi_light_sum(job, task, solution, r.skies);
     }
     alpi_release(job->context, r.skies);
     alpi_release(job->context, r.states);

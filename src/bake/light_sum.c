@@ -46,14 +46,6 @@ static void state_solved(alpi_reference_value *value, const float *sky, double s
     }
 }
 
-void alpi_light_state_solved(const alpi_light_task *task, const float (*skies)[3], double share)
-{
-    for (uint32_t i = 0; i < task->count; i++) {
-        const uint32_t texel = task->order[i];
-        state_solved(&task->values[texel], skies != NULL ? skies[texel] : NULL, share);
-    }
-}
-
 /// Makes of bounced light, and the sky's that came with it, what a map holds.
 /// @param direct NULL: it holds neither that nor the sky's
 static void add_direct(alpi_reference_value *value, const float *sky,
@@ -97,8 +89,42 @@ alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task
     return alpi_parallel_for(job->context, task->count, TEXELS_PER_RANGE, peek_range, &p, NULL);
 }
 
+typedef struct sum_job {
+    alpi_bake_job *job;
+    const alpi_light_task *task;
+    const alpi_radiosity *solution;
+    const float (*skies)[3];
+    double share;
+    bool on; // direct light
+} sum_job;
+
+static alp_result sum_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const sum_job *s = user;
+    alpi_bake_job *job = s->job;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = s->task->order[i];
+        const float *sky = s->skies != NULL ? s->skies[texel] : NULL;
+        const alpi_reference_value *direct = &s->solution->direct[texel];
+        alpi_reference_value *value = &s->task->values[texel];
+        state_solved(value, sky, s->share);
+        for (int k = 0; k < 3 && job->direct != NULL; k++) {
+            const float of_sky = sky != NULL ? sky[k] : 0.0f;
+            job->direct[texel][k] = direct->mean[k] + of_sky;
+            job->bounced[texel][k] = value->mean[k] - of_sky;
+        }
+        add_direct(value, sky, s->on ? direct : NULL);
+        if (s->on && s->task->directional != NULL) {
+            alpi_directional_mix(&s->task->directional[texel], 1.0f,
+                                 &s->solution->directional[texel], 1.0f);
+        }
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
-                          const alpi_radiosity *solution, float (*skies)[3])
+                          const alpi_radiosity *solution, const float (*skies)[3], double share)
 {
     const uint32_t texels = task->receivers->count;
     if (alpi_bake_lights_apart(job)) {
@@ -106,22 +132,8 @@ alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
         ALPI_TRY_NEW(job->context, job->bounced, texels);
     }
     const bool on = job->options.light.direct != ALP_DIRECT_OFF;
-    for (uint32_t i = 0; i < task->count; i++) {
-        const uint32_t texel = task->order[i];
-        const float *sky = skies != NULL ? skies[texel] : NULL;
-        const alpi_reference_value *direct = &solution->direct[texel];
-        alpi_reference_value *value = &task->values[texel];
-        for (int k = 0; k < 3 && job->direct != NULL; k++) {
-            const float of_sky = sky != NULL ? sky[k] : 0.0f;
-            job->direct[texel][k] = direct->mean[k] + of_sky;
-            job->bounced[texel][k] = value->mean[k] - of_sky;
-        }
-        add_direct(value, sky, on ? direct : NULL);
-        if (on && task->directional != NULL) {
-            alpi_directional_mix(&task->directional[texel], 1.0f, &solution->directional[texel],
-                                 1.0f);
-        }
-    }
-    alpi_bake_sum_layers(job, task->order, task->count, (const float(*)[3])skies, on, task->values);
+    sum_job sum = {job, task, solution, skies, share, on};
+    ALP_TRY(alpi_parallel_for(job->context, task->count, TEXELS_PER_RANGE, sum_range, &sum, NULL));
+    alpi_bake_sum_layers(job, task->order, task->count, skies, on, task->values);
     return ALP_OK;
 }

@@ -164,8 +164,8 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
-    m.rounds = larger(m.rounds, find_round_bytes(options) * texels +
-                                    (bands < most ? bands : most) + HELD_OUT_BYTES +
+    m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
+                                    HELD_OUT_BYTES +
                                     (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
                                                : places + find_settled(atlas, options, sides)));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts

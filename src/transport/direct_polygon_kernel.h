@@ -29,6 +29,7 @@ typedef struct alpi_polygon_wave {
     uint32_t count;
     uint32_t scouts; // the last of them count in no sum
     uint32_t each;   // samples that each replicate is to have
+    uint32_t begin;  // replicate of the first sample
     _Alignas(32) float position[3][ALPI_POLYGON_CHUNK][ALPI_PACKET]; // metres
     float normal[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // unit, the hemisphere's axis
     float origin[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // metres: where rays start

@@ -8,7 +8,7 @@
 #include "scene/double3.h"
 #include "transport/occlusion_aim.h"
 
-static inline uint32_t half_of(uint32_t sample) // chunks begin with the first replicate
+static inline uint32_t half_of(uint32_t sample)
 {
     return sample % ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALF;
 }
@@ -221,7 +221,7 @@ static bool find_factors(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s
     for (int k = 0; k < 4 && !clipped; k++) {
         add_edge(k, &v);
     }
-    const float *wanted = w->wanted[half_of(s)];
+    const float *wanted = w->wanted[half_of(w->begin + s)];
     _Alignas(32) float given[ALPI_PACKET];
     const double3 front = double3_from(p->normal);
     const double behind = p->two_sided ? -1.0 : 0.0;
@@ -308,7 +308,7 @@ static void aim_scout(alpi_polygon_wave *w, const alpi_polygon *p, uint32_t s)
 static void aim(alpi_polygon_wave *w, const alpi_polygon *p)
 {
     for (uint32_t s = 0; s < w->count - w->scouts; s++) {
-        if (w->any_wanted[half_of(s)] && find_factors(w, p, s)) {
+        if (w->any_wanted[half_of(w->begin + s)] && find_factors(w, p, s)) {
             aim_sample(w, p, s, &w->rays[s]);
         } else {
             clear_sample(w, s);
@@ -325,7 +325,7 @@ static void tally(const alpi_polygon_wave *w, bool panes, alpi_polygon_tally *t)
 {
     const double share = panes ? 0.0 : 1.0;
     for (uint32_t s = 0; s < w->count - w->scouts; s++) {
-        const uint32_t r = s % ALPI_DIRECT_REPLICATES; // chunks begin with the first
+        const uint32_t r = (w->begin + s) % ALPI_DIRECT_REPLICATES;
         ALPI_EACH_LANE
         {
             const double weight = (double)w->weight[s][i];

@@ -17,102 +17,7 @@ _Static_assert(CHUNK % R == 0 && SCOUTS % R == 0 && MISSED % R == 0, "replicates
 /// mean than this over the root of all samples.
 static const double UNEVEN = 0.25;
 
-// --- which there are -----------------------------------------------------------------------------
-
-static bool is_even(const alp_scene *scene, uint32_t triangle)
-{
-    const alpi_material *m =
-        &scene->materials[scene->surfaces[scene->triangle_surface[triangle]].material];
-    return m->alpha_mode == ALPI_ALPHA_OPAQUE && (m->emission_texture.image == ALPI_NONE ||
-                                                  scene->images[m->emission_texture.image] == NULL);
-}
-
-/// A triangle; false where it has no shape that floats can hold.
-static bool start_polygon(const alp_scene *scene, uint32_t triangle, alpi_polygon *p)
-{
-    vec3 c[3];
-    const vec3 none = {0.0f, 0.0f, 0.0f};
-    alpi_triangle_corners(scene, triangle, c);
-    *p = (alpi_polygon){.corner = {c[0], c[1], c[2], c[0]},
-                        .triangle = true,
-                        .two_sided = alpi_surface_is_double_sided(scene, triangle),
-                        .normal = vec3_triangle_normal(c[0], c[1], c[2], none)};
-    p->radiance = alpi_surface_emission(scene, triangle, 1.0f / 3.0f, 1.0f / 3.0f, p->normal);
-    return vec3_length(p->normal) > 0.0f;
-}
-
-static bool same(vec3 a, vec3 b)
-{
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/// Makes two triangles one where they share an edge of opposite ways, and the corners beyond it lie
-/// as those of a parallelogram, to within rounding.
-static bool join(alpi_polygon *p, const alpi_polygon *q)
-{
-    for (int i = 0; i < 3 && p->triangle; i++) {
-        for (int j = 0; j < 3; j++) {
-            // The edge from corner i to the next, with a opposite in p and b in q.
-            const vec3 from = p->corner[i], to = p->corner[i + 1], a = p->corner[(i + 2) % 3];
-            const vec3 b = q->corner[(j + 2) % 3];
-            const vec3 apart = vec3_sub(vec3_add(a, b), vec3_add(from, to));
-            const float size = vec3_length(from) + vec3_length(to) + vec3_length(vec3_sub(a, b));
-            if (same(from, q->corner[j + 1]) && same(to, q->corner[j]) &&
-                vec3_length(apart) <= 4.0f * 0x1p-23f * size &&
-                vec3_dot(p->normal, q->normal) > 0.0f) {
-                const vec3 corner[4] = {from, b, to, a};
-                memcpy(p->corner, corner, sizeof corner);
-                p->triangle = false;
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-static void measure(alpi_polygon *p)
-{
-    const vec3 *c = p->corner;
-    const vec3 third = p->triangle ? c[2] : c[3];
-    p->along = vec3_sub(c[1], c[0]);
-    p->across = vec3_sub(third, c[0]);
-    p->area = (float)(vec3_triangle_area(c[0], c[1], third) * (p->triangle ? 1.0 : 2.0));
-    p->middle = vec3_scale(vec3_add(c[0], c[2]), 0.5f);
-    for (int k = 0; k < 4; k++) {
-        for (int j = 0; j < k; j++) {
-            p->diameter = fmaxf(p->diameter, vec3_length(vec3_sub(c[k], c[j])));
-        }
-    }
-}
-
-uint32_t alpi_polygons_collect(const alpi_direct_emitters *emitters, const uint32_t *parts,
-                               alpi_polygon polygons[ALPI_POLYGON_LIMIT])
-{
-    const alp_scene *scene = emitters->scene;
-    const alpi_emitters *all = &emitters->all;
-    uint32_t count = 0, last_surface = ALPI_NONE;
-    if (all->count > ALPI_POLYGON_LIMIT) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < all->count; i++) {
-        alpi_polygon p;
-        const uint32_t surface = scene->triangle_surface[all->triangles[i]];
-        if (!is_even(scene, all->triangles[i]) || !start_polygon(scene, all->triangles[i], &p)) {
-            return 0;
-        }
-        p.part = parts[scene->surfaces[surface].material];
-        if (count == 0 || surface != last_surface || !join(&polygons[count - 1], &p)) {
-            polygons[count++] = p;
-        }
-        last_surface = surface;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        measure(&polygons[i]);
-    }
-    return count;
-}
-
-// --- gathering -----------------------------------------------------------------------------------
+// --- samples -------------------------------------------------------------------------------------
 
 static void place_lane(alpi_polygon_gather *g, uint32_t receiver, int lane)
 {
@@ -189,9 +94,10 @@ static void tally_panes(alpi_polygon_gather *g, uint32_t polygon)
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             if ((free >> i & 1u) != 0) {
                 const double weight = (double)w->weight[s][i];
-                t->seen[0][s % R][i] += weight * (double)left[i].x;
-                t->seen[1][s % R][i] += weight * (double)left[i].y;
-                t->seen[2][s % R][i] += weight * (double)left[i].z;
+                const uint32_t r = (w->begin + s) % R;
+                t->seen[0][r][i] += weight * (double)left[i].x;
+                t->seen[1][r][i] += weight * (double)left[i].y;
+                t->seen[2][r][i] += weight * (double)left[i].z;
                 if (g->by_direction) {
                     add_direction(g, polygon, s, i, left[i]);
                 }
@@ -381,6 +287,60 @@ static bool choose(alpi_polygon_gather *g, uint32_t count)
     return any;
 }
 
+/// After one half of the fewest samples that there can be, whose points are of as many minds as
+/// neighbours and scouts say. Who is alone among the clear with what it found has that half only,
+/// and the error of it: nothing that a receiver itself found says whether it goes on, so nothing is
+/// biased. @return whether any does
+static bool choose_other_half(alpi_polygon_gather *g, uint32_t count)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        first_look look = {.free = {0}};
+        uint32_t found = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            look_at(g, k, 0, i, &look);
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t others = ~(1u << i);
+            const bool free = (look.free[0] & others) != 0 || g->scouts[k][0] != 0;
+            const bool hidden = (look.hidden[0] & others) != 0 || g->scouts[k][1] != 0;
+            found |= (free && hidden) || (look.unclear[0] & others) != 0 ? 1u << i : 0u;
+        }
+        g->wanted[k][0] = 0;
+        g->wanted[k][1] = found;
+        any = any || found != 0;
+    }
+    return any;
+}
+
+/// Takes the first half of the samples for the other too.
+static void repeat_half(alpi_polygon_tally *t, uint32_t lane)
+{
+    for (uint32_t r = 0; r < ALPI_POLYGON_HALF; r++) {
+        t->factor[r + ALPI_POLYGON_HALF][lane] = t->factor[r][lane];
+        t->weight[r + ALPI_POLYGON_HALF][lane] = t->weight[r][lane];
+        for (int k = 0; k < 3; k++) {
+            t->seen[k][r + ALPI_POLYGON_HALF][lane] = t->seen[k][r][lane];
+        }
+    }
+}
+
+/// Spreads replicates of which each is there twice as far as those of R have to be for the variance
+/// of the mean of R / 2: Σ d² / (R/2 (R/2 − 1)) = Σ 2 (f d)² / (R (R − 1)).
+static void widen(double sums[R][3])
+{
+    const double f = sqrt((R - 1.0) / (ALPI_POLYGON_HALF - 1.0));
+    for (int k = 0; k < 3; k++) {
+        double mean = 0.0;
+        for (int r = 0; r < R; r++) {
+            mean += sums[r][k] / R;
+        }
+        for (int r = 0; r < R; r++) {
+            sums[r][k] = mean + f * (sums[r][k] - mean);
+        }
+    }
+}
+
 /// Makes sums over `few` samples those of `all`, alike.
 static void scale_tally(alpi_polygon_tally *t, uint32_t half, uint32_t lane, double scale)
 {
@@ -423,10 +383,19 @@ static uint32_t first_samples(uint32_t samples)
     return samples < few ? samples : few;
 }
 
+/// Whether a half of the samples comes first: of the fewest, where enough are side by side to tell
+/// whether that will do.
+static bool has_half_first(uint32_t samples, uint32_t receivers)
+{
+    return samples == R && receivers == ALPI_PACKET;
+}
+
 /// Of each receiver of a block, so that all corners of a polygon are seen.
 static uint32_t scouts_of(uint32_t samples, uint32_t receivers)
 {
-    return first_samples(samples) < samples ? (SCOUTS + receivers - 1) / receivers : 0;
+    return first_samples(samples) < samples || has_half_first(samples, receivers)
+               ? (SCOUTS + receivers - 1) / receivers
+               : 0;
 }
 
 double alpi_polygon_rays(uint32_t samples, uint32_t receivers)
@@ -444,6 +413,7 @@ static alp_result gather_samples(alpi_polygon_gather *g, const uint32_t *receive
     for (uint32_t first = range[0]; first < range[1]; first += w->count) {
         const uint32_t left = range[1] - first, room = CHUNK - (scouts > 0 ? SCOUTS : 0);
         w->scouts = scouts;
+        w->begin = first % R;
         w->count = (left < room ? left : room) + scouts;
         gather_chunk(g, receivers, count, first);
         w->count -= scouts;
@@ -511,6 +481,49 @@ void alpi_polygons_start(const alpi_direct_options *options, const alpi_receiver
     }
 }
 
+/// One half of the samples, and the other of those who need it.
+static alp_result gather_fewest(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
+{
+    const uint32_t stages[3] = {0, ALPI_POLYGON_HALF, R};
+    ALP_TRY(gather_samples(g, receivers, count, stages, scouts_of(g->samples, count)));
+    if (choose_other_half(g, count)) {
+        ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
+    }
+    for (uint32_t k = 0; k < g->polygon_count; k++) {
+        g->halved[k] = ~g->wanted[k][1] & ((1u << count) - 1u);
+        for (uint32_t i = 0; i < count; i++) {
+            if ((g->halved[k] >> i & 1u) != 0) {
+                repeat_half(&g->tallies[k], i);
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+/// Some of each half, and all of those that need them.
+static alp_result gather_most(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
+{
+    const uint32_t few = first_samples(g->samples);
+    const uint32_t stages[3] = {0, few, g->samples};
+    ALP_TRY(gather_samples(g, receivers, count, stages, scouts_of(g->samples, count)));
+    if (few == g->samples) {
+        return ALP_OK;
+    }
+    if (choose(g, count)) {
+        ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < g->polygon_count; k++) {
+            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES; h++) {
+                if ((g->wanted[k][h] >> i & 1u) == 0) {
+                    scale_tally(&g->tallies[k], h, i, (double)g->samples / few);
+                }
+            }
+        }
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receivers, uint32_t count)
 {
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
@@ -527,28 +540,19 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     for (uint32_t k = 0; k < g->polygon_count; k++) {
         g->wanted[k][0] = g->wanted[k][1] = (1u << count) - 1u;
     }
-    const uint32_t few = first_samples(g->samples);
-    const uint32_t stages[3] = {0, few, g->samples};
     memset(g->scouts, 0, sizeof g->scouts);
-    ALP_TRY(gather_samples(g, receivers, count, stages, scouts_of(g->samples, count)));
-    if (few < g->samples && choose(g, count)) {
-        ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = 0; k < g->polygon_count; k++) {
-            for (uint32_t h = 0; h < ALPI_POLYGON_HALVES && few < g->samples; h++) {
-                if ((g->wanted[k][h] >> i & 1u) == 0) {
-                    scale_tally(&g->tallies[k], h, i, (double)g->samples / few);
-                }
-            }
-        }
-    }
+    memset(g->halved, 0, sizeof g->halved);
+    ALP_TRY(has_half_first(g->samples, count) ? gather_fewest(g, receivers, count)
+                                              : gather_most(g, receivers, count));
     if (find_missed(g, count)) {
         ALP_TRY(gather_missed(g, receivers, count));
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {
             finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
+            if ((g->halved[k] & ~g->missed[k]) >> i & 1u) {
+                widen(g->sums[i][k]);
+            }
         }
     }
     return ALP_OK;

@@ -48,11 +48,22 @@ typedef struct alpi_polygon_gather {
     uint32_t wanted[ALPI_POLYGON_LIMIT][ALPI_POLYGON_HALVES]; // bit i: by lane i
     uint8_t scouts[ALPI_POLYGON_LIMIT][2];                    // whether any was free, any stopped
     uint32_t missed[ALPI_POLYGON_LIMIT]; // bit i: no ray of lane i went to what it sees
+    uint32_t halved[ALPI_POLYGON_LIMIT]; // bit i: lane i has one half of its samples, twice
     uint32_t keys[ALPI_POLYGON_HALVES][ALPI_PACKET];
     alpi_receiver_point placed[ALPI_POLYGON_CHUNK];
     alpi_polygon_wave wave;
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];
 } alpi_polygon_gather;
+
+/// Whether the halves of a lane's samples tell nothing of each other.
+static inline bool alpi_polygons_repeat(const alpi_polygon_gather *gather, uint32_t lane)
+{
+    uint32_t halved = 0;
+    for (uint32_t k = 0; k < gather->polygon_count; k++) {
+        halved |= gather->halved[k];
+    }
+    return (halved >> lane & 1u) != 0;
+}
 
 /// The most rays that a polygon takes at so many receivers, up to eight, side by side.
 double alpi_polygon_rays(uint32_t samples, uint32_t receivers);

@@ -87,12 +87,15 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
         *value = part; // of one part: all there is
     }
-    add_parts(d, sums, together);
     if (d->part_count != 1) {
+        add_parts(d, sums, together);
         alpi_reference_mean((const double(*)[3])together, R, each, value);
         memcpy(value->mean, mean, sizeof mean);
     }
-    compare_halves((const double(*)[3])together, each, value, place, halves);
+    if (halves != NULL) {
+        compare_halves(d->part_count == 1 ? sums[0] : (const double(*)[3])together, each, value,
+                       place, halves);
+    }
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])

@@ -221,6 +221,61 @@ static void neighbours_find(void **state)
     test_stage_close(&s);
 }
 
+/// Blocks of receivers below a strip that hides a fiftieth of the quad, by the fewest samples there
+/// are: half of those will do where neighbours and scouts find all clear, and who stops there is
+/// neither biased nor too sure. In full light all do.
+static void a_half_first(void **state)
+{
+    (void)state;
+    enum { SEEDS = 1024, COUNT = 8 * ALPI_PACKET, SAMPLES = ALPI_DIRECT_REPLICATES };
+    const vec3 screen[4] = {{-0.01f, 1, -5}, {0.01f, 1, -5}, {0.01f, 1, 5}, {-0.01f, 1, 5}};
+    const vec3 hidden[4] = {
+        {-0.02f, 2, -0.5f}, {0.02f, 2, -0.5f}, {0.02f, 2, 0.5f}, {-0.02f, 2, 0.5f}};
+    static test_patch alike[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        alike[i] = test_point((vec3){0, 0, 0}, UP);
+    }
+    const test_patches patches = {.count = COUNT, .patches = alike, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&patches);
+    for (int screened = 0; screened < 2; screened++) {
+        test_stage s = open_quad(context, false, screened ? screen : NULL);
+        const double all = exact(&alike[0], false);
+        const double e = all - screened * 3.0 * ALPI_PI *
+                                   alpi_polygon_form_factor((vec3){0, 0, 0}, UP, hidden, 4);
+        double mean = 0.0, squares = 0.0, stated = 0.0, rays = 0.0;
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
+            alpi_direct_options o = test_stage_options(&s, SAMPLES);
+            alpi_direct *direct = NULL;
+            static alpi_reference_value values[COUNT];
+            alpi_direct_output output = {.values = values};
+            o.seed = seed;
+            ASSERT_OK(s.context, alpi_direct_create(&o, &direct));
+            ASSERT_OK(s.context,
+                      alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
+            alpi_direct_destroy(direct);
+            rays += (double)output.rays / (COUNT * SEEDS);
+            for (uint32_t i = 0; i < COUNT; i++) {
+                const double apart = ((double)values[i].mean[0] - e) / e;
+                mean += apart / (COUNT * SEEDS);
+                squares += apart * apart / (COUNT * SEEDS);
+                stated += (double)values[i].variance[0] / (e * e * COUNT * SEEDS);
+            }
+        }
+        if (!screened) {
+            ASSERT_NEAR(rays, SAMPLES / 2 + 1, 1e-9); // a scout each
+            assert_true(sqrt(squares) < 1e-6);
+        } else {
+            printf("accuracy: a fiftieth of a quad hidden, 8 samples: %.2f rays, bias %+.3f %%, "
+                   "error %.2f %%, stated over true error %.3f\n",
+                   rays, 100.0 * mean, 100.0 * sqrt(squares), sqrt(stated / squares));
+            assert_true(rays > SAMPLES / 2 + 1.5 && rays < SAMPLES + 0.5); // some of either
+            assert_true(fabs(mean) < 4.0 * sqrt(squares / (COUNT * SEEDS)));
+            ASSERT_NEAR(sqrt(stated / squares), 1.0, 0.1);
+        }
+        test_stage_close(&s);
+    }
+}
+
 /// The same bits alone or among others where nothing is hidden, though some are cut by the horizon
 /// or near, and by the loops for other machines. (What is left of variances, rounding, is scaled by
 /// what all of a call tell: see direct_sums.h.)
@@ -352,6 +407,7 @@ int main(void)
         cmocka_unit_test(on_it),
         cmocka_unit_test(a_penumbra),
         cmocka_unit_test(neighbours_find),
+        cmocka_unit_test(a_half_first),
         cmocka_unit_test(the_same_bits),
         cmocka_unit_test(a_host_changes_nothing),
         cmocka_unit_test(no_more_rays_than_are_told),

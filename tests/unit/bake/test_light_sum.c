@@ -48,15 +48,21 @@ static void of_each_texel(void **state)
         {{2.0f, 3.0f, 1.0f}, {0.5f, 0.0f, 0.0f}}, {{9, 9, 9}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
     const float skies[TEXELS][3] = {{1.0f, 3.0f, 0.0f}, {0, 0, 0}, {0, 0, 0}};
     const uint32_t order[2] = {0, 2};
+    alpi_reference_value whole[TEXELS] = {{{0.0f}, {0.0f}}};
     const alpi_light_task task = {.order = order, .count = 2, .values = values};
-    alpi_light_state_solved(&task, skies, 0.5);
-    ASSERT_NEAR(values[0].variance[0], 0.75, 1e-6);
-    assert_true(values[0].variance[1] == 0.0f);
-    ASSERT_NEAR(values[0].variance[2], 0.25, 1e-6);
-    alpi_light_state_solved(&task, NULL, 0.5);
-    ASSERT_NEAR(values[0].variance[0], 1.75, 1e-6);
+    solved s;
+    solve(&s, UINT32_MAX);
+    alpi_bake_job job = {.context = test_context(1), .options = alp_bake_options_default()};
+    job.options.light.direct = ALP_DIRECT_OFF;
+    ASSERT_OK(job.context, alpi_light_peek(&job, &task, &s.solution, skies, 0.5, whole));
+    ASSERT_NEAR(whole[0].variance[0], 0.75, 1e-6);
+    assert_true(whole[0].variance[1] == 0.0f);
+    ASSERT_NEAR(whole[0].variance[2], 0.25, 1e-6);
+    ASSERT_OK(job.context, alpi_light_peek(&job, &task, &s.solution, NULL, 0.5, whole));
+    ASSERT_NEAR(whole[0].variance[0], 1.5, 1e-6);
+    alp_context_destroy(job.context);
     for (int k = 0; k < 3; k++) {
-        assert_true(values[1].variance[k] == 0.0f && values[2].variance[k] == 0.0f);
+        assert_true(whole[1].variance[k] == 0.0f && whole[2].variance[k] == 0.0f);
     }
 }
 
