@@ -307,8 +307,35 @@ void alpi_release(alp_context *context, void *pointer)
     context->options.release(context->options.allocator_user, block);
 }
 
+/// Of memory that is ours to move: mostly nothing is, where it is made smaller.
+static void *resize(alp_context *context, block_header *block, size_t bytes)
+{
+    const size_t had = block->size;
+    block_header *moved = realloc(block, sizeof *block + bytes);
+    if (moved == NULL) {
+        alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "out of memory: %zu bytes asked", bytes);
+        return NULL;
+    }
+    moved->size = bytes;
+    if (bytes > had) {
+        memset((char *)(moved + 1) + had, 0, bytes - had);
+    }
+    count_memory(context, bytes);
+    atomic_fetch_sub_explicit(&context->memory_now, had, memory_order_relaxed);
+    return moved + 1;
+}
+
 void *alpi_reallocate(alp_context *context, void *pointer, size_t count, size_t size)
 {
+    const bool ours = pointer != NULL && context->options.allocate == default_allocate &&
+                      context->options.release == default_release;
+    if (ours && (size == 0 || count <= SIZE_MAX / 2 / size)) {
+        block_header *block = (block_header *)pointer - 1;
+        const size_t bytes = count * size;
+        if (bytes <= block->size || bytes < LARGE_BLOCK) { // what is larger gets large pages
+            return resize(context, block, bytes);
+        }
+    }
     void *larger = alpi_allocate(context, count, size);
     if (larger != NULL && pointer != NULL) {
         size_t old_size = ((block_header *)pointer - 1)->size;

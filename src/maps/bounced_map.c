@@ -81,9 +81,10 @@ static alp_result trace_listed(bounced_job *job, uint32_t count)
     return ALP_OK;
 }
 
-/// Traces the texels that are wanted, so many at a time.
-static alp_result trace_wanted(bounced_job *job)
+/// Traces the texels that are wanted, so many at a time. @param traced out: how many
+static alp_result trace_wanted(bounced_job *job, uint64_t *traced)
 {
+    const uint64_t before = job->gathered;
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->options->count; i++) {
         const uint32_t t = job->options->order[i];
@@ -96,7 +97,9 @@ static alp_result trace_wanted(bounced_job *job)
             count = 0;
         }
     }
-    return trace_listed(job, count);
+    ALP_TRY(trace_listed(job, count));
+    *traced = job->gathered - before;
+    return ALP_OK;
 }
 
 /// Some texels of a state, evenly and at random, into the list. @param count that there are
@@ -225,12 +228,13 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-static alp_result judge(bounced_job *job, uint32_t pass, bool flood)
+/// @param traced out: how many texels
+static alp_result judge(bounced_job *job, uint32_t pass, bool flood, uint64_t *traced)
 {
     job->pass = pass;
     job->flood = flood;
     ALP_TRY(for_texels(job, judge_range));
-    return trace_wanted(job);
+    return trace_wanted(job, traced);
 }
 
 /// Wants texels traced that have another surface near, or all.
@@ -346,7 +350,8 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
 static alp_result run_lattice(bounced_job *job)
 {
     ALP_TRY(for_texels(job, want_range));
-    ALP_TRY(judge(job, 0, false)); // what is wanted, and the lattice: no stencil ends at it
+    uint64_t last;
+    ALP_TRY(judge(job, 0, false, &last)); // what is wanted, and the lattice: no stencil ends at it
     const uint32_t traced = count_traced(job);
     if (job->options->joined) {
         ALP_TRY(find_factor(job, traced));
@@ -356,10 +361,11 @@ static alp_result run_lattice(bounced_job *job)
         return ALP_OK;
     }
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        ALP_TRY(judge(job, pass, false));
+        ALP_TRY(judge(job, pass, false, &last));
     }
-    for (int round = 0; round < FLOOD_ROUNDS; round++) {
-        ALP_TRY(judge(job, 0, true));
+    last = 1;
+    for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
+        ALP_TRY(judge(job, 0, true, &last));
     }
     for (job->pass = 1; job->pass < ALPI_LATTICE_PASSES; job->pass++) {
         ALP_TRY(for_texels(job, interpolate_range));

@@ -57,17 +57,21 @@ static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t 
     const double lost[2] = {(double)r->lost[receiver][0], (double)r->lost[receiver][1]};
     const double escaped = brighter * lost[0], behind = 1.0 - brighter * (1.0 - lost[1]);
     const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
+    double own[ALPI_SUM_LIMIT] = {0.0}; // of this texel: `sums` would be written and read by turns
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
         const double reflected = albedo * (first + (double)before[k]);
-        sums[RECEIVED] += share * first;
-        sums[ABSORBED] += share * (1.0 - albedo) * (first + (double)now[k]);
-        sums[ESCAPED] += share * (escaped * reflected + lost[0] * emitted);
-        sums[LOST_BEHIND] += share * (behind * reflected + lost[1] * emitted);
-        sums[UNSHOT] += share * albedo * ((double)now[k] - (double)before[k]);
-        sums[EMITTED] += share * emitted;
-        sums[EMITTED_AT_OTHERS] += share * emitted * (1.0 - lost[0] - lost[1]);
+        own[RECEIVED] += share * first;
+        own[ABSORBED] += share * (1.0 - albedo) * (first + (double)now[k]);
+        own[ESCAPED] += share * (escaped * reflected + lost[0] * emitted);
+        own[LOST_BEHIND] += share * (behind * reflected + lost[1] * emitted);
+        own[UNSHOT] += share * albedo * ((double)now[k] - (double)before[k]);
+        own[EMITTED] += share * emitted;
+        own[EMITTED_AT_OTHERS] += share * emitted * (1.0 - lost[0] - lost[1]);
+    }
+    for (int i = 0; i < ALPI_SUM_LIMIT; i++) {
+        sums[i] += own[i];
     }
 }
 

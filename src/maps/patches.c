@@ -185,7 +185,10 @@ static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y
     const uint8_t nearest = nearest_in(p, &s);
     const bool halves = nearest == ALPI_NEAR && spacing % 2 == 0;
     const uint32_t part = nearest == ALPI_FAR ? spacing : halves ? spacing / 2 : 1;
-    for (uint32_t y = y0; y < y0 + spacing; y += part) {
+    while (part == spacing && s.count > 0) {
+        take_block(p, &s, placed);
+    }
+    for (uint32_t y = y0; y < y0 + spacing && part < spacing; y += part) {
         for (uint32_t x = x0; x < x0 + spacing; x += part) {
             list_square(p, page, x, y, part, &s);
             while (s.count > 0) {

@@ -357,21 +357,26 @@ static void scale_tally(alpi_polygon_tally *t, uint32_t half, uint32_t lane, dou
 /// that of all: F_r V + F (S_r − V W_r) / W.
 static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sums[R][3])
 {
-    double factor = 0.0, weight = 0.0, seen[3] = {0.0, 0.0, 0.0};
+    const int channels = panes ? 3 : 1;
+    double factor = 0.0, weight = 0.0;
     for (int r = 0; r < R; r++) {
         factor += t->factor[r][lane];
         weight += t->weight[r][lane];
-        for (int k = 0; k < 3; k++) {
-            seen[k] += t->seen[panes ? k : 0][r][lane];
-        }
     }
     const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double visible = seen[k] == weight ? 1.0 : seen[k] * scale;
+    for (int k = 0; k < channels; k++) {
+        double seen = 0.0;
         for (int r = 0; r < R; r++) {
-            const double apart = t->seen[panes ? k : 0][r][lane] - visible * t->weight[r][lane];
+            seen += t->seen[k][r][lane];
+        }
+        const double visible = seen == weight ? 1.0 : seen * scale;
+        for (int r = 0; r < R; r++) {
+            const double apart = t->seen[k][r][lane] - visible * t->weight[r][lane];
             sums[r][k] = weight > 0.0 ? t->factor[r][lane] * visible + factor * apart * scale : 0.0;
         }
+    }
+    for (int r = 0; r < R && channels == 1; r++) {
+        sums[r][1] = sums[r][2] = sums[r][0];
     }
 }
 
