@@ -269,6 +269,10 @@ static void place_batch(const alpi_patches *p, uint32_t block, uint32_t count,
     _Static_assert((int)PLACE_BATCH <= (int)NONE, "points are numbers below it");
     const alpi_receivers texels = alpi_texels_receivers(p->texels);
     const uint32_t first = p->block_first[block], members = p->block_first[block + 1] - first;
+    if (members == 1) {
+        texels.place(texels.user, p->block_texels[first], count, square, points);
+        return;
+    }
     uint8_t heads[BLOCK_LIMIT], next[PLACE_BATCH] = {0}, lanes[PLACE_BATCH];
     float inside[PLACE_BATCH][2];
     alpi_receiver_point placed[PLACE_BATCH];
