@@ -15,21 +15,22 @@ enum { LANES = ALPI_CLEAR_SKY_LANES };
 
 #define EACH_LANE for (int i = 0; i < LANES; i++)
 
-/// e^x to 3e-7 of it, for x up to 80; 0 where floats end. x = n ln 2 + r, with ln 2 in two parts
-/// (Cody, Waite. Software Manual for the Elementary Functions. 1980), and the series of e^r.
-static inline float exponential(float x)
+/// e^x − less, to 3e-7 of e^x, for x up to 80; where x is small and less near 1, to 3e-7 of x. What
+/// floats have no room for counts as e^−87. x = n ln 2 + r, with ln 2 in two parts (Cody, Waite.
+/// Software Manual for the Elementary Functions. 1980), and the series of e^r − 1.
+static inline float exponential(float x, float less)
 {
     static const float ROUND = 12582912.0f; // 1.5 · 2²³: what is added to it becomes whole
     const float bounded = x > -87.0f ? x : -87.0f;
     const float n = (bounded * 1.44269504f + ROUND) - ROUND;
     const float r = (bounded - n * 0.693359375f) - n * -2.12194440e-4f;
     const float series =
-        1.0f + r * (1.0f + r * (0.5f + r * (1.0f / 6.0f + r * (1.0f / 24.0f +
-                                                               r * (1.0f / 120.0f + r / 720.0f)))));
+        r * (1.0f + r * (0.5f + r * (1.0f / 6.0f +
+                                     r * (1.0f / 24.0f + r * (1.0f / 120.0f + r / 720.0f)))));
     const int32_t bits = ((int32_t)n + 127) << 23;
     float power;
     memcpy(&power, &bits, sizeof power);
-    return x > -87.0f ? series * power : 0.0f;
+    return series * power + (power - less);
 }
 
 /// To 1e-7. Abramowitz, Stegun. Handbook of Mathematical Functions. 1964, 4.4.46.
@@ -81,11 +82,15 @@ static inline void distribute(const alpi_clear_sky *sky, clear_lanes *l)
         const float a = (float)sky->perez[k][0], b = (float)sky->perez[k][1];
         const float c = (float)sky->perez[k][2], d = (float)sky->perez[k][3];
         const float e = (float)sky->perez[k][4], scale = (float)sky->scale[k];
+        // Of the clearest air A e^(B/cosθ) is −.97 at the zenith. What is left of 1 comes from two
+        // small numbers: 1 + A near, and how far e^(B/cosθ) is from near, a guess of e^B.
+        const float near = (float)(1.0 + sky->perez[k][1]);
+        const float rest = (float)(1.0 + sky->perez[k][0] * (double)near);
         EACH_LANE
         {
             const float squared = l->cos_gamma[i] * l->cos_gamma[i];
-            l->value[k][i] = scale * (1.0f + a * exponential(b * l->inverse[i])) *
-                             (1.0f + c * exponential(d * l->gamma[i]) + e * squared);
+            l->value[k][i] = scale * (rest + a * exponential(b * l->inverse[i], near)) *
+                             (1.0f + c * exponential(d * l->gamma[i], 0.0f) + e * squared);
         }
     }
 }
