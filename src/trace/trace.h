@@ -141,7 +141,8 @@ void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *ray
                                  alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets, two that follow each other together where the machine has vectors
 /// of sixteen: up to a fifth faster where they leave from about one place in about one direction
-/// too. Masks must be all ones, id and flags 0.
+/// too. A ray through the very edge of two triangles may be told either, by what it is paired with.
+/// Masks must be all ones, id and flags 0.
 /// @param hits [count]
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                                       const uint32_t *active, uint32_t count,
