@@ -320,8 +320,12 @@ static void *resize(alp_context *context, block_header *block, size_t bytes)
     if (bytes > had) {
         memset((char *)(moved + 1) + had, 0, bytes - had);
     }
-    count_memory(context, bytes);
-    atomic_fetch_sub_explicit(&context->memory_now, had, memory_order_relaxed);
+    if (bytes > had) { // it may have been in two places
+        count_memory(context, bytes);
+        atomic_fetch_sub_explicit(&context->memory_now, had, memory_order_relaxed);
+    } else {
+        atomic_fetch_sub_explicit(&context->memory_now, had - bytes, memory_order_relaxed);
+    }
     return moved + 1;
 }
 

@@ -48,7 +48,7 @@ struct alpi_loop **alpi_context_loop(alp_context *context);
 bool alpi_context_has_v3(const alp_context *context);
 /// Of what alp_compile_twice of CMakeLists.txt compiles, functions or tables of them: name_v3 where
 /// it may run, else name_baseline.
-#if defined(__x86_64__)
+#ifdef ALPI_HAS_V3
 #define ALPI_COMPILED_FOR(context, name)                                                           \
     (*(alpi_context_has_v3(context) ? &name##_v3 : &name##_baseline))
 #else

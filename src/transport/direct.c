@@ -284,9 +284,9 @@ static alp_result gather_receiver(alpi_direct_gather *g, uint32_t receiver, uint
     if (d->sky_spots) {
         alpi_direct_finish_spots(g);
     }
-    const bool repeats = d->polygon_count > 0 && alpi_polygons_repeat(&g->polygons, lane);
-    alpi_direct_put(d, (const double(*)[R][3])g->sums, receiver, place, repeats ? NULL : halves,
-                    g->output);
+    alpi_direct_put(d, (const double(*)[R][3])g->sums, receiver,
+                    d->polygon_count > 0 ? &g->polygons : NULL, lane,
+                    halves->sums[place / ALPI_PACKET], g->output);
     if (g->output->directional != NULL) {
         alpi_directional_finish(&g->directional, 1.0 / d->samples,
                                 &g->output->directional[receiver]);

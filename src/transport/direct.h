@@ -84,8 +84,8 @@ typedef struct alpi_direct_output {
 /// but for partly hidden polygons and spots of a sky, whose bias is far below their noise; a lamp
 /// at a receiver without extent takes one ray and is exact. Packets of eight receivers that follow
 /// each other in the list ask for polygons together: they should be neighbours in space. What a
-/// receiver gets does not depend on the list, but for a factor that the list's variances have in
-/// common.
+/// receiver gets does not depend on the list, but for who is beside it among those eight, who say
+/// how many samples it takes, and for a factor that the list's variances have in common.
 /// @param output values and parts of the listed receivers are written, rays is added to
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 /// Variances are true on average over receivers and seeds. Where all rays to a polygon agree, only

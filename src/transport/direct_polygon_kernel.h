@@ -6,7 +6,8 @@
 #include "transport/direct.h"
 
 enum { ALPI_POLYGON_CHUNK = ALPI_TRACE_BATCH }; // samples of each receiver at once
-/// Of the replicates; each decides how many samples the other has.
+/// Of the replicates; each decides how many samples the other has, but of the fewest: there those
+/// of neighbours do.
 enum { ALPI_POLYGON_HALVES = 2, ALPI_POLYGON_HALF = ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALVES };
 
 /// A triangle or parallelogram of even radiance.
@@ -27,9 +28,9 @@ typedef struct alpi_polygon {
 // In the order of its use. NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
 typedef struct alpi_polygon_wave {
     uint32_t count;
-    uint32_t scouts; // the last of them count in no sum
-    uint32_t each;   // samples that each replicate is to have
-    uint32_t begin;  // replicate of the first sample
+    uint32_t scouts;           // the last of them count in no sum
+    uint32_t first_each, each; // samples that each replicate is to have: at first, and in all
+    uint32_t begin;            // replicate of the first sample
     _Alignas(32) float position[3][ALPI_POLYGON_CHUNK][ALPI_PACKET]; // metres
     float normal[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // unit, the hemisphere's axis
     float origin[3][ALPI_POLYGON_CHUNK][ALPI_PACKET];                // metres: where rays start

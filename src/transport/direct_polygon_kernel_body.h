@@ -13,12 +13,15 @@ static inline uint32_t half_of(uint32_t sample)
     return sample % ALPI_DIRECT_REPLICATES / ALPI_POLYGON_HALF;
 }
 
-/// Where a sample is in the sequence of its half: each replicate has a run of it, and samples
-/// beyond all runs take turns.
-static inline uint32_t place_in_half(uint32_t sample, uint32_t each)
+/// Where a sample is in the sequence of its half. What comes first, which is all for some, is its
+/// beginning: of that each replicate has a run, and of the rest another. Samples beyond take turns.
+static inline uint32_t place_in_half(const alpi_polygon_wave *w, uint32_t sample)
 {
     const uint32_t replicate = sample % ALPI_POLYGON_HALF, own = sample / ALPI_DIRECT_REPLICATES;
-    return own < each ? replicate * each + own : own * ALPI_POLYGON_HALF + replicate;
+    const uint32_t first = w->first_each, later = w->each - first;
+    return own < first     ? replicate * first + own
+           : own < w->each ? ALPI_POLYGON_HALF * first + replicate * later + own - first
+                           : own * ALPI_POLYGON_HALF + replicate;
 }
 
 static void draw(alpi_polygon_wave *w, const uint32_t (*keys)[ALPI_PACKET], uint32_t use,
@@ -27,7 +30,7 @@ static void draw(alpi_polygon_wave *w, const uint32_t (*keys)[ALPI_PACKET], uint
     const uint32_t of_use = alpi_hash32(use + 1u);
     for (uint32_t s = 0; s < w->count; s++) {
         const uint32_t *key = keys[half_of(first + s)];
-        const uint32_t sample = place_in_half(first + s, w->each);
+        const uint32_t sample = place_in_half(w, first + s);
         ALPI_EACH_LANE
         {
             const vec2 u = alpi_sample_2d(alpi_hash32(key[i] ^ of_use), sample);

@@ -313,16 +313,19 @@ static bool choose_other_half(alpi_polygon_gather *g, uint32_t count)
     return any;
 }
 
-/// Takes the first half of the samples for the other too.
-static void repeat_half(alpi_polygon_tally *t, uint32_t lane)
+/// Takes the first half of the samples for the other too. @return whether it sees the polygon
+static bool repeat_half(alpi_polygon_tally *t, uint32_t lane)
 {
+    double factor = 0.0;
     for (uint32_t r = 0; r < ALPI_POLYGON_HALF; r++) {
+        factor += t->factor[r][lane];
         t->factor[r + ALPI_POLYGON_HALF][lane] = t->factor[r][lane];
         t->weight[r + ALPI_POLYGON_HALF][lane] = t->weight[r][lane];
         for (int k = 0; k < 3; k++) {
             t->seen[k][r + ALPI_POLYGON_HALF][lane] = t->seen[k][r][lane];
         }
     }
+    return factor > 0.0;
 }
 
 /// Spreads replicates of which each is there twice as far as those of R have to be for the variance
@@ -481,6 +484,7 @@ void alpi_polygons_start(const alpi_direct_options *options, const alpi_receiver
     g->above = false;
     memset(&g->wave, 0, sizeof g->wave); // lanes not in use are never set
     g->wave.each = samples / R;
+    g->wave.first_each = first_samples(samples) / R;
     for (uint32_t s = 0; s < CHUNK; s++) {
         alpi_rays_clear(&g->wave.rays[s]);
     }
@@ -495,10 +499,9 @@ static alp_result gather_fewest(alpi_polygon_gather *g, const uint32_t *receiver
         ALP_TRY(gather_samples(g, receivers, count, stages + 1, 0));
     }
     for (uint32_t k = 0; k < g->polygon_count; k++) {
-        g->halved[k] = ~g->wanted[k][1] & ((1u << count) - 1u);
         for (uint32_t i = 0; i < count; i++) {
-            if ((g->halved[k] >> i & 1u) != 0) {
-                repeat_half(&g->tallies[k], i);
+            if ((g->wanted[k][1] >> i & 1u) == 0 && repeat_half(&g->tallies[k], i)) {
+                g->halved[k] |= 1u << i;
             }
         }
     }
@@ -555,7 +558,7 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {
             finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
-            if ((g->halved[k] & ~g->missed[k]) >> i & 1u) {
+            if (((g->halved[k] & ~g->missed[k]) >> i & 1u) != 0) {
                 widen(g->sums[i][k]);
             }
         }

@@ -39,7 +39,9 @@ typedef struct alpi_polygon_gather {
     uint32_t polygon_count;
     const alpi_polygon_loops *loops;
     uint64_t rays; // sent: added to
-    /// Out: form factor × visibility, summed over the samples of each replicate.
+    /// Out: form factor × visibility, summed over the samples of each replicate; of one half of the
+    /// samples, where that is all there is, twice, and as far apart as the error of a half is
+    /// large.
     double sums[ALPI_PACKET][ALPI_POLYGON_LIMIT][ALPI_DIRECT_REPLICATES][3];
     bool above;        // its own: rays go to what is above the horizon alone
     bool by_direction; // then this too:
@@ -55,14 +57,15 @@ typedef struct alpi_polygon_gather {
     alpi_polygon_tally tallies[ALPI_POLYGON_LIMIT];
 } alpi_polygon_gather;
 
-/// Whether the halves of a lane's samples tell nothing of each other.
-static inline bool alpi_polygons_repeat(const alpi_polygon_gather *gather, uint32_t lane)
+/// Whether the halves of a lane's samples of a part of the light tell nothing of each other.
+static inline bool alpi_polygons_repeat(const alpi_polygon_gather *gather, uint32_t lane,
+                                        uint32_t part)
 {
-    uint32_t halved = 0;
+    bool any = false;
     for (uint32_t k = 0; k < gather->polygon_count; k++) {
-        halved |= gather->halved[k];
+        any = any || (gather->polygons[k].part == part && (gather->halved[k] >> lane & 1u) != 0);
     }
-    return (halved >> lane & 1u) != 0;
+    return any;
 }
 
 /// The most rays that a polygon takes at so many receivers, up to eight, side by side.

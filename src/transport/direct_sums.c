@@ -43,9 +43,9 @@ void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves
     alpi_release(d->options.context, halves->sums);
 }
 
-/// @param sums of all parts together
-static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_reference_value *all,
-                           uint32_t place, const alpi_direct_halves *halves)
+/// @param sums of parts together, whose mean is `value`
+static void compare_halves(const double (*sums)[3], uint32_t each,
+                           const alpi_reference_value *value, float told[2])
 {
     double apart = 0.0, variance = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -54,28 +54,36 @@ static void compare_halves(const double (*sums)[3], uint32_t each, const alpi_re
             half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
         }
         apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
-        variance += (double)all->variance[k];
+        variance += (double)value->variance[k];
     }
-    halves->sums[place / ALPI_PACKET][0] += (float)apart;
-    halves->sums[place / ALPI_PACKET][1] += (float)variance;
+    told[0] += (float)apart;
+    told[1] += (float)variance;
 }
 
-/// Adds up the parts.
-static void add_parts(const alpi_direct *d, const double (*sums)[R][3], double out[R][3])
+/// Adds up the parts, or those of them that repeat nothing. @return whether any is left out
+static bool add_parts(const alpi_direct *d, const double (*sums)[R][3],
+                      const alpi_polygon_gather *polygons, uint32_t lane, double out[R][3])
 {
+    bool left_out = false;
     memset(out, 0, R * sizeof *out);
     for (uint32_t p = 0; p < d->part_count; p++) {
+        if (polygons != NULL && alpi_polygons_repeat(polygons, lane, p)) {
+            left_out = true;
+            continue;
+        }
         for (int i = 0; i < 3 * R; i++) {
             out[i / 3][i % 3] += sums[p][i / 3][i % 3];
         }
     }
+    return left_out;
 }
 
 void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t receiver,
-                     uint32_t place, const alpi_direct_halves *halves, alpi_direct_output *output)
+                     const alpi_polygon_gather *polygons, uint32_t lane, float told[2],
+                     alpi_direct_output *output)
 {
     const uint32_t each = d->samples / R;
-    alpi_reference_value *value = &output->values[receiver];
+    alpi_reference_value *value = &output->values[receiver], compared;
     double together[R][3];
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
@@ -87,15 +95,16 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
         *value = part; // of one part: all there is
     }
+    add_parts(d, sums, NULL, lane, together);
     if (d->part_count != 1) {
-        add_parts(d, sums, together);
         alpi_reference_mean((const double(*)[3])together, R, each, value);
         memcpy(value->mean, mean, sizeof mean);
     }
-    if (halves != NULL) {
-        compare_halves(d->part_count == 1 ? sums[0] : (const double(*)[3])together, each, value,
-                       place, halves);
+    compared = *value;
+    if (polygons != NULL && add_parts(d, sums, polygons, lane, together)) {
+        alpi_reference_mean((const double(*)[3])together, R, each, &compared);
     }
+    compare_halves((const double(*)[3])together, each, &compared, told);
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])

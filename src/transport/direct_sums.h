@@ -31,11 +31,13 @@ alp_result alpi_direct_halves_create(const alpi_direct *direct, uint32_t count,
                                      alpi_direct_halves *halves);
 void alpi_direct_halves_release(const alpi_direct *direct, alpi_direct_halves *halves);
 
-/// Means, and what the halves tell (NULL: nothing). That of all is the floats of the parts added
-/// up; its variance, of the replicates of all.
+/// Means, and what the halves tell. That of all is the floats of the parts added up; its variance,
+/// of the replicates of all.
+/// @param polygons NULL, or those gathered as lane `lane`: parts that repeat a half tell nothing
+/// @param told     of the block: added to
 void alpi_direct_put(const alpi_direct *direct, const double (*sums)[ALPI_DIRECT_REPLICATES][3],
-                     uint32_t receiver, uint32_t place, const alpi_direct_halves *halves,
-                     alpi_direct_output *output);
+                     uint32_t receiver, const alpi_polygon_gather *polygons, uint32_t lane,
+                     float told[2], alpi_direct_output *output);
 
 /// Scales the variances of all and of parts.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is stated of light beyond what its own rays tell: the noise of the solution that they meet.
 #include "bake/light.h"
+
+#include "base/memory.h"
 #include "test_support.h"
 
 enum { TEXELS = 3, RAYS = 64 };
@@ -66,11 +68,57 @@ static void of_each_texel(void **state)
     }
 }
 
+/// What is stored is what a peek shows, by ranges of many texels: direct light added or left out,
+/// and told apart.
+static void the_sum_is_what_a_peek_shows(void **state)
+{
+    (void)state;
+    enum { MANY = 9000 };
+    static const alp_direct ways[3] = {ALP_DIRECT_ON, ALP_DIRECT_OFF, ALP_DIRECT_APART};
+    static alpi_reference_value values[MANY], direct[MANY], whole[MANY];
+    static float skies[MANY][3];
+    static uint32_t order[MANY];
+    solved s;
+    solve(&s, UINT32_MAX);
+    s.solution.direct = direct;
+    for (int way = 0; way < 3; way++) {
+        for (uint32_t i = 0; i < MANY; i++) {
+            const float x = (float)i;
+            values[i] = (alpi_reference_value){{x + 3, x + 2, x + 1}, {1, x, 0}};
+            direct[i] = (alpi_reference_value){{2 * x, 0, 1}, {x, 2, 0.5f}};
+            skies[i][0] = skies[i][1] = 1.0f;
+            order[i] = MANY - 1 - i;
+        }
+        const alpi_receivers receivers = {.count = MANY};
+        const alpi_light_task task = {
+            .receivers = &receivers, .order = order, .count = MANY, .values = values};
+        alpi_bake_job job = {.context = test_context(2), .options = alp_bake_options_default()};
+        job.options.maps = ALP_MAP_LIGHT;
+        job.options.light.direct = ways[way];
+        ASSERT_OK(job.context,
+                  alpi_light_peek(&job, &task, &s.solution, (const float(*)[3])skies, 0.5, whole));
+        ASSERT_OK(job.context,
+                  alpi_light_sum(&job, &task, &s.solution, (const float(*)[3])skies, 0.5));
+        assert_memory_equal(values, whole, sizeof values);
+        ASSERT_NEAR(values[4].mean[0], ways[way] == ALP_DIRECT_OFF ? 6.0 : 15.0, 1e-6);
+        ASSERT_NEAR(values[4].variance[0], 10.0 + (ways[way] == ALP_DIRECT_OFF ? 0.0 : 4.0), 1e-6);
+        assert_true((job.direct != NULL) == (ways[way] == ALP_DIRECT_APART));
+        for (uint32_t i = 0; i < MANY && job.direct != NULL; i++) {
+            ASSERT_NEAR(job.direct[i][0], 2.0 * i + 1.0, 1e-6);
+            ASSERT_NEAR(job.bounced[i][0], i + 2.0, 1e-6);
+        }
+        alpi_release(job.context, job.direct);
+        alpi_release(job.context, job.bounced);
+        alp_context_destroy(job.context);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_all_light),
         cmocka_unit_test(of_each_texel),
+        cmocka_unit_test(the_sum_is_what_a_peek_shows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,6 +181,37 @@ static void a_message_may_quote_the_message_before(void **state)
     alp_context_destroy(context);
 }
 
+/// With memory of its own a context moves arrays as little as it can: what was there stays, what is
+/// new is zero, and nothing is counted twice where less is held.
+static void arrays_change_their_size(void **state)
+{
+    (void)state;
+    enum { SMALL = 1000, LARGE = 9 << 20 };
+    alp_context *own = test_context(1);
+    uint8_t *bytes = alpi_allocate(own, SMALL, 1);
+    memset(bytes, 7, SMALL);
+    const size_t sizes[] = {3 * SMALL, SMALL / 2, 2 * SMALL, LARGE, SMALL / 4, SMALL};
+    size_t kept = SMALL;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        bytes = alpi_reallocate(own, bytes, sizes[i], 1);
+        assert_non_null(bytes);
+        kept = sizes[i] < kept ? sizes[i] : kept;
+        for (size_t k = 0; k < sizes[i]; k++) {
+            assert_int_equal(bytes[k], k < kept ? 7 : 0);
+        }
+        memset(bytes, 7, sizes[i]);
+        kept = sizes[i];
+    }
+    alpi_release(own, bytes);
+    alp_context_destroy(own);
+    own = test_context(1);
+    bytes = alpi_allocate(own, LARGE, 1);
+    bytes = alpi_reallocate(own, bytes, SMALL, 1);
+    assert_int_equal(alp_context_peak_memory(own), LARGE);
+    alpi_release(own, bytes);
+    alp_context_destroy(own);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +220,7 @@ int main(void)
         cmocka_unit_test(half_an_allocator_is_refused),
         cmocka_unit_test(sizes_do_not_wrap),
         cmocka_unit_test(memory_is_zero_aligned_and_counted),
+        cmocka_unit_test(arrays_change_their_size),
         cmocka_unit_test(a_message_may_quote_the_message_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
