@@ -111,7 +111,7 @@ static void measure(gather_case *c, int rounds, bench_table *table)
         pair_ratios[i] = pairs[i] / times[i];
     }
     const double rays = 1e-6 * c->packet_count * ALPI_PACKET;
-    char by_pairs[64] = "|";
+    char by_pairs[64] = "–|–";
     if (coherent) {
         snprintf(by_pairs, sizeof by_pairs, "%.1f|%.2f", rays / bench_median(pairs, rounds),
                  bench_median(pair_ratios, rounds));
