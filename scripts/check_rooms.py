@@ -101,10 +101,19 @@ def fault_of_system(target, place):
     return None
 
 
-def brings_third_party(header):
-    """Whether a header of ours includes one of another project."""
-    return any(angled and any(re.fullmatch(p, angled) for p in THIRD_PARTY)
-               for _, angled, _ in includes(header))
+def brings_third_party(root, target):
+    """Whether a header of a room includes one of another project, or another header that does."""
+    waiting, seen = [target], set()
+    while waiting:
+        header = waiting.pop()
+        if header in seen or not (root / "src" / header).is_file():
+            continue
+        seen.add(header)
+        for _, angled, quoted in includes(root / "src" / header):
+            if angled and any(re.fullmatch(pattern, angled) for pattern in THIRD_PARTY):
+                return True
+            waiting += [quoted] if quoted else []
+    return False
 
 
 def fault_of_quoted(root, place, room, target):
@@ -122,7 +131,7 @@ def fault_of_quoted(root, place, room, target):
         return f'"{target}" is no header of a room (write it from src/, as "room/name.h")'
     if not may_use(room, other):
         return f'{room} may not include "{target}": it may use {", ".join(ROOMS[room]) or "none"}'
-    if other != room and brings_third_party(root / "src" / target):
+    if other != room and brings_third_party(root, target):
         return f'"{target}" brings in another project: only {other} may include it'
     return None
 

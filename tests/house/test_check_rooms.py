@@ -62,12 +62,16 @@ def main():
     check_rooms.check_table()
     wrong = [f"lawful, but: {line}" for line in faults(LAWFUL)]
     above = faults({**LAWFUL, "src/trace/t.h": "", "src/base/a.h": '#include "trace/t.h"\n'})
+    through = faults({**LAWFUL, "src/trace/t.h": '#include "trace/embree.h"\n',
+                      "src/maps/a.h": '#include "trace/t.h"\n'})
     for name, text, words in UNLAWFUL:
         found = faults({**LAWFUL, name: text})
         if len(found) != 1 or words not in found[0] or not found[0].startswith(name + ":"):
             wrong.append(f"{name} with {text!r}: expected one fault with {words!r}, got {found}")
     if len(above) != 1 or "base may not include" not in above[0]:
         wrong.append(f"a room above was not refused: {above}")
+    if len(through) != 1 or "only trace may include it" not in through[0]:
+        wrong.append(f"another project through two headers was not refused: {through}")
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
 
