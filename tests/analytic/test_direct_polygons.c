@@ -276,6 +276,48 @@ static void a_half_first(void **state)
     }
 }
 
+/// The same of patches whose form factors differ from point to point, by a few hundredths: in full
+/// light half of the points tells their mean. What is stated of it is that of points which know
+/// nothing of each other, as there is no other half to say how much better a net of them is.
+static void a_half_of_patches(void **state)
+{
+    (void)state;
+    enum { SEEDS = 512, COUNT = 8 * ALPI_PACKET, SAMPLES = ALPI_DIRECT_REPLICATES };
+    static test_patch alike[COUNT];
+    static alpi_reference_value values[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        alike[i] = (test_patch){{0.6f, 0, 0.3f}, {0.15f, 0, 0}, {0, 0, 0.15f}, UP};
+    }
+    test_stage s = open_quad(context, false, NULL);
+    const double e = (double)test_stage_direct(&s, alike, 1u << 15, 99, NULL).mean[0];
+    const test_patches patches = {.count = COUNT, .patches = alike, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&patches);
+    double mean = 0.0, squares = 0.0, stated = 0.0, rays = 0.0;
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        alpi_direct_options o = test_stage_options(&s, SAMPLES);
+        alpi_direct *direct = NULL;
+        alpi_direct_output output = {.values = values};
+        o.seed = seed;
+        ASSERT_OK(s.context, alpi_direct_create(&o, &direct));
+        ASSERT_OK(s.context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
+        alpi_direct_destroy(direct);
+        rays += (double)output.rays / (COUNT * SEEDS);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const double apart = ((double)values[i].mean[0] - e) / e;
+            mean += apart / (COUNT * SEEDS);
+            squares += apart * apart / (COUNT * SEEDS);
+            stated += (double)values[i].variance[0] / (e * e * COUNT * SEEDS);
+        }
+    }
+    printf("accuracy: small patches in full light, 8 samples: %.2f rays, bias %+.4f %%, error "
+           "%.3f %%, stated over true error %.3f\n",
+           rays, 100.0 * mean, 100.0 * sqrt(squares), sqrt(stated / squares));
+    assert_true(rays >= SAMPLES / 2 + 1 && rays < SAMPLES / 2 + 1.5);
+    assert_true(fabs(mean) < 4.0 * sqrt(squares / (COUNT * SEEDS)));
+    assert_true(sqrt(squares) < 0.004 && stated > squares && stated < 25.0 * squares);
+    test_stage_close(&s);
+}
+
 /// The same bits alone or among others where nothing is hidden, though some are cut by the horizon
 /// or near, and by the loops for other machines. (What is left of variances, rounding, is scaled by
 /// what all of a call tell: see direct_sums.h.)
@@ -408,6 +450,7 @@ int main(void)
         cmocka_unit_test(a_penumbra),
         cmocka_unit_test(neighbours_find),
         cmocka_unit_test(a_half_first),
+        cmocka_unit_test(a_half_of_patches),
         cmocka_unit_test(the_same_bits),
         cmocka_unit_test(a_host_changes_nothing),
         cmocka_unit_test(no_more_rays_than_are_told),
