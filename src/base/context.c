@@ -319,9 +319,7 @@ static void *resize(alp_context *context, block_header *block, size_t bytes)
     moved->size = bytes;
     if (bytes > had) {
         memset((char *)(moved + 1) + had, 0, bytes - had);
-    }
-    if (bytes > had) { // it may have been in two places
-        count_memory(context, bytes);
+        count_memory(context, bytes); // it may have been in two places
         atomic_fetch_sub_explicit(&context->memory_now, had, memory_order_relaxed);
     } else {
         atomic_fetch_sub_explicit(&context->memory_now, had - bytes, memory_order_relaxed);
