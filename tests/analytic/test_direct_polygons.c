@@ -221,56 +221,69 @@ static void neighbours_find(void **state)
     test_stage_close(&s);
 }
 
+enum { BLOCKS = 8 * ALPI_PACKET };
+/// What many receivers alike found by the fewest samples, over seeds: errors over what is exact.
+typedef struct seeds_found {
+    double mean, squares, stated, rays; // rays of a receiver
+} seeds_found;
+
+static seeds_found gather_fewest(const test_stage *s, const test_patch alike[BLOCKS], double e,
+                                 uint32_t seeds)
+{
+    static alpi_reference_value values[BLOCKS];
+    const test_patches patches = {.count = BLOCKS, .patches = alike, .offset = 1e-6f};
+    const alpi_receivers receivers = test_patches_receivers(&patches);
+    const double each = 1.0 / ((double)BLOCKS * seeds);
+    seeds_found f = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t seed = 0; seed < seeds; seed++) {
+        alpi_direct_options o = test_stage_options(s, ALPI_DIRECT_REPLICATES);
+        alpi_direct *direct = NULL;
+        alpi_direct_output output = {.values = values};
+        o.seed = seed;
+        ASSERT_OK(s->context, alpi_direct_create(&o, &direct));
+        ASSERT_OK(s->context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
+        alpi_direct_destroy(direct);
+        f.rays += (double)output.rays * each;
+        for (uint32_t i = 0; i < BLOCKS; i++) {
+            const double apart = ((double)values[i].mean[0] - e) / e;
+            f.mean += apart * each;
+            f.squares += apart * apart * each;
+            f.stated += (double)values[i].variance[0] / (e * e) * each;
+        }
+    }
+    return f;
+}
+
 /// Blocks of receivers below a strip that hides a fiftieth of the quad, by the fewest samples there
 /// are: half of those will do where neighbours and scouts find all clear, and who stops there is
 /// neither biased nor too sure. In full light all do.
 static void a_half_first(void **state)
 {
     (void)state;
-    enum { SEEDS = 1024, COUNT = 8 * ALPI_PACKET, SAMPLES = ALPI_DIRECT_REPLICATES };
+    enum { SEEDS = 1024, SAMPLES = ALPI_DIRECT_REPLICATES };
     const vec3 screen[4] = {{-0.01f, 1, -5}, {0.01f, 1, -5}, {0.01f, 1, 5}, {-0.01f, 1, 5}};
     const vec3 hidden[4] = {
         {-0.02f, 2, -0.5f}, {0.02f, 2, -0.5f}, {0.02f, 2, 0.5f}, {-0.02f, 2, 0.5f}};
-    static test_patch alike[COUNT];
-    for (uint32_t i = 0; i < COUNT; i++) {
+    static test_patch alike[BLOCKS];
+    for (uint32_t i = 0; i < BLOCKS; i++) {
         alike[i] = test_point((vec3){0, 0, 0}, UP);
     }
-    const test_patches patches = {.count = COUNT, .patches = alike, .offset = 1e-6f};
-    const alpi_receivers receivers = test_patches_receivers(&patches);
     for (int screened = 0; screened < 2; screened++) {
         test_stage s = open_quad(context, false, screened ? screen : NULL);
         const double all = exact(&alike[0], false);
         const double e = all - screened * 3.0 * ALPI_PI *
                                    alpi_polygon_form_factor((vec3){0, 0, 0}, UP, hidden, 4);
-        double mean = 0.0, squares = 0.0, stated = 0.0, rays = 0.0;
-        for (uint64_t seed = 0; seed < SEEDS; seed++) {
-            alpi_direct_options o = test_stage_options(&s, SAMPLES);
-            alpi_direct *direct = NULL;
-            static alpi_reference_value values[COUNT];
-            alpi_direct_output output = {.values = values};
-            o.seed = seed;
-            ASSERT_OK(s.context, alpi_direct_create(&o, &direct));
-            ASSERT_OK(s.context,
-                      alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
-            alpi_direct_destroy(direct);
-            rays += (double)output.rays / (COUNT * SEEDS);
-            for (uint32_t i = 0; i < COUNT; i++) {
-                const double apart = ((double)values[i].mean[0] - e) / e;
-                mean += apart / (COUNT * SEEDS);
-                squares += apart * apart / (COUNT * SEEDS);
-                stated += (double)values[i].variance[0] / (e * e * COUNT * SEEDS);
-            }
-        }
+        const seeds_found f = gather_fewest(&s, alike, e, SEEDS);
         if (!screened) {
-            ASSERT_NEAR(rays, SAMPLES / 2 + 1, 1e-9); // a scout each
-            assert_true(sqrt(squares) < 1e-6);
+            ASSERT_NEAR(f.rays, SAMPLES / 2 + 1, 1e-9); // a scout each
+            assert_true(sqrt(f.squares) < 1e-6);
         } else {
             printf("accuracy: a fiftieth of a quad hidden, 8 samples: %.2f rays, bias %+.3f %%, "
                    "error %.2f %%, stated over true error %.3f\n",
-                   rays, 100.0 * mean, 100.0 * sqrt(squares), sqrt(stated / squares));
-            assert_true(rays > SAMPLES / 2 + 1.5 && rays < SAMPLES + 0.5); // some of either
-            assert_true(fabs(mean) < 4.0 * sqrt(squares / (COUNT * SEEDS)));
-            ASSERT_NEAR(sqrt(stated / squares), 1.0, 0.1);
+                   f.rays, 100.0 * f.mean, 100.0 * sqrt(f.squares), sqrt(f.stated / f.squares));
+            assert_true(f.rays > SAMPLES / 2 + 1.5 && f.rays < SAMPLES + 0.5); // some of either
+            assert_true(fabs(f.mean) < 4.0 * sqrt(f.squares / (BLOCKS * SEEDS)));
+            ASSERT_NEAR(sqrt(f.stated / f.squares), 1.0, 0.1);
         }
         test_stage_close(&s);
     }
@@ -282,39 +295,20 @@ static void a_half_first(void **state)
 static void a_half_of_patches(void **state)
 {
     (void)state;
-    enum { SEEDS = 512, COUNT = 8 * ALPI_PACKET, SAMPLES = ALPI_DIRECT_REPLICATES };
-    static test_patch alike[COUNT];
-    static alpi_reference_value values[COUNT];
-    for (uint32_t i = 0; i < COUNT; i++) {
+    enum { SEEDS = 512, SAMPLES = ALPI_DIRECT_REPLICATES };
+    static test_patch alike[BLOCKS];
+    for (uint32_t i = 0; i < BLOCKS; i++) {
         alike[i] = (test_patch){{0.6f, 0, 0.3f}, {0.15f, 0, 0}, {0, 0, 0.15f}, UP};
     }
     test_stage s = open_quad(context, false, NULL);
     const double e = (double)test_stage_direct(&s, alike, 1u << 15, 99, NULL).mean[0];
-    const test_patches patches = {.count = COUNT, .patches = alike, .offset = 1e-6f};
-    const alpi_receivers receivers = test_patches_receivers(&patches);
-    double mean = 0.0, squares = 0.0, stated = 0.0, rays = 0.0;
-    for (uint64_t seed = 0; seed < SEEDS; seed++) {
-        alpi_direct_options o = test_stage_options(&s, SAMPLES);
-        alpi_direct *direct = NULL;
-        alpi_direct_output output = {.values = values};
-        o.seed = seed;
-        ASSERT_OK(s.context, alpi_direct_create(&o, &direct));
-        ASSERT_OK(s.context, alpi_direct_irradiance(direct, &receivers, NULL, 0, NULL, &output));
-        alpi_direct_destroy(direct);
-        rays += (double)output.rays / (COUNT * SEEDS);
-        for (uint32_t i = 0; i < COUNT; i++) {
-            const double apart = ((double)values[i].mean[0] - e) / e;
-            mean += apart / (COUNT * SEEDS);
-            squares += apart * apart / (COUNT * SEEDS);
-            stated += (double)values[i].variance[0] / (e * e * COUNT * SEEDS);
-        }
-    }
+    const seeds_found f = gather_fewest(&s, alike, e, SEEDS);
     printf("accuracy: small patches in full light, 8 samples: %.2f rays, bias %+.4f %%, error "
            "%.3f %%, stated over true error %.3f\n",
-           rays, 100.0 * mean, 100.0 * sqrt(squares), sqrt(stated / squares));
-    assert_true(rays >= SAMPLES / 2 + 1 && rays < SAMPLES / 2 + 1.5);
-    assert_true(fabs(mean) < 4.0 * sqrt(squares / (COUNT * SEEDS)));
-    assert_true(sqrt(squares) < 0.004 && stated > squares && stated < 25.0 * squares);
+           f.rays, 100.0 * f.mean, 100.0 * sqrt(f.squares), sqrt(f.stated / f.squares));
+    assert_true(f.rays >= SAMPLES / 2 + 1 && f.rays < SAMPLES / 2 + 1.5);
+    assert_true(fabs(f.mean) < 4.0 * sqrt(f.squares / (BLOCKS * SEEDS)));
+    assert_true(sqrt(f.squares) < 0.004 && f.stated > f.squares && f.stated < 25.0 * f.squares);
     test_stage_close(&s);
 }
 
