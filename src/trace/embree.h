@@ -30,7 +30,7 @@ struct alpi_tracer {
     uint32_t count[ALPI_GEOMETRY_COUNT];
     uint32_t in_row[ALPI_GEOMETRY_COUNT]; // of the first so many, triangle i is triangle 0 plus i:
                                           // to read it would mostly be a miss
-    uint32_t first_vertex, end_vertex; // of the scene: all that the triangles use are between
+    uint32_t first_vertex, end_vertex;    // of the scene: all that the triangles use are between
 };
 
 /// Our data behind Embree's context, which the filters get.
