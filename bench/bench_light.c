@@ -186,7 +186,7 @@ static bool run_scene(const char *name, uint32_t size, bool sky, const bench_opt
     alp_atlas_options atlas = alp_atlas_options_default();
     atlas.size = options->quick ? QUICK_SIZE : size;
     raw_embree *raw =
-        lit_scene_make(&light, &atlas, &lit) ? raw_embree_create(lit.scene.scene) : NULL;
+        lit_scene_make(&light, &atlas, &lit) ? raw_embree_create(lit.scene.scene, true) : NULL;
     const bool good = raw != NULL && run_hemicubes(&lit, raw, options, table) &&
                       run_cosine_rays(&lit, raw, options, table);
     raw_embree_destroy(raw);

@@ -143,7 +143,7 @@ static bool record_rays(const light_bake *what, sent_rays *sent)
     if (sent->record.packets == NULL || !bench_scene_load(what->name, 1, &scene)) {
         return false;
     }
-    sent->raw = raw_embree_create(scene.scene);
+    sent->raw = raw_embree_create(scene.scene, true);
     bench_scene_close(&scene);
     embree_record_to(&sent->record);
     const bool good = sent->raw != NULL && bake(what, 1, &report);

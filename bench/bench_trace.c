@@ -15,7 +15,7 @@ static bool run_scene(const char *name, const bench_options *options, bench_tabl
         if (!bench_scene_open(name, 1, &scene)) {
             return false;
         }
-        raw_embree *raw = raw_embree_create(scene.scene);
+        raw_embree *raw = raw_embree_create(scene.scene, true);
         if (raw == NULL) {
             bench_scene_close(&scene);
             return false;

@@ -42,7 +42,7 @@ static bool attach(raw_embree *raw, const alp_scene *scene)
     return true;
 }
 
-raw_embree *raw_embree_create(const alp_scene *scene)
+raw_embree *raw_embree_create(const alp_scene *scene, bool robust)
 {
     raw_embree *raw = calloc(1, sizeof *raw);
     const double started = alpi_seconds();
@@ -52,7 +52,8 @@ raw_embree *raw_embree_create(const alp_scene *scene)
         raw_embree_destroy(raw);
         return NULL;
     }
-    rtcSetSceneFlags(raw->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(raw->scene, (robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE) |
+                                     RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(raw->scene, RTC_BUILD_QUALITY_MEDIUM);
     if (!attach(raw, scene)) {
         fprintf(stderr, "alpenglow bench: Embree takes no geometry\n");

@@ -7,8 +7,9 @@
 
 typedef struct raw_embree raw_embree;
 /// The scene's usable triangles with the flags and the quality that src/trace/embree.c asks for.
+/// @param robust as its careful hierarchy, else as its quick one
 /// @return NULL after a message
-raw_embree *raw_embree_create(const alp_scene *scene);
+raw_embree *raw_embree_create(const alp_scene *scene, bool robust);
 void raw_embree_destroy(raw_embree *raw);
 double raw_embree_build_seconds(const raw_embree *raw);
 
