@@ -27,7 +27,7 @@ int bench_measure_atlas(int count, char **words);
 
 // --- tables --------------------------------------------------------------------------------------
 
-enum { BENCH_COLUMN_LIMIT = 10, BENCH_ROW_LIMIT = 64, BENCH_CELL_SIZE = 64 };
+enum { BENCH_COLUMN_LIMIT = 12, BENCH_ROW_LIMIT = 64, BENCH_CELL_SIZE = 64 };
 typedef struct bench_table {
     const char *title, *note; // note: a paragraph below the title, or NULL
     int columns, rows;        // row 0 is the header

@@ -58,7 +58,8 @@ static bool run_camera(const bench_scene *scene, const bench_options *options, b
 {
     const uint32_t pixels = options->quick ? 1024 : PIXELS, count = pixels * PACKETS_PER_PIXEL;
     alpi_view view;
-    raw_embree *raw = view_of(scene, WIDTH, HEIGHT, &view) ? raw_embree_create(scene->scene, true) : NULL;
+    raw_embree *raw =
+        view_of(scene, WIDTH, HEIGHT, &view) ? raw_embree_create(scene->scene, true) : NULL;
     if (raw == NULL) {
         return false;
     }
