@@ -137,7 +137,8 @@ static void fill_block(alpi_hemicube *cube, const face *f, uint32_t left, uint32
 }
 
 /// Blocks that lie one above the other follow each other: packets that are traced in pairs look
-/// through a square of 4 × 4 pixels, which fewer boxes cross than 8 × 2.
+/// through a square of 4 × 4 pixels, which crosses fewer boxes than 8 × 2. (Where half the
+/// resolution is no multiple of 4 some pairs are torn: slower, not wrong.)
 static void fill_face(alpi_hemicube *cube, const face *f)
 {
     for (uint32_t y = 0; y < f->height; y += 2 * BLOCK_HEIGHT) {

@@ -9,8 +9,8 @@
 
 enum { CELLS = 32, SMALL = 40, LARGE = 48, POINTS = 400 };
 /// Rays so long err by 1e-7 × 1000 m at the ceiling, a few thousandths of a cell: of a quarter of a
-/// million some slip. The hierarchy is worth its while from a thousand rays a triangle on.
-static const double FAR = 1000.0, LEAST_RAYS = 1000.0 * 2 * CELLS * CELLS;
+/// million some slip. The hierarchy is worth its while from 500 rays a triangle on.
+static const double FAR = 1000.0, LEAST_RAYS = 500.0 * 2 * CELLS * CELLS;
 static const float CONE = 2e-4f; // radians; .2 m at that distance
 
 // Along the floor, and up: askew, for products of coordinates that are 0 have no rounding.
