@@ -27,8 +27,7 @@ typedef struct measured_case {
     uint32_t *list, list_count;
     uint32_t samples; // sent from each receiver
     alpi_occlusion_sums sums;
-    const raw_embree
-        *raw; // with the hierarchy that the filter asks for; careful where it wants none
+    raw_embree *raw; // by the same hierarchy; careful where the filter wants none
     const char *hierarchy;
     ray_record record, parallel;
     const ray_record *timed;
@@ -201,6 +200,7 @@ static void release_case(measured_case *c)
     free(c->parallel.packets);
     alpi_occlusion_sums_destroy(c->scene->context, &c->sums);
     alpi_occlusion_release(&c->setup);
+    raw_embree_destroy(c->raw);
 }
 
 /// @param quick by the hierarchy of maps with many rays (alpi_tracer_quicken), where `bake` would
@@ -214,31 +214,25 @@ static bool run_case(const bench_scene *scene, const bench_map *map, bool quick,
     if (!bench_good(scene, alpi_occlusion_prepare(scene->scene, scene->tracer, &o, &c.setup))) {
         return false;
     }
-    if (quick && !c.setup.filter.few &&
-        !bench_good(scene, alpi_tracer_quicken(scene->tracer, (double)map->texels.count * c.samples,
-                                               NULL, NULL, &c.setup.filter.quick))) {
-        alpi_occlusion_release(&c.setup);
-        return false;
-    }
-    if (quick && !c.setup.filter.quick) { // not for these rays
-        alpi_occlusion_release(&c.setup);
-        return true;
+    const double rays = (double)map->texels.count * c.samples;
+    bool good = !quick || c.setup.filter.few ||
+                bench_good(scene, alpi_tracer_quicken(scene->tracer, rays, NULL, NULL,
+                                                      &c.setup.filter.quick));
+    if (!good || quick != c.setup.filter.quick) { // not for these rays
+        release_case(&c);
+        return good;
     }
     c.hierarchy = c.setup.filter.few ? "none" : quick ? "quick" : "careful";
-    raw_embree *raw = raw_embree_create(scene->scene, !quick);
-    c.raw = raw;
-    if (raw == NULL || !bench_good(scene, alpi_occlusion_sums_create(
-                                              scene->context, map->texels.count, false, &c.sums))) {
-        raw_embree_destroy(raw);
-        alpi_occlusion_release(&c.setup);
-        return false;
-    }
+    c.raw = raw_embree_create(scene->scene, !quick);
+    good = c.raw != NULL &&
+           bench_good(scene, alpi_occlusion_sums_create(scene->context, map->texels.count, false,
+                                                        &c.sums));
     for (int w = 0; w < WORKER_LIMIT; w++) {
         c.blocks[w] = aligned_alloc(64, BLOCK * sizeof(alpi_rays));
     }
     c.list_count = bench_pick_texels(map->lattice.order, map->texels.count,
                                      options->quick ? 1024 : 20480, TEXELS_PER_RUN, &c.list);
-    bool good = c.blocks[0] != NULL && c.blocks[1] != NULL && record_rays(&c);
+    good = good && c.blocks[0] != NULL && c.blocks[1] != NULL && record_rays(&c);
     for (c.workers = 1; c.workers <= WORKER_LIMIT && good; c.workers++) {
         alp_context_options context = alp_context_options_default();
         context.worker_count = c.workers;
@@ -251,7 +245,6 @@ static bool run_case(const bench_scene *scene, const bench_map *map, bool quick,
     }
     c.setup.context = scene->context;
     release_case(&c);
-    raw_embree_destroy(raw);
     return good;
 }
 

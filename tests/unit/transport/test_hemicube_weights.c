@@ -170,6 +170,21 @@ static void packets_hold_every_pixel_once(void **state)
     }
 }
 
+/// Packets that are traced in pairs look through 4 × 4 pixels.
+static void pairs_of_packets_are_squares(void **state)
+{
+    (void)state;
+    alpi_hemicube *cube = NULL;
+    ASSERT_OK(context, alpi_hemicube_create(context, 64, &cube));
+    assert_int_equal(cube->packet_count % 2, 0);
+    for (uint32_t p = 0; p < cube->packet_count; p += 2) {
+        const alpi_hemicube_packet *upper = &cube->packets[p], *lower = upper + 1;
+        assert_int_equal(lower->column[0], upper->column[0]);
+        assert_int_equal(lower->row[0], upper->row[0] + 2);
+    }
+    alpi_hemicube_destroy(cube);
+}
+
 /// Directions of the faces' middles and of one pixel beside each edge of the front.
 static void faces_lie_as_the_cross_shows(void **state)
 {
@@ -262,6 +277,7 @@ int main(void)
         cmocka_unit_test(every_weight_is_the_integral_over_its_pixel),
         cmocka_unit_test(weights_at_centres_are_not_exact),
         cmocka_unit_test(packets_hold_every_pixel_once),
+        cmocka_unit_test(pairs_of_packets_are_squares),
         cmocka_unit_test(faces_lie_as_the_cross_shows),
         cmocka_unit_test(frames_are_orthonormal_and_not_mirrored),
         cmocka_unit_test(other_resolutions_are_refused),
