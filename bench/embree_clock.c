@@ -81,6 +81,21 @@ static void write_down(embree_call_kind kind, const int *valid,
     }
 }
 
+/// Sixteen rays, as the two packets of eight that they are for the limit.
+static void write_halves(embree_call_kind kind, const int *valid,
+                         const struct RTCIntersectContext *context, const struct RTCRay16 *rays)
+{
+    const char *fields = (const char *)rays;
+    for (int half = 0; half < 2 && record_in_use != NULL; half++) {
+        struct RTCRay8 packet;
+        for (size_t k = 0; k < sizeof packet / sizeof packet.org_x; k++) {
+            memcpy((char *)&packet + k * sizeof packet.org_x,
+                   fields + (2 * k + (size_t)half) * sizeof packet.org_x, sizeof packet.org_x);
+        }
+        write_down(kind, valid + half * ALPI_PACKET, context, &packet, 1, 0);
+    }
+}
+
 // --- calls ---------------------------------------------------------------------------------------
 
 // Names that the linker makes: references to NAME become __wrap_NAME, the original is __real_NAME.
@@ -91,6 +106,8 @@ void __real_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersect
                            struct RTCRayHit16 *rays);
 void __real_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                          struct RTCRay8 *rays);
+void __real_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                          struct RTCRay16 *rays);
 void __real_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
                           unsigned n, unsigned m, size_t stride);
 void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
@@ -99,6 +116,8 @@ void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersect
                            struct RTCRayHit16 *rays);
 void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                          struct RTCRay8 *rays);
+void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                          struct RTCRay16 *rays);
 void __wrap_rtcOccludedNM(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayN *rays,
                           unsigned n, unsigned m, size_t stride);
 // NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c)
@@ -112,19 +131,10 @@ void __wrap_rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectC
     take(started);
 }
 
-/// Written down as the two packets of eight that they are for the limit.
 void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                            struct RTCRayHit16 *rays)
 {
-    const char *fields = (const char *)&rays->ray;
-    for (int half = 0; half < 2 && record_in_use != NULL; half++) {
-        struct RTCRay8 packet;
-        for (size_t k = 0; k < sizeof packet / sizeof packet.org_x; k++) {
-            memcpy((char *)&packet + k * sizeof packet.org_x,
-                   fields + (2 * k + (size_t)half) * sizeof packet.org_x, sizeof packet.org_x);
-        }
-        write_down(EMBREE_NEAREST, valid + half * ALPI_PACKET, context, &packet, 1, 0);
-    }
+    write_halves(EMBREE_NEAREST, valid, context, &rays->ray);
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcIntersect16(valid, scene, context, rays);
     take(started);
@@ -136,6 +146,15 @@ void __wrap_rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectCo
     write_down(EMBREE_OCCLUDED, valid, context, rays, 1, 0);
     const double started = running ? alpi_seconds() : 0.0;
     __real_rtcOccluded8(valid, scene, context, rays);
+    take(started);
+}
+
+void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                          struct RTCRay16 *rays)
+{
+    write_halves(EMBREE_OCCLUDED, valid, context, rays);
+    const double started = running ? alpi_seconds() : 0.0;
+    __real_rtcOccluded16(valid, scene, context, rays);
     take(started);
 }
 

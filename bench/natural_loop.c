@@ -29,8 +29,9 @@ static void start_lanes(const alpi_receiver_point *p, alpi_occlusion_lanes *lane
 
 /// Eight samples of one point.
 static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], uint32_t first,
-                            const alpi_occlusion_lanes *lanes, alpi_rays *rays)
+                            alpi_occlusion_stand *stand)
 {
+    const alpi_occlusion_lanes *lanes = &stand->groups[0];
     alpi_occlusion_tally tally = {{0}, {{0}}};
     alpi_sample_packet packet;
     const uint32_t(*samples)[3] = (const uint32_t(*)[3])loop->setup->sequence + first;
@@ -40,12 +41,13 @@ static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], u
         packet.v[i] = samples[i][1];
         packet.w[i] = samples[i][2];
     }
-    alpi_lanes_start(lanes, rays);
-    alpi_lanes_aim(loop->setup, lanes, &packet, shift, rays);
-    limit(loop->setup, &packet, shift[2], rays);
-    alpi_trace_occluded(loop->setup->tracer, rays, 1, (1u << ALPI_PACKET) - 1u, loop->setup->filter,
-                        ALPI_RAYS_NEAR);
-    count_open(rays, 1, &tally);
+    const alpi_ray_lanes to = ALPI_RAY_LANES(&stand->rays[0], 0);
+    alpi_lanes_start(lanes, &to);
+    alpi_lanes_aim(loop->setup, lanes, &packet, shift, &to);
+    limit(loop->setup, &packet, shift[2], to.maximum);
+    alpi_trace_occluded(loop->setup->tracer, &stand->rays[0], 1, (1u << ALPI_PACKET) - 1u,
+                        loop->setup->filter, ALPI_RAYS_NEAR);
+    count_open(stand, 0, 1, 0, &tally);
     uint32_t open = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
         open += tally.open[i];
@@ -53,12 +55,12 @@ static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], u
     return open;
 }
 
-static uint32_t trace_receiver(const natural_loop *loop, uint32_t receiver)
+static uint32_t trace_receiver(const natural_loop *loop, uint32_t receiver,
+                               alpi_occlusion_stand *stand)
 {
     const alpi_occlusion_setup *setup = loop->setup;
     const alpi_receivers *r = loop->receivers;
     alpi_receiver_point points[POINT_LIMIT];
-    alpi_occlusion_stand stand;
     float square[POINT_LIMIT][2];
     const uint32_t place = alpi_random_key(setup->options.seed, receiver, STREAM_PLACE);
     const uint32_t key = alpi_random_key(setup->options.seed, receiver, STREAM_DIRECTION);
@@ -69,17 +71,15 @@ static uint32_t trace_receiver(const natural_loop *loop, uint32_t receiver)
     const uint32_t corner[2] = {alpi_hash32(place ^ 0x68bc21ebu), alpi_hash32(place ^ 0x02e5be93u)};
     const uint32_t count = loop->count / ALPI_SAMPLES_PER_POINT;
     uint32_t open = 0;
-    alpi_occlusion_stand_start(&stand);
     for (uint32_t k = 0; k < count && k < POINT_LIMIT; k++) {
         square[k][0] = alpi_unit_float(setup->places[k][0] ^ corner[0]);
         square[k][1] = alpi_unit_float(setup->places[k][1] ^ corner[1]);
     }
     r->place(r->user, receiver, count, (const float(*)[2])square, points);
     for (uint32_t k = 0; k < count && k < POINT_LIMIT; k++) {
-        start_lanes(&points[k], &stand.groups[0]);
+        start_lanes(&points[k], &stand->groups[0]);
         for (uint32_t s = 0; s < ALPI_SAMPLES_PER_POINT; s += ALPI_PACKET) {
-            open += trace_eight(loop, shift, k * ALPI_SAMPLES_PER_POINT + s, &stand.groups[0],
-                                &stand.rays[0]);
+            open += trace_eight(loop, shift, k * ALPI_SAMPLES_PER_POINT + s, stand);
         }
     }
     return open;
@@ -89,8 +89,10 @@ alp_result natural_loop_range(void *user, uint32_t begin, uint32_t end, uint32_t
 {
     (void)worker;
     const natural_loop *loop = user;
+    alpi_occlusion_stand stand;
+    alpi_occlusion_stand_start(loop->setup, &stand);
     for (uint32_t i = begin; i < end; i++) {
-        loop->open[loop->list[i]] += trace_receiver(loop, loop->list[i]);
+        loop->open[loop->list[i]] += trace_receiver(loop, loop->list[i], &stand);
     }
     return ALP_OK;
 }

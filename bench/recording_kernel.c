@@ -25,6 +25,15 @@ static void write_down(const alpi_tracer *tracer, const alpi_rays *packets, uint
     r->count += kept;
 }
 
+/// Packets are written down one by one, whatever the tracer takes.
+static bool takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    (void)tracer;
+    (void)filter;
+    return false;
+}
+
 #define alpi_trace_occluded write_down
+#define alpi_tracer_takes_pairs takes_pairs
 #define ALPI_KERNEL bench_recording_kernel
 #include "transport/occlusion_kernel_body.h"

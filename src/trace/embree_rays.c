@@ -19,9 +19,12 @@ _Static_assert(sizeof(alpi_rays) == sizeof(struct RTCRay8) &&
                    offsetof(alpi_rays, maximum) == offsetof(struct RTCRay8, tfar) &&
                    offsetof(alpi_rays, flags) == offsetof(struct RTCRay8, flags),
                "alpi_rays is what Embree takes");
-_Static_assert(2 * sizeof(alpi_rays) == sizeof(struct RTCRay16) &&
-                   2 * offsetof(alpi_rays, flags) == offsetof(struct RTCRay16, flags),
-               "two of them are what it takes of sixteen");
+_Static_assert(sizeof(alpi_ray_pair) == sizeof(struct RTCRay16) &&
+                   offsetof(alpi_ray_pair, direction_x) == offsetof(struct RTCRay16, dir_x) &&
+                   offsetof(alpi_ray_pair, maximum) == offsetof(struct RTCRay16, tfar) &&
+                   offsetof(alpi_ray_pair, flags) == offsetof(struct RTCRay16, flags),
+               "alpi_ray_pair is what it takes of sixteen");
+_Static_assert(sizeof(alpi_ray_pair) == 2 * sizeof(alpi_rays), "field by field twice as long");
 
 enum { ALL_LANES = (1 << ALPI_PACKET) - 1 };
 
@@ -41,6 +44,72 @@ static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
     return valid;
 }
 
+/// All fields as they are, masks too; each is twice as long there. @param half which of the two
+static inline void copy_half(const alpi_rays *rays, size_t half, alpi_ray_pair *to)
+{
+    enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
+    for (size_t k = 0; k < FIELDS; k++) { // memcpy of a size that is known: one or two moves
+        memcpy((char *)to + (2 * k + half) * FIELD, (const char *)rays + k * FIELD, FIELD);
+    }
+}
+
+// --- blocked or not ------------------------------------------------------------------------------
+
+static RTCScene shadow_scene(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    assert(!filter.quick || tracer->quick_scene != NULL);
+    return filter.quick ? tracer->quick_scene : tracer->embree_scene;
+}
+
+bool alpi_tracer_takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    return tracer->wide && !filter.few;
+}
+
+alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace_filter filter)
+{
+    // From about here rays that start in one packet part ways below the first levels of the
+    // hierarchy, and streams overtake packets, a little later where these go in pairs through the
+    // quick one: `alpenglow bench transport`.
+    enum { STREAM_TRIANGLES = 40000, QUICK_STREAM_TRIANGLES = 60000 };
+    const bool later = filter.quick && alpi_tracer_takes_pairs(tracer, filter);
+    const uint32_t least = later ? QUICK_STREAM_TRIANGLES : STREAM_TRIANGLES;
+    return alpi_tracer_triangle_count(tracer) >= least ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR;
+}
+
+void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, uint32_t count,
+                               alpi_trace_filter filter)
+{
+    assert(alpi_tracer_takes_pairs(tracer, filter));
+    alpi_trace_context context = start_context(tracer, filter);
+    const RTCScene scene = shadow_scene(tracer, filter);
+    for (uint32_t i = 0; i < count; i++) {
+        rtcOccluded16(ALL_VALID, scene, &context.embree, (struct RTCRay16 *)&pairs[i]);
+    }
+}
+
+enum { PAIRS_TOGETHER = 4 };
+
+/// Packets two at a time. Some are laid out before the first is traced: vectors of sixteen that are
+/// read just after their halves were written wait for the memory.
+static void trace_shadow_pairs(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
+                               alpi_trace_filter filter)
+{
+    alpi_ray_pair pairs[PAIRS_TOGETHER];
+    for (uint32_t first = 0; first < count; first += PAIRS_TOGETHER) {
+        const uint32_t some = count - first < PAIRS_TOGETHER ? count - first : PAIRS_TOGETHER;
+        alpi_rays *rays = packets + 2 * (size_t)first;
+        for (uint32_t i = 0; i < 2 * some; i++) {
+            copy_half(&rays[i], i % 2, &pairs[i / 2]);
+        }
+        alpi_trace_occluded_pairs(tracer, pairs, some, filter);
+        for (uint32_t i = 0; i < 2 * some; i++) {
+            memcpy(rays[i].maximum, pairs[i / 2].maximum + i % 2 * ALPI_PACKET,
+                   sizeof rays->maximum);
+        }
+    }
+}
+
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread)
 {
@@ -53,17 +122,23 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
         return;
     }
     alpi_trace_context context = start_context(tracer, filter);
-    assert(!filter.quick || tracer->quick_scene != NULL);
-    RTCScene scene = filter.quick ? tracer->quick_scene : tracer->embree_scene;
-    if (spread == ALPI_RAYS_SCATTERED && valid == ALL_VALID) {
+    const RTCScene scene = shadow_scene(tracer, filter);
+    uint32_t paired = 0;
+    if (valid == ALL_VALID && spread == ALPI_RAYS_SCATTERED) {
         rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
                       sizeof *packets);
         return;
     }
-    for (uint32_t i = 0; i < count; i++) {
+    if (valid == ALL_VALID && alpi_tracer_takes_pairs(tracer, filter)) {
+        trace_shadow_pairs(tracer, packets, count / 2, filter);
+        paired = count / 2 * 2;
+    }
+    for (uint32_t i = paired; i < count; i++) {
         rtcOccluded8(valid, scene, &context.embree, (struct RTCRay8 *)&packets[i]);
     }
 }
+
+// --- what is hit ---------------------------------------------------------------------------------
 
 static const _Alignas(32) uint32_t LANE_BITS[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
 
@@ -191,28 +266,15 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     }
 }
 
-/// All fields as they are, masks too; each is twice as long there. @param half which of the two
-static inline void copy_half(const alpi_rays *rays, size_t half, struct RTCRay16 *to)
-{
-    enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
-    for (size_t k = 0; k < FIELDS; k++) { // memcpy of a size that is known: one or two moves
-        memcpy((char *)to + (2 * k + half) * FIELD, (const char *)rays + k * FIELD, FIELD);
-    }
-}
-
-enum { PAIRS_TOGETHER = 4 };
-
-/// Packets of which all lanes take part, two at a time. All are laid out before the first is
-/// traced: vectors of sixteen that are read just after their halves were written wait for the
-/// memory.
+/// Packets of which all lanes take part, two at a time, laid out as trace_shadow_pairs does.
 static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packets, uint32_t pairs,
                         alpi_trace_context *context, alpi_hits *hits)
 {
     struct RTCRayHit16 found[PAIRS_TOGETHER];
     const bool in_row = is_in_row(tracer);
     for (uint32_t p = 0; p < pairs; p++) {
-        copy_half(packets[2 * p], 0, &found[p].ray);
-        copy_half(packets[2 * p + 1], 1, &found[p].ray);
+        copy_half(packets[2 * p], 0, (alpi_ray_pair *)&found[p].ray);
+        copy_half(packets[2 * p + 1], 1, (alpi_ray_pair *)&found[p].ray);
         memset(found[p].hit.geomID, 0xff, sizeof found[p].hit.geomID);
         memset(found[p].hit.instID, 0xff, sizeof found[p].hit.instID);
     }

@@ -78,8 +78,9 @@ static void color_receiver(const alpi_occlusion_setup *setup, const alpi_sample_
         const alpi_occlusion_lanes *lanes = &groups[k / chunk->block];
         const uint32_t active =
             k + 1 < chunk->packet_count ? (1u << ALPI_PACKET) - 1u : chunk->last;
-        alpi_lanes_start(lanes, rays);
-        alpi_lanes_aim(setup, lanes, &packets[k], stand->shifts[r], rays);
+        const alpi_ray_lanes to = ALPI_RAY_LANES(rays, 0);
+        alpi_lanes_start(lanes, &to);
+        alpi_lanes_aim(setup, lanes, &packets[k], stand->shifts[r], &to);
         alpi_trace_nearest(setup->tracer, rays, active, setup->filter, &hits);
         add_hits(setup, rays, &hits, active, tally, sum);
     }

@@ -14,11 +14,6 @@
 
 enum { SAMPLE_LIMIT = 1 << 20, STREAM_SEQUENCE = 2 };
 
-/// From about here rays that start in one packet part ways below the first levels of the hierarchy,
-/// and streams overtake packets: 0.7 times as fast at 15,000 triangles, 1.1 at 50,000, 1.3 at a
-/// million (alpenglow bench transport).
-enum { STREAM_TRIANGLES = 40000 };
-
 alp_occlusion_options alp_occlusion_options_default(void)
 {
     return (alp_occlusion_options){.struct_size = sizeof(alp_occlusion_options),
@@ -144,7 +139,6 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .cone_sin = hemisphere ? 1.0f : sinf(options->cone),
         .cone_cos = hemisphere ? 0.0f : cosf(options->cone),
         .filter = {.one_sided = options->one_sided},
-        .streams = alpi_tracer_triangle_count(tracer) >= STREAM_TRIANGLES,
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
     setup->filter.few = alpi_tracer_meets_few(tracer, setup->distance);

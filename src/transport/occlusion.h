@@ -45,7 +45,6 @@ typedef struct alpi_occlusion_setup {
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
     bool bent;               // sum the open directions too
-    bool streams;            // rays in streams of many packets, which large scenes like
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
     uint32_t (*places)[2];   // [samples / SAMPLES_PER_POINT + 2 + PACKET] the same for their points

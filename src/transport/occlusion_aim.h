@@ -22,6 +22,18 @@ static inline float alpi_lane_unit(uint32_t bits)
     return (float)(int32_t)(bits >> 8) * 0x1p-24f; // 24 bits: exact, and below 1
 }
 
+/// Where eight rays lie: in a packet, or in a half of a pair.
+typedef struct alpi_ray_lanes {
+    float *origin[3], *direction[3], *maximum;
+} alpi_ray_lanes;
+
+/// @param rays pointer to either   @param at the first lane
+#define ALPI_RAY_LANES(rays, at)                                                                   \
+    ((alpi_ray_lanes){                                                                             \
+        {(rays)->origin_x + (at), (rays)->origin_y + (at), (rays)->origin_z + (at)},               \
+        {(rays)->direction_x + (at), (rays)->direction_y + (at), (rays)->direction_z + (at)},      \
+        (rays)->maximum + (at)})
+
 /// A frame about each lane's normal, as vec3_frame makes it.
 static inline void alpi_lanes_frames(alpi_occlusion_lanes *lanes)
 {
@@ -72,8 +84,9 @@ static inline void alpi_lanes_disk_points(const alpi_sample_packet *samples,
 static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
                                   const alpi_occlusion_lanes *lanes,
                                   const alpi_sample_packet *samples, const uint32_t shift[3],
-                                  alpi_rays *rays)
+                                  const alpi_ray_lanes *to)
 {
+    float *along_x = to->direction[0], *along_y = to->direction[1], *along_z = to->direction[2];
     _Alignas(32) float x[ALPI_PACKET], y[ALPI_PACKET], z[ALPI_PACKET];
     if (setup->options.distribution == ALP_DISTRIBUTION_UNIFORM) {
         const float h = 1.0f - setup->cone_cos; // z = 1 − h r², uniform in [cosθmax, 1]
@@ -95,23 +108,24 @@ static inline void alpi_lanes_aim(const alpi_occlusion_setup *setup,
     }
     ALPI_EACH_LANE
     {
-        rays->direction_x[i] = x[i] * lanes->tangent[0][i] + y[i] * lanes->bitangent[0][i] +
-                               z[i] * lanes->normal[0][i];
-        rays->direction_y[i] = x[i] * lanes->tangent[1][i] + y[i] * lanes->bitangent[1][i] +
-                               z[i] * lanes->normal[1][i];
-        rays->direction_z[i] = x[i] * lanes->tangent[2][i] + y[i] * lanes->bitangent[2][i] +
-                               z[i] * lanes->normal[2][i];
+        along_x[i] = x[i] * lanes->tangent[0][i] + y[i] * lanes->bitangent[0][i] +
+                     z[i] * lanes->normal[0][i];
+        along_y[i] = x[i] * lanes->tangent[1][i] + y[i] * lanes->bitangent[1][i] +
+                     z[i] * lanes->normal[1][i];
+        along_z[i] = x[i] * lanes->tangent[2][i] + y[i] * lanes->bitangent[2][i] +
+                     z[i] * lanes->normal[2][i];
     }
 }
 
 /// Where the rays of a packet start.
-static inline void alpi_lanes_start(const alpi_occlusion_lanes *lanes, alpi_rays *rays)
+static inline void alpi_lanes_start(const alpi_occlusion_lanes *lanes, const alpi_ray_lanes *to)
 {
+    float *x = to->origin[0], *y = to->origin[1], *z = to->origin[2];
     ALPI_EACH_LANE
     {
-        rays->origin_x[i] = lanes->origin[0][i];
-        rays->origin_y[i] = lanes->origin[1][i];
-        rays->origin_z[i] = lanes->origin[2][i];
+        x[i] = lanes->origin[0][i];
+        y[i] = lanes->origin[1][i];
+        z[i] = lanes->origin[2][i];
     }
 }
 

@@ -16,9 +16,9 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    // Work is cut so that one range takes less than a millisecond: cancelling stays prompt, and
+    // Work is cut so that one range takes a millisecond or less: cancelling stays prompt, and
     // workers end together also where a list is short.
-    RAYS_PER_RANGE = 1 << 13,
+    RAYS_PER_RANGE = 1 << 14,
     SAMPLES_PER_ROUND = 1 << 14,
     PACKETS_TOGETHER = 2 * ALPI_TRACE_BATCH
 };
@@ -32,8 +32,17 @@ typedef struct gather_job {
     alpi_occlusion_sums *sums;
 } gather_job;
 
-void alpi_occlusion_stand_start(alpi_occlusion_stand *stand)
+void alpi_occlusion_stand_start(const alpi_occlusion_setup *setup, alpi_occlusion_stand *stand)
 {
+    const bool pairs = alpi_tracer_takes_pairs(setup->tracer, setup->filter);
+    for (uint32_t k = 0; k < ALPI_TRACE_BATCH / 2 && pairs; k++) {
+        alpi_ray_pair *pair = &stand->pairs[k];
+        memset(pair->minimum, 0, sizeof pair->minimum);
+        memset(pair->time, 0, sizeof pair->time);
+        memset(pair->mask, 0xff, sizeof pair->mask);
+        memset(pair->id, 0, sizeof pair->id);
+        memset(pair->flags, 0, sizeof pair->flags);
+    }
     for (uint32_t k = 0; k < ALPI_TRACE_BATCH; k++) {
         alpi_rays *rays = &stand->rays[k];
         memset(rays->minimum, 0, sizeof rays->minimum);
@@ -130,7 +139,7 @@ static alp_result run_range(void *user, uint32_t begin, uint32_t end, uint32_t w
     (void)worker;
     const gather_job *job = user;
     alpi_occlusion_stand stand;
-    alpi_occlusion_stand_start(&stand);
+    alpi_occlusion_stand_start(job->setup, &stand);
     for (uint32_t c = 0; c < job->run.chunk_count; c++) {
         run_chunk(job, &job->run.chunks[c], begin, end, &stand);
     }
@@ -238,7 +247,7 @@ void alpi_occlusion_of_points(const alpi_occlusion_setup *setup, const alpi_samp
                               uint32_t count, float *accessibility)
 {
     alpi_occlusion_stand stand;
-    alpi_occlusion_stand_start(&stand);
+    alpi_occlusion_stand_start(setup, &stand);
     stand.receivers = 1;
     for (uint32_t p = 0; p < count; p++) {
         uint32_t open = 0;

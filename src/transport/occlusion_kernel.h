@@ -19,11 +19,14 @@ typedef struct alpi_occlusion_stand {
     // their fractions, read as signed numbers, lie in [−1, 1).
     uint32_t shifts[ALPI_PACKET][3];
     uint32_t receivers; // at most ALPI_PACKET; 1 where the chunk's last packet leaves lanes out
+    // Of a batch: packets that are traced in pairs lie in these, others in those, both from their
+    // number on.
+    alpi_ray_pair pairs[ALPI_TRACE_BATCH / 2];
     alpi_rays rays[ALPI_TRACE_BATCH];
 } alpi_occlusion_stand;
 
-/// Readies a stand for any receivers.
-void alpi_occlusion_stand_start(alpi_occlusion_stand *stand);
+/// Readies a stand for any receivers of a setup.
+void alpi_occlusion_stand_start(const alpi_occlusion_setup *setup, alpi_occlusion_stand *stand);
 
 /// What a receiver's rays of a chunk met, by lane.
 typedef struct alpi_occlusion_tally {

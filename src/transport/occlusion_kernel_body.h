@@ -23,20 +23,20 @@ static inline float inverse_smoothstep(float u)
 
 /// How far the rays reach: the limit, or a random length below it.
 static inline void limit(const alpi_occlusion_setup *setup, const alpi_sample_packet *samples,
-                         uint32_t shift, alpi_rays *rays)
+                         uint32_t shift, float *maximum)
 {
     const float far = setup->distance;
     switch (setup->falloff) {
     case ALP_FALLOFF_LINEAR: // w = 1 − t
         ALPI_EACH_LANE
         {
-            rays->maximum[i] = far * alpi_lane_unit(samples->w[i] ^ shift);
+            maximum[i] = far * alpi_lane_unit(samples->w[i] ^ shift);
         }
         break;
     case ALP_FALLOFF_SMOOTH: // w = (1 − t)² (1 + 2t) = 1 − smoothstep(t)
         ALPI_EACH_LANE
         {
-            rays->maximum[i] = far * inverse_smoothstep(alpi_lane_unit(samples->w[i] ^ shift));
+            maximum[i] = far * inverse_smoothstep(alpi_lane_unit(samples->w[i] ^ shift));
         }
         break;
     case ALP_FALLOFF_EXP: // w = (e^(−4t) − e^(−4)) / (1 − e^(−4))
@@ -44,49 +44,61 @@ static inline void limit(const alpi_occlusion_setup *setup, const alpi_sample_pa
         {
             const float end = 0.018315638889f; // e^−4
             float open = 1.0f - alpi_lane_unit(samples->w[i] ^ shift);
-            rays->maximum[i] = far * (-0.25f * logf(end + open * (1.0f - end)));
+            maximum[i] = far * (-0.25f * logf(end + open * (1.0f - end)));
         }
         break;
     case ALP_FALLOFF_NONE:
     default:
         ALPI_EACH_LANE
         {
-            rays->maximum[i] = far;
+            maximum[i] = far;
         }
         break;
     }
 }
 
-/// Adds up four packets at a time: the sums go through memory.
-static inline void count_open(const alpi_rays *rays, uint32_t count, alpi_occlusion_tally *tally)
+/// Packet k of a batch of which the first `paired` are traced in pairs.
+static inline alpi_ray_lanes lanes_of(alpi_occlusion_stand *stand, uint32_t k, uint32_t paired)
 {
-    uint32_t k = 0;
-    for (; k + 4 <= count; k += 4) {
-        const alpi_rays *r = rays + k;
+    return k < paired ? ALPI_RAY_LANES(&stand->pairs[k / 2], k % 2 * ALPI_PACKET)
+                      : ALPI_RAY_LANES(&stand->rays[k], 0);
+}
+
+/// Packets [first, end) of a batch, four at a time: the sums go through memory.
+static inline void count_open(alpi_occlusion_stand *stand, uint32_t first, uint32_t end,
+                              uint32_t paired, alpi_occlusion_tally *tally)
+{
+    uint32_t k = first;
+    for (; k + 4 <= end; k += 4) {
+        const float *a = lanes_of(stand, k, paired).maximum;
+        const float *b = lanes_of(stand, k + 1, paired).maximum;
+        const float *c = lanes_of(stand, k + 2, paired).maximum;
+        const float *d = lanes_of(stand, k + 3, paired).maximum;
         ALPI_EACH_LANE
         {
-            const uint32_t open =
-                (r[0].maximum[i] >= 0.0f ? 1u : 0u) + (r[1].maximum[i] >= 0.0f ? 1u : 0u) +
-                (r[2].maximum[i] >= 0.0f ? 1u : 0u) + (r[3].maximum[i] >= 0.0f ? 1u : 0u);
+            const uint32_t open = (a[i] >= 0.0f ? 1u : 0u) + (b[i] >= 0.0f ? 1u : 0u) +
+                                  (c[i] >= 0.0f ? 1u : 0u) + (d[i] >= 0.0f ? 1u : 0u);
             tally->open[i] += open;
         }
     }
-    for (; k < count; k++) {
+    for (; k < end; k++) {
+        const float *a = lanes_of(stand, k, paired).maximum;
         ALPI_EACH_LANE
         {
-            tally->open[i] += rays[k].maximum[i] >= 0.0f ? 1u : 0u;
+            tally->open[i] += a[i] >= 0.0f ? 1u : 0u;
         }
     }
 }
 
-static inline void bend(const alpi_rays *rays, alpi_occlusion_tally *tally)
+static inline void bend(const alpi_ray_lanes *rays, alpi_occlusion_tally *tally)
 {
+    const float *x = rays->direction[0], *y = rays->direction[1], *z = rays->direction[2];
     ALPI_EACH_LANE
     {
         float open = rays->maximum[i] >= 0.0f ? 1.0f : 0.0f;
-        tally->sum[0][i] += open * rays->direction_x[i];
-        tally->sum[1][i] += open * rays->direction_y[i];
-        tally->sum[2][i] += open * rays->direction_z[i];
+        tally->sum[0][i] += open * x[i];
+        tally->sum[1][i] += open * y[i];
+        tally->sum[2][i] += open * z[i];
     }
 }
 
@@ -98,51 +110,80 @@ static inline void leave_out(uint32_t active, alpi_rays *rays)
     }
 }
 
-/// Traces a batch, of whose last packet only some lanes may take part.
-static inline void trace_batch(const alpi_occlusion_setup *setup, alpi_rays *rays, uint32_t count,
-                               uint32_t last)
+/// How a batch is traced, of whose last packet only some lanes may take part.
+typedef struct batch_plan {
+    alpi_rays_spread spread;
+    uint32_t count, last; // packets; the lanes of the last one
+    uint32_t whole;       // those of which all lanes take part
+    uint32_t paired;      // of those, the ones in pairs
+} batch_plan;
+
+/// @param each packets of a receiver: an odd number leaves one that a pair would join to the next
+///             receiver's, and what a receiver gets must not depend on its neighbours
+static inline batch_plan plan_batch(const alpi_occlusion_setup *setup, uint32_t count,
+                                    uint32_t last, uint32_t each)
 {
-    const uint32_t all = (1u << ALPI_PACKET) - 1u;
-    const alpi_rays_spread spread = setup->streams ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR;
-    const uint32_t whole = last == all ? count : count - 1;
-    if (whole > 0) {
-        alpi_trace_occluded(setup->tracer, rays, whole, all, setup->filter, spread);
+    batch_plan plan = {.spread = alpi_tracer_random_spread(setup->tracer, setup->filter),
+                       .count = count,
+                       .last = last,
+                       .whole = last == (1u << ALPI_PACKET) - 1u ? count : count - 1};
+    if (plan.spread == ALPI_RAYS_NEAR && each % 2 == 0 &&
+        alpi_tracer_takes_pairs(setup->tracer, setup->filter)) {
+        plan.paired = plan.whole / 2 * 2;
     }
-    if (whole < count) {
-        leave_out(last, &rays[whole]);
-        alpi_trace_occluded(setup->tracer, &rays[whole], 1, last, setup->filter, ALPI_RAYS_NEAR);
+    return plan;
+}
+
+static inline void trace_batch(const alpi_occlusion_setup *setup, const batch_plan *plan,
+                               alpi_occlusion_stand *stand)
+{
+    const uint32_t all = (1u << ALPI_PACKET) - 1u, whole = plan->whole, paired = plan->paired;
+    if (paired > 0) {
+        alpi_trace_occluded_pairs(setup->tracer, stand->pairs, paired / 2, setup->filter);
+    }
+    if (paired < whole) {
+        alpi_trace_occluded(setup->tracer, stand->rays + paired, whole - paired, all, setup->filter,
+                            plan->spread);
+    }
+    if (whole < plan->count) {
+        leave_out(plan->last, &stand->rays[whole]);
+        alpi_trace_occluded(setup->tracer, &stand->rays[whole], 1, plan->last, setup->filter,
+                            ALPI_RAYS_NEAR);
     }
 }
 
 /// Counts what a batch met, receiver by receiver. @param first packet of the batch, of all
-static inline void count_batch(const alpi_occlusion_setup *setup, const alpi_rays *rays,
-                               uint32_t first, uint32_t made, uint32_t packets,
+static inline void count_batch(const alpi_occlusion_setup *setup, alpi_occlusion_stand *stand,
+                               const batch_plan *plan, uint32_t first, uint32_t packets,
                                alpi_occlusion_tally *tallies)
 {
+    const uint32_t made = plan->count;
     for (uint32_t k = 0; k < made;) {
         alpi_occlusion_tally *tally = &tallies[(first + k) / packets];
         const uint32_t left = packets - (first + k) % packets; // of the receiver's
         const uint32_t end = k + left < made ? k + left : made;
-        count_open(rays + k, end - k, tally);
+        count_open(stand, k, end, plan->paired, tally);
         for (; k < end && setup->bent; k++) {
-            bend(&rays[k], tally);
+            const alpi_ray_lanes lanes = lanes_of(stand, k, plan->paired);
+            bend(&lanes, tally);
         }
         k = end;
     }
 }
 
-/// Makes packets that leave from one group of points.
+/// Makes packets that leave from one group of points. @param first of them, in the batch
 static inline void make_packets(const alpi_occlusion_setup *setup,
                                 const alpi_sample_packet *packets, uint32_t packet_count,
                                 const alpi_occlusion_lanes *lanes, const uint32_t shift[3],
-                                alpi_rays *rays)
+                                uint32_t first, uint32_t paired, alpi_occlusion_stand *stand)
 {
     for (uint32_t k = 0; k < packet_count; k++) {
-        alpi_lanes_start(lanes, &rays[k]);
-        alpi_lanes_aim(setup, lanes, &packets[k], shift, &rays[k]);
+        const alpi_ray_lanes to = lanes_of(stand, first + k, paired);
+        alpi_lanes_start(lanes, &to);
+        alpi_lanes_aim(setup, lanes, &packets[k], shift, &to);
     }
     for (uint32_t k = 0; k < packet_count; k++) {
-        limit(setup, &packets[k], shift[2], &rays[k]);
+        limit(setup, &packets[k], shift[2], lanes_of(stand, first + k, paired).maximum);
     }
 }
 
@@ -160,12 +201,14 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
     }
     for (uint32_t first = 0; first < all; first += ALPI_TRACE_BATCH) {
         const uint32_t made = all - first < ALPI_TRACE_BATCH ? all - first : ALPI_TRACE_BATCH;
+        const uint32_t last = first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u;
+        const batch_plan plan = plan_batch(setup, made, last, each);
         for (uint32_t k = 0; k < made;) {
             const uint32_t next = (group + 1) * chunk->block, end = next < each ? next : each;
             const uint32_t some = end - at < made - k ? end - at : made - k;
             make_packets(setup, packets + at, some,
                          &stand->groups[receiver * chunk->groups + group], stand->shifts[receiver],
-                         &stand->rays[k]);
+                         k, plan.paired, stand);
             k += some;
             at += some;
             group += at == end ? 1 : 0;
@@ -174,8 +217,7 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
                 at = group = 0;
             }
         }
-        trace_batch(setup, stand->rays, made,
-                    first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u);
-        count_batch(setup, stand->rays, first, made, each, tallies);
+        trace_batch(setup, &plan, stand);
+        count_batch(setup, stand, &plan, first, each, tallies);
     }
 }
