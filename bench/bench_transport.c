@@ -215,10 +215,11 @@ static bool run_case(const bench_scene *scene, const bench_map *map, bool quick,
         return false;
     }
     const double rays = (double)map->texels.count * c.samples;
+    bool taken = false;
     bool good = !quick || c.setup.filter.few ||
-                bench_good(scene, alpi_tracer_quicken(scene->tracer, rays, NULL, NULL,
-                                                      &c.setup.filter.quick));
-    if (!good || quick != c.setup.filter.quick) { // not for these rays
+                bench_good(scene, alpi_tracer_quicken(scene->tracer, rays, NULL, NULL, &taken));
+    alpi_occlusion_be_quick(&c.setup, taken);
+    if (!good || quick != taken) { // not for these rays
         release_case(&c);
         return good;
     }

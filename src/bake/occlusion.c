@@ -223,7 +223,7 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alp_result result = alpi_occlusion_prepare(job->scene, tracer, &occlusion, &setup);
     if (result == ALP_OK) {
         setup.bent = job->bent != NULL;
-        setup.filter.quick = quick;
+        alpi_occlusion_be_quick(&setup, quick);
         job->report.ao_distance = fmaxf(job->report.ao_distance, setup.distance);
         result = gather_valid(job, object, &setup, *options, lattice, report);
     }

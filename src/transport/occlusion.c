@@ -142,8 +142,15 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
     setup->filter.few = alpi_tracer_meets_few(tracer, setup->distance);
+    alpi_occlusion_be_quick(setup, false);
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     return make_sequences(setup);
+}
+
+void alpi_occlusion_be_quick(alpi_occlusion_setup *setup, bool quick)
+{
+    setup->filter.quick = quick;
+    setup->spread = alpi_tracer_random_spread(setup->tracer, setup->filter);
 }
 
 alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,

@@ -44,6 +44,7 @@ typedef struct alpi_occlusion_setup {
     alp_falloff falloff; // NONE where there is no limit
     float cone_sin, cone_cos;
     alpi_trace_filter filter;
+    alpi_rays_spread spread; // of packets that neighbouring receivers send
     bool bent;               // sum the open directions too
     uint32_t samples;        // of each receiver, a multiple of ALPI_QUARTERS
     uint32_t (*sequence)[3]; // [samples] 32-bit fractions, shared by all receivers
@@ -53,12 +54,14 @@ typedef struct alpi_occlusion_setup {
 /// @return ALP_OK; INVALID_ARGUMENT: a value out of its range, named
 alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_options *options);
 
-/// `options` must have passed the check. Rays are careful; the filter is the caller's to make quick
-/// (alpi_tracer_quicken). Release the setup in the end.
+/// `options` must have passed the check. Rays are careful until alpi_occlusion_be_quick says else.
+/// Release the setup in the end.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tracer,
                                   const alp_occlusion_options *options,
                                   alpi_occlusion_setup *setup);
+/// @param quick what alpi_tracer_quicken told of the setup's rays
+void alpi_occlusion_be_quick(alpi_occlusion_setup *setup, bool quick);
 /// The same setup with other random numbers, a sequence of its own.
 alp_result alpi_occlusion_prepare_again(const alpi_occlusion_setup *setup, uint64_t seed,
                                         alpi_occlusion_setup *other);

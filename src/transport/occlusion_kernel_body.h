@@ -112,7 +112,6 @@ static inline void leave_out(uint32_t active, alpi_rays *rays)
 
 /// How a batch is traced, of whose last packet only some lanes may take part.
 typedef struct batch_plan {
-    alpi_rays_spread spread;
     uint32_t count, last; // packets; the lanes of the last one
     uint32_t whole;       // those of which all lanes take part
     uint32_t paired;      // of those, the ones in pairs
@@ -123,13 +122,11 @@ typedef struct batch_plan {
 static inline batch_plan plan_batch(const alpi_occlusion_setup *setup, uint32_t count,
                                     uint32_t last, uint32_t each)
 {
-    batch_plan plan = {.spread = alpi_tracer_random_spread(setup->tracer, setup->filter),
-                       .count = count,
-                       .last = last,
-                       .whole = last == (1u << ALPI_PACKET) - 1u ? count : count - 1};
-    if (plan.spread == ALPI_RAYS_NEAR && each % 2 == 0 &&
+    const uint32_t whole = last == (1u << ALPI_PACKET) - 1u ? count : count - 1;
+    batch_plan plan = {.count = count, .last = last, .whole = whole};
+    if (setup->spread == ALPI_RAYS_NEAR && each % 2 == 0 &&
         alpi_tracer_takes_pairs(setup->tracer, setup->filter)) {
-        plan.paired = plan.whole / 2 * 2;
+        plan.paired = whole / 2 * 2;
     }
     return plan;
 }
@@ -143,7 +140,7 @@ static inline void trace_batch(const alpi_occlusion_setup *setup, const batch_pl
     }
     if (paired < whole) {
         alpi_trace_occluded(setup->tracer, stand->rays + paired, whole - paired, all, setup->filter,
-                            plan->spread);
+                            setup->spread);
     }
     if (whole < plan->count) {
         leave_out(plan->last, &stand->rays[whole]);

@@ -69,7 +69,7 @@ static alpi_occlusion_sums send_rays(const rays *r, uint32_t count, uint32_t ste
 {
     alpi_occlusion_sums sums;
     alpi_occlusion_setup setup = r->setup;
-    setup.streams = streams;
+    setup.spread = streams ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR; // packets go in pairs, or alone
     setup.bent = true;
     const alpi_receivers receivers = {RECEIVERS, r->places.extended, place, &r->places};
     ASSERT_OK(r->context, alpi_occlusion_sums_create(r->context, RECEIVERS, true, &sums));

@@ -64,6 +64,7 @@ static uint32_t pick_lanes(uint32_t round, uint32_t packet)
 /// together another of the two than alone.
 typedef struct hit_tally {
     uint32_t met, either;
+    uint32_t blocked; // lanes of shadow packets
 } hit_tally;
 
 /// What lanes that are left out, and packets past the last, must keep.
@@ -107,6 +108,31 @@ static void allow_edges(const alp_scene *scene, const alpi_hits *alone, alpi_hit
     }
 }
 
+/// Shadow rays by runs of each length: blocked together as alone.
+static void hold_shadows(const alpi_tracer *tracer, alpi_trace_filter filter, ray_aim aim,
+                         const alpi_rays rays[MOST], uint32_t *blocked)
+{
+    alpi_rays alone[MOST], together[MOST];
+    memcpy(alone, rays, sizeof alone);
+    for (uint32_t p = 0; p < MOST; p++) {
+        alpi_trace_occluded(tracer, &alone[p], 1, ALL_LANES, filter, ALPI_RAYS_NEAR);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            *blocked += alone[p].maximum[i] < 0.0f;
+        }
+    }
+    for (uint32_t count = 1; count <= MOST; count++) {
+        memcpy(together, rays, sizeof together);
+        alpi_trace_occluded(tracer, together, count, ALL_LANES, filter, ALPI_RAYS_NEAR);
+        for (uint32_t p = 0; p < MOST; p++) {
+            const alpi_rays *expected = p < count ? &alone[p] : &rays[p];
+            if (memcmp(&together[p], expected, sizeof *expected) != 0) {
+                fail_msg("aim %d: packet %u of %u shadow packets has other bits", (int)aim, p,
+                         count);
+            }
+        }
+    }
+}
+
 /// The same packets by runs of each length.
 static void hold_round(const alp_scene *scene, const alpi_tracer *tracer, alpi_trace_filter filter,
                        ray_aim aim, uint32_t round, hit_tally *tally)
@@ -126,6 +152,7 @@ static void hold_round(const alp_scene *scene, const alpi_tracer *tracer, alpi_t
             tally->met += (active[p] >> i & 1u) != 0 && alone[p].triangle[i] != ALPI_NONE;
         }
     }
+    hold_shadows(tracer, filter, aim, rays, &tally->blocked);
     for (uint32_t count = 0; count <= MOST; count++) {
         const uint32_t first = alpi_hash32(round + count) % (MOST - count + 1);
         mark(together, MOST);
@@ -146,15 +173,15 @@ static void hold_round(const alp_scene *scene, const alpi_tracer *tracer, alpi_t
 
 static void hold_tracer(const alp_scene *scene, const alpi_tracer *tracer, const char *level)
 {
-    hit_tally all = {0, 0};
+    hit_tally all = {0, 0, 0};
     for (int kind = 0; kind < 3; kind++) {
         const alpi_trace_filter filter = {.one_sided = kind == 1, .panes = kind == 2};
         for (int aim = 0; aim < AIM_COUNT; aim++) {
-            hit_tally tally = {0, 0};
+            hit_tally tally = {0, 0, 0};
             for (uint32_t round = 0; round < ROUNDS; round++) {
                 hold_round(scene, tracer, filter, (ray_aim)aim, round, &tally);
             }
-            assert_true(tally.met > ROUNDS * MOST / 4);
+            assert_true(tally.met > ROUNDS * MOST / 4 && tally.blocked > ROUNDS * MOST / 4);
             all.met += tally.met;
             all.either += tally.either;
         }
