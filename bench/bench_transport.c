@@ -18,6 +18,9 @@ enum {
     WORKER_LIMIT = 2
 };
 
+/// What of Embree is called.
+typedef enum raw_call { RAW_PACKETS, RAW_PAIRS, RAW_STREAM } raw_call;
+
 typedef struct measured_case {
     const bench_scene *scene;
     alp_context *context; // with as many workers as are measured
@@ -31,9 +34,9 @@ typedef struct measured_case {
     const char *hierarchy;
     ray_record record, parallel;
     const ray_record *timed;
-    bool stream; // the raw call for all packets of a block at once
+    raw_call call;
     double traced[WORKER_LIMIT];
-    alpi_rays *blocks[WORKER_LIMIT]; // [BLOCK]
+    alpi_rays *blocks[WORKER_LIMIT]; // [BLOCK], or half as many pairs
 } measured_case;
 
 // --- what is measured ----------------------------------------------------------------------------
@@ -46,9 +49,16 @@ static alp_result run_raw_range(void *user, uint32_t begin, uint32_t end, uint32
     for (uint32_t block = begin; block < end; block++) {
         const uint32_t first = block * BLOCK, left = c->timed->count - first;
         const uint32_t count = left < BLOCK ? left : BLOCK;
-        memcpy(c->blocks[worker], c->timed->packets + first, count * sizeof(alpi_rays));
+        const alpi_rays *packets = c->timed->packets + first;
+        if (c->call == RAW_PAIRS) {
+            raw_embree_lay_pairs(packets, count, (alpi_ray_pair *)c->blocks[worker]);
+        } else {
+            memcpy(c->blocks[worker], packets, count * sizeof *packets);
+        }
         const double started = c->workers == 1 ? bench_thread_seconds() : alpi_seconds();
-        if (c->stream) {
+        if (c->call == RAW_PAIRS) {
+            raw_embree_occluded_pairs(c->raw, (alpi_ray_pair *)c->blocks[worker], count / 2);
+        } else if (c->call == RAW_STREAM) {
             raw_embree_occluded_stream(c->raw, c->blocks[worker], count);
         } else {
             raw_embree_occluded(c->raw, c->blocks[worker], count);
@@ -59,12 +69,12 @@ static alp_result run_raw_range(void *user, uint32_t begin, uint32_t end, uint32
 }
 
 /// Seconds of the calls alone, as if they scaled perfectly over the workers.
-static double time_raw(measured_case *c, const ray_record *record, bool stream)
+static double time_raw(measured_case *c, const ray_record *record, raw_call call)
 {
     double sum = 0.0;
     memset(c->traced, 0, sizeof c->traced);
     c->timed = record;
-    c->stream = stream;
+    c->call = call;
     (void)!alpi_parallel_for(c->context, (record->count + BLOCK - 1) / BLOCK, 1, run_raw_range, c,
                              NULL);
     for (uint32_t w = 0; w < c->workers; w++) {
@@ -159,21 +169,23 @@ static void measure(measured_case *c, uint32_t rounds, bench_table *table)
 {
     double ratios[BENCH_ROUND_LIMIT], limits[BENCH_ROUND_LIMIT], times[BENCH_ROUND_LIMIT];
     double natural[BENCH_ROUND_LIMIT], stream[BENCH_ROUND_LIMIT], parallel[BENCH_ROUND_LIMIT];
-    double careful[BENCH_ROUND_LIMIT];
+    double careful[BENCH_ROUND_LIMIT], pairs[BENCH_ROUND_LIMIT];
     uint32_t *open = bench_allocate(c->receivers.count, sizeof *open);
     for (uint32_t i = 0; i < rounds; i++) {
-        limits[i] = time_raw(c, &c->record, false);
+        limits[i] = time_raw(c, &c->record, RAW_PACKETS);
         times[i] = time_ours(c);
         natural[i] = careful[i] = time_natural(c, false, open);
         if (c->setup.filter.quick) {
             careful[i] = time_natural(c, true, open);
         }
-        parallel[i] =
-            natural[i] / time_raw(c, &c->parallel, false) * c->parallel.count / c->record.count;
+        parallel[i] = natural[i] / time_raw(c, &c->parallel, RAW_PACKETS) * c->parallel.count /
+                      c->record.count;
         natural[i] /= times[i];
         careful[i] /= times[i];
-        stream[i] = limits[i] / time_raw(c, &c->record, true);
-        limits[i] = 0.5 * (limits[i] + time_raw(c, &c->record, false)); // before and after ours
+        pairs[i] = limits[i] / time_raw(c, &c->record, RAW_PAIRS);
+        stream[i] = limits[i] / time_raw(c, &c->record, RAW_STREAM);
+        limits[i] =
+            0.5 * (limits[i] + time_raw(c, &c->record, RAW_PACKETS)); // before and after ours
         ratios[i] = limits[i] / times[i];
     }
     char other[16] = "–"; // where there is no hierarchy there is no other
@@ -181,12 +193,12 @@ static void measure(measured_case *c, uint32_t rounds, bench_table *table)
         snprintf(other, sizeof other, "%.2f", bench_median(careful, (int)rounds));
     }
     const double rays = 1e-6 * c->list_count * c->samples;
-    bench_table_add(table, "%s|%u|%s|%u|%.1f|%.1f|%.2f|%.2f|%s|%.2f|%.2f", c->scene->name,
+    bench_table_add(table, "%s|%u|%s|%u|%.1f|%.1f|%.2f|%.2f|%s|%.2f|%.2f|%.2f", c->scene->name,
                     alp_scene_get_info(c->scene->scene).usable_triangles, c->hierarchy, c->workers,
                     rays / bench_median(limits, (int)rounds),
                     rays / bench_median(times, (int)rounds), bench_median(ratios, (int)rounds),
                     bench_median(natural, (int)rounds), other, bench_median(parallel, (int)rounds),
-                    bench_median(stream, (int)rounds));
+                    bench_median(pairs, (int)rounds), bench_median(stream, (int)rounds));
     free(open);
 }
 
@@ -293,10 +305,12 @@ int bench_transport(const bench_options *options)
                       "over ours: by the same hierarchy, which is what our packets gain, and by "
                       "the careful one, which is what packets and hierarchy gain together. "
                       "Natural/parallel: the same loop over the bare calls on packets of parallel "
-                      "rays from eight neighbouring texels, which would err as one. Stream: "
-                      "`rtcOccludedNM` in the place of `rtcOccluded8`.",
+                      "rays from eight neighbouring texels, which would err as one. Pairs and "
+                      "stream: the limit by `rtcOccluded16`, of two packets that follow each "
+                      "other, which ours calls too where the machine has vectors of sixteen, and "
+                      "by `rtcOccludedNM`, over the limit.",
                       "scene|triangles|hierarchy|workers|limit|ours|ratio|natural/ours|"
-                      "careful natural/ours|natural/parallel|stream");
+                      "careful natural/ours|natural/parallel|pairs|stream");
     bool good = true;
     for (size_t i = 0; i < QUICK_SCENES && good && options->scene == NULL && options->quick; i++) {
         good = run_scene(quick_scenes[i], 64, options, &table);

@@ -99,6 +99,29 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
                   sizeof *packets);
 }
 
+void raw_embree_lay_pairs(const alpi_rays *packets, uint32_t count, alpi_ray_pair *pairs)
+{
+    enum { FIELD = sizeof packets->origin_x, FIELDS = sizeof *packets / FIELD };
+    for (uint32_t i = 0; i < count / 2 * 2; i++) {
+        char *to = (char *)&pairs[i / 2] + i % 2 * FIELD;
+        for (size_t k = 0; k < FIELDS; k++) {
+            memcpy(to + 2 * k * FIELD, (const char *)&packets[i] + k * FIELD, FIELD);
+        }
+    }
+}
+
+static const _Alignas(64) int VALID_PAIR[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                             -1, -1, -1, -1, -1, -1, -1, -1};
+
+void raw_embree_occluded_pairs(const raw_embree *raw, alpi_ray_pair *pairs, uint32_t count)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (uint32_t i = 0; i < count; i++) {
+        rtcOccluded16(VALID_PAIR, raw->scene, &context, (struct RTCRay16 *)&pairs[i]);
+    }
+}
+
 double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
                                bool coherent, double (*clock)(void))
 {
@@ -129,9 +152,7 @@ double raw_embree_time_nearest(const raw_embree *raw, const alpi_rays *packets, 
 double raw_embree_time_pairs(const raw_embree *raw, const alpi_rays *packets, uint32_t count,
                              double (*clock)(void))
 {
-    enum { BLOCK = 128, FIELD = sizeof packets->origin_x, FIELDS = sizeof *packets / FIELD };
-    static const _Alignas(64) int valid[2 * ALPI_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                            -1, -1, -1, -1, -1, -1, -1, -1};
+    enum { BLOCK = 128 };
     static _Thread_local struct RTCRayHit16 block[BLOCK];
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -139,18 +160,14 @@ double raw_embree_time_pairs(const raw_embree *raw, const alpi_rays *packets, ui
     double seconds = 0.0;
     for (uint32_t first = 0; first + 2 <= count; first += 2 * BLOCK) {
         const uint32_t left = (count - first) / 2, some = left < BLOCK ? left : BLOCK;
-        for (uint32_t i = 0; i < 2 * some; i++) {
-            char *to = (char *)&block[i / 2].ray + i % 2 * FIELD;
-            for (size_t k = 0; k < FIELDS; k++) {
-                memcpy(to + 2 * k * FIELD, (const char *)&packets[first + i] + k * FIELD, FIELD);
-            }
-        }
         for (uint32_t i = 0; i < some; i++) {
+            raw_embree_lay_pairs(packets + first + 2 * (size_t)i, 2,
+                                 (alpi_ray_pair *)&block[i].ray);
             memset(&block[i].hit, 0xff, sizeof block[i].hit);
         }
         const double started = clock();
         for (uint32_t i = 0; i < some; i++) {
-            rtcIntersect16(valid, raw->scene, &context, &block[i]);
+            rtcIntersect16(VALID_PAIR, raw->scene, &context, &block[i]);
         }
         seconds += clock() - started;
     }

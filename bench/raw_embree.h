@@ -18,6 +18,11 @@ void raw_embree_occluded(const raw_embree *raw, alpi_rays *packets, uint32_t cou
 /// rtcOccludedNM on all packets at once.
 void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint32_t count);
 
+/// Packets two by two, as the calls of sixteen rays take them. An odd last is left out.
+void raw_embree_lay_pairs(const alpi_rays *packets, uint32_t count, alpi_ray_pair *pairs);
+/// rtcOccluded16.
+void raw_embree_occluded_pairs(const raw_embree *raw, alpi_ray_pair *pairs, uint32_t count);
+
 /// rtcIntersect8, with the coherent flag or without, on copies of the packets that lie ready in the
 /// cache. Of one scene by many threads.
 /// @param clock bench_thread_seconds or alpi_seconds
