@@ -131,7 +131,7 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer);
 
 /// How the rays of a packet leave: says nothing about what they meet, only how to find it fastest.
 typedef enum alpi_rays_spread {
-    ALPI_RAYS_NEAR,     // each packet by itself, ray by ray where they part
+    ALPI_RAYS_NEAR,     // packets by themselves or two at a time, ray by ray where they part
     ALPI_RAYS_SCATTERED // in different directions: one by one, as a stream; up to 1.4 times as
                         // fast
 } alpi_rays_spread;
@@ -142,13 +142,13 @@ alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
 /// all ones. A lane that hits anything gets maximum = −∞, others are left alone. Packets that
 /// follow each other should be near each other: two are traced together where the machine has
-/// vectors of sixteen. A ray through the very edge of two triangles may be told either, by what it
-/// is with.
+/// vectors of sixteen. A quick ray through the very edge of two triangles may be told either, by
+/// what it is with.
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread);
-/// Whether rays go through alpi_trace_occluded_pairs; up to a sixth faster than packets of eight.
+/// Whether alpi_trace_occluded_pairs may be called; up to a sixth faster than packets of eight.
 bool alpi_tracer_takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter);
-/// The same of packets in pairs, of which all lanes take part. Only where the tracer takes pairs.
+/// The same of packets in pairs, of which all lanes take part. @param count of pairs
 void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, uint32_t count,
                                alpi_trace_filter filter);
 /// Lanes that are not active keep what `hits` holds.

@@ -16,7 +16,7 @@
 enum { STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 
 enum {
-    // Work is cut so that one range takes a millisecond or less: cancelling stays prompt, and
+    // Work is cut so that one range takes a millisecond or a few: cancelling stays prompt, and
     // workers end together also where a list is short.
     RAYS_PER_RANGE = 1 << 14,
     SAMPLES_PER_ROUND = 1 << 14,

@@ -19,8 +19,8 @@ typedef struct alpi_occlusion_stand {
     // their fractions, read as signed numbers, lie in [−1, 1).
     uint32_t shifts[ALPI_PACKET][3];
     uint32_t receivers; // at most ALPI_PACKET; 1 where the chunk's last packet leaves lanes out
-    // Of a batch: packets that are traced in pairs lie in these, others in those, both from their
-    // number on.
+    // Of a batch: packet k is a half, number k % 2, of pair k / 2 where it is traced in pairs, else
+    // it is one of the rays, number k.
     alpi_ray_pair pairs[ALPI_TRACE_BATCH / 2];
     alpi_rays rays[ALPI_TRACE_BATCH];
 } alpi_occlusion_stand;

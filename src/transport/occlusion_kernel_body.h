@@ -120,11 +120,11 @@ typedef struct batch_plan {
 /// @param each packets of a receiver: an odd number leaves one that a pair would join to the next
 ///             receiver's, and what a receiver gets must not depend on its neighbours
 static inline batch_plan plan_batch(const alpi_occlusion_setup *setup, uint32_t count,
-                                    uint32_t last, uint32_t each)
+                                    uint32_t last, uint32_t each, uint32_t receivers)
 {
     const uint32_t whole = last == (1u << ALPI_PACKET) - 1u ? count : count - 1;
     batch_plan plan = {.count = count, .last = last, .whole = whole};
-    if (setup->spread == ALPI_RAYS_NEAR && each % 2 == 0 &&
+    if (setup->spread == ALPI_RAYS_NEAR && (each % 2 == 0 || receivers == 1) &&
         alpi_tracer_takes_pairs(setup->tracer, setup->filter)) {
         plan.paired = whole / 2 * 2;
     }
@@ -138,8 +138,10 @@ static inline void trace_batch(const alpi_occlusion_setup *setup, const batch_pl
     if (paired > 0) {
         alpi_trace_occluded_pairs(setup->tracer, stand->pairs, paired / 2, setup->filter);
     }
-    if (paired < whole) {
-        alpi_trace_occluded(setup->tracer, stand->rays + paired, whole - paired, all, setup->filter,
+    // What is not in pairs goes one call a packet, unless in a stream: calls of several pair them.
+    const uint32_t some = setup->spread == ALPI_RAYS_SCATTERED || setup->filter.few ? whole : 1;
+    for (uint32_t k = paired; k < whole; k += some) {
+        alpi_trace_occluded(setup->tracer, stand->rays + k, some, all, setup->filter,
                             setup->spread);
     }
     if (whole < plan->count) {
@@ -199,7 +201,7 @@ void ALPI_KERNEL(const alpi_occlusion_setup *setup, const alpi_sample_run *run,
     for (uint32_t first = 0; first < all; first += ALPI_TRACE_BATCH) {
         const uint32_t made = all - first < ALPI_TRACE_BATCH ? all - first : ALPI_TRACE_BATCH;
         const uint32_t last = first + made == all ? chunk->last : (1u << ALPI_PACKET) - 1u;
-        const batch_plan plan = plan_batch(setup, made, last, each);
+        const batch_plan plan = plan_batch(setup, made, last, each, stand->receivers);
         for (uint32_t k = 0; k < made;) {
             const uint32_t next = (group + 1) * chunk->block, end = next < each ? next : each;
             const uint32_t some = end - at < made - k ? end - at : made - k;

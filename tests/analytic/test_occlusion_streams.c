@@ -9,8 +9,9 @@
 
 enum { RECEIVERS = 21 }; // two times as many as go together, and a part
 
-// 4: one a quarter. 12, 100: quarters of less than a batch of 64 packets. 260: of one more.
-static const uint32_t SAMPLES[] = {4, 12, 64, 100, 256, 260, 1000};
+// 4: one a quarter. 8, 24: an odd number of packets of each of several receivers, which go in no
+// pairs. 12, 100: quarters of less than a batch of 64 packets. 260: of one more.
+static const uint32_t SAMPLES[] = {4, 8, 12, 24, 64, 100, 256, 260, 1000};
 enum { SAMPLE_COUNTS = sizeof SAMPLES / sizeof *SAMPLES };
 
 /// Where receivers are: every third in the sealed ball about (20, 0, 0), every third under the lid,
