@@ -82,7 +82,7 @@ void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, 
 {
     assert(alpi_tracer_takes_pairs(tracer, filter));
     alpi_trace_context context = start_context(tracer, filter);
-    const RTCScene scene = shadow_scene(tracer, filter);
+    RTCScene scene = shadow_scene(tracer, filter);
     for (uint32_t i = 0; i < count; i++) {
         rtcOccluded16(ALL_VALID, scene, &context.embree, (struct RTCRay16 *)&pairs[i]);
     }
@@ -122,7 +122,7 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
         return;
     }
     alpi_trace_context context = start_context(tracer, filter);
-    const RTCScene scene = shadow_scene(tracer, filter);
+    RTCScene scene = shadow_scene(tracer, filter);
     uint32_t paired = 0;
     if (valid == ALL_VALID && spread == ALPI_RAYS_SCATTERED) {
         rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,

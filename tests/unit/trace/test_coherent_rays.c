@@ -74,9 +74,9 @@ static void mark(alpi_hits *hits, uint32_t count)
 }
 
 /// Bits, of lanes that are left out too.
-static bool are_same(const void *a, const void *b)
+static bool are_same(const void *a, const void *b, size_t size)
 {
-    return memcmp(a, b, sizeof(alpi_hits)) == 0;
+    return memcmp(a, b, size) == 0;
 }
 
 static bool have_an_edge_in_common(const alp_scene *scene, uint32_t a, uint32_t b)
@@ -125,7 +125,7 @@ static void hold_shadows(const alpi_tracer *tracer, alpi_trace_filter filter, ra
         alpi_trace_occluded(tracer, together, count, ALL_LANES, filter, ALPI_RAYS_NEAR);
         for (uint32_t p = 0; p < MOST; p++) {
             const alpi_rays *expected = p < count ? &alone[p] : &rays[p];
-            if (memcmp(&together[p], expected, sizeof *expected) != 0) {
+            if (!are_same(&together[p], expected, sizeof *expected)) {
                 fail_msg("aim %d: packet %u of %u shadow packets has other bits", (int)aim, p,
                          count);
             }
@@ -163,7 +163,7 @@ static void hold_round(const alp_scene *scene, const alpi_tracer *tracer, alpi_t
             if (traced && aim == AIM_EDGES) {
                 allow_edges(scene, &alone[p], &together[p], tally);
             }
-            if (!are_same(&together[p], traced ? &alone[p] : &kept)) {
+            if (!are_same(&together[p], traced ? &alone[p] : &kept, sizeof kept)) {
                 fail_msg("aim %d, round %u: packet %u of %u from %u on, lanes %#x, has other bits",
                          (int)aim, round, p, count, first, active[p]);
             }
