@@ -302,13 +302,14 @@ int bench_transport(const bench_options *options)
                       "hierarchy, of none by the careful one, on the packets that our loop sends, "
                       "recorded. Ratio: limit's seconds over ours. Natural: seconds of the loop "
                       "with eight samples of one point, as they follow each other, in a packet, "
-                      "over ours: by the same hierarchy, which is what our packets gain, and by "
-                      "the careful one, which is what packets and hierarchy gain together. "
+                      "over ours: by the same hierarchy, which is what our packets, and pairs of "
+                      "them, gain, and by "
+                      "the careful one, which is what these and the hierarchy gain together. "
                       "Natural/parallel: the same loop over the bare calls on packets of parallel "
                       "rays from eight neighbouring texels, which would err as one. Pairs and "
                       "stream: the limit by `rtcOccluded16`, of two packets that follow each "
                       "other, which ours calls too where the machine has vectors of sixteen, and "
-                      "by `rtcOccludedNM`, over the limit.",
+                      "by `rtcOccludedNM`: its rate over the limit's.",
                       "scene|triangles|hierarchy|workers|limit|ours|ratio|natural/ours|"
                       "careful natural/ours|natural/parallel|pairs|stream");
     bool good = true;

@@ -199,6 +199,7 @@ static void hold_every_level(alp_scene *(*make)(alp_context *context), const boo
         alp_scene *scene = make(context);
         alpi_tracer *tracer = NULL;
         ASSERT_OK(context, alpi_tracer_create(scene, surfaces, NULL, NULL, &tracer));
+        assert_true(LEVELS[i] == NULL || !alpi_tracer_takes_pairs(tracer, (alpi_trace_filter){0}));
         hold_tracer(scene, tracer, LEVELS[i]);
         alpi_tracer_destroy(tracer);
         alp_scene_destroy(scene);
