@@ -231,13 +231,14 @@ static bool run_triangles(const bench_options *options)
         {options->quick ? "hills:200" : "hills:70000", size, FIXED_RAYS, true},
         {options->quick ? "hills:800" : "hills:1000000", size, FIXED_RAYS, true}};
     bench_table table;
-    bench_table_start(&table, "Light by triangles, microseconds a texel",
-                      "Wall time of sampling at 512², 64 rays of a texel, a clear sky and a sun, "
-                      "with few triangles and with many, and the growth. Limit: the calls of the "
-                      "ray tracer that these bakes make, recorded (an eighth of them), by "
-                      "themselves. Ratio: our growth over that of the limit. Growth and ratio: "
-                      "medians of the rounds'.",
-                      "scenes|workers|few|many|growth|limit, few|limit, many|growth|ratio");
+    bench_table_start(
+        &table, "Light by triangles, microseconds a texel",
+        "Wall time of sampling at 512², 64 rays of a texel, a clear sky and a sun, "
+        "with few triangles and with many, and the growth. Limit: the calls of the "
+        "ray tracer that these bakes make, recorded (an eighth of them; those of sixteen rays "
+        "as two of eight), by themselves. Ratio: our growth over that of the limit. Growth and "
+        "ratio: medians of the rounds'.",
+        "scenes|workers|few|many|growth|limit, few|limit, many|growth|ratio");
     sent_rays sent[2] = {0};
     bool good = record_rays(&bakes[0], &sent[0]) && record_rays(&bakes[1], &sent[1]);
     for (uint32_t w = 1; w <= WORKERS && good; w++) {

@@ -101,12 +101,8 @@ void raw_embree_occluded_stream(const raw_embree *raw, alpi_rays *packets, uint3
 
 void raw_embree_lay_pairs(const alpi_rays *packets, uint32_t count, alpi_ray_pair *pairs)
 {
-    enum { FIELD = sizeof packets->origin_x, FIELDS = sizeof *packets / FIELD };
     for (uint32_t i = 0; i < count / 2 * 2; i++) {
-        char *to = (char *)&pairs[i / 2] + i % 2 * FIELD;
-        for (size_t k = 0; k < FIELDS; k++) {
-            memcpy(to + 2 * k * FIELD, (const char *)&packets[i] + k * FIELD, FIELD);
-        }
+        alpi_ray_pair_set(&pairs[i / 2], i % 2, &packets[i]);
     }
 }
 

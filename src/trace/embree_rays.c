@@ -44,15 +44,6 @@ static const int *spread_bits(uint32_t active, int valid[ALPI_PACKET])
     return valid;
 }
 
-/// All fields as they are, masks too; each is twice as long there. @param half which of the two
-static inline void copy_half(const alpi_rays *rays, size_t half, alpi_ray_pair *to)
-{
-    enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
-    for (size_t k = 0; k < FIELDS; k++) { // memcpy of a size that is known: one or two moves
-        memcpy((char *)to + (2 * k + half) * FIELD, (const char *)rays + k * FIELD, FIELD);
-    }
-}
-
 // --- blocked or not ------------------------------------------------------------------------------
 
 static RTCScene shadow_scene(const alpi_tracer *tracer, alpi_trace_filter filter)
@@ -100,7 +91,7 @@ static void trace_shadow_pairs(const alpi_tracer *tracer, alpi_rays *packets, ui
         const uint32_t some = count - first < PAIRS_TOGETHER ? count - first : PAIRS_TOGETHER;
         alpi_rays *rays = packets + 2 * (size_t)first;
         for (uint32_t i = 0; i < 2 * some; i++) {
-            copy_half(&rays[i], i % 2, &pairs[i / 2]);
+            alpi_ray_pair_set(&pairs[i / 2], i % 2, &rays[i]);
         }
         alpi_trace_occluded_pairs(tracer, pairs, some, filter);
         for (uint32_t i = 0; i < 2 * some; i++) {
@@ -123,13 +114,14 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
     }
     alpi_trace_context context = start_context(tracer, filter);
     RTCScene scene = shadow_scene(tracer, filter);
-    uint32_t paired = 0;
     if (valid == ALL_VALID && spread == ALPI_RAYS_SCATTERED) {
         rtcOccludedNM(scene, &context.embree, (struct RTCRayN *)packets, ALPI_PACKET, count,
                       sizeof *packets);
         return;
     }
-    if (valid == ALL_VALID && alpi_tracer_takes_pairs(tracer, filter)) {
+    uint32_t paired = 0;
+    if (valid == ALL_VALID && spread == ALPI_RAYS_PAIRED &&
+        alpi_tracer_takes_pairs(tracer, filter)) {
         trace_shadow_pairs(tracer, packets, count / 2, filter);
         paired = count / 2 * 2;
     }
@@ -273,8 +265,8 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
     struct RTCRayHit16 found[PAIRS_TOGETHER];
     const bool in_row = is_in_row(tracer);
     for (uint32_t p = 0; p < pairs; p++) {
-        copy_half(packets[2 * p], 0, (alpi_ray_pair *)&found[p].ray);
-        copy_half(packets[2 * p + 1], 1, (alpi_ray_pair *)&found[p].ray);
+        alpi_ray_pair_set((alpi_ray_pair *)&found[p].ray, 0, packets[2 * p]);
+        alpi_ray_pair_set((alpi_ray_pair *)&found[p].ray, 1, packets[2 * p + 1]);
         memset(found[p].hit.geomID, 0xff, sizeof found[p].hit.geomID);
         memset(found[p].hit.instID, 0xff, sizeof found[p].hit.instID);
     }

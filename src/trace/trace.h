@@ -7,6 +7,8 @@
 
 #include "scene/scene.h"
 
+#include <string.h>
+
 enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 64 };
 
 /// Eight rays, structure of arrays, laid out as the ray tracer wants them: it is copied only where
@@ -34,6 +36,15 @@ typedef struct alpi_ray_pair {
     uint32_t mask[2 * ALPI_PACKET];
     uint32_t id[2 * ALPI_PACKET], flags[2 * ALPI_PACKET];
 } alpi_ray_pair;
+
+/// All fields as they are, masks too; each is twice as long there. @param half which of the two
+static inline void alpi_ray_pair_set(alpi_ray_pair *pair, size_t half, const alpi_rays *rays)
+{
+    enum { FIELD = sizeof rays->origin_x, FIELDS = sizeof *rays / FIELD };
+    for (size_t k = 0; k < FIELDS; k++) { // memcpy of a size that is known: one or two moves
+        memcpy((char *)pair + (2 * k + half) * FIELD, (const char *)rays + k * FIELD, FIELD);
+    }
+}
 
 /// Rays of no length in no direction, which the tracer may be given. Field by field: compilers make
 /// an instruction of a whole struct of zeros that takes as long as the rest of aiming.
@@ -131,7 +142,9 @@ bool alpi_tracer_has_panes(const alpi_tracer *tracer);
 
 /// How the rays of a packet leave: says nothing about what they meet, only how to find it fastest.
 typedef enum alpi_rays_spread {
-    ALPI_RAYS_NEAR,     // packets by themselves or two at a time, ray by ray where they part
+    ALPI_RAYS_NEAR,     // each packet by itself, ray by ray where they part
+    ALPI_RAYS_PAIRED,   // the same, and those that follow each other are near each other too: two
+                        // at a time, where the machine has vectors of sixteen
     ALPI_RAYS_SCATTERED // in different directions: one by one, as a stream; up to 1.4 times as
                         // fast
 } alpi_rays_spread;
@@ -140,10 +153,8 @@ typedef enum alpi_rays_spread {
 alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace_filter filter);
 
 /// Traces lane i of `active` (bit i) of each packet, at most ALPI_TRACE_BATCH; their masks must be
-/// all ones. A lane that hits anything gets maximum = −∞, others are left alone. Packets that
-/// follow each other should be near each other: two are traced together where the machine has
-/// vectors of sixteen. A quick ray through the very edge of two triangles may be told either, by
-/// what it is with.
+/// all ones. A lane that hits anything gets maximum = −∞, others are left alone. A quick ray
+/// through the very edge of two triangles may be told either, by what it is with.
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread);
 /// Whether alpi_trace_occluded_pairs may be called; up to a sixth faster than packets of eight.

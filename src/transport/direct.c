@@ -54,7 +54,7 @@ static void ask_surface(alpi_direct_gather *g, const alpi_emitter_view *view, ui
     if (cosine > 0.0f) {
         const float met = view->share > NEAR_SHARE ? cosine_density(cosine) : 0.0f;
         const alpi_direct_way way = {view->point, s.direction, alpi_direct_reach(s.distance, p),
-                                     ALPI_RAYS_NEAR};
+                                     ALPI_RAYS_PAIRED};
         alpi_direct_send(
             g, &way, s.light, cosine / (s.density + met),
             (alpi_direct_arrival){.part = part_of_triangle(g->direct, s.triangle),
@@ -231,7 +231,7 @@ static void add_surfaces(alpi_direct_gather *g)
         views[i] = alpi_emitter_view_from(&g->choice, alpi_direct_start(p), p->shading_normal);
         ask_surface(g, &views[i], i);
     }
-    alpi_direct_flush(g, ALPI_RAYS_NEAR);
+    alpi_direct_flush(g, ALPI_RAYS_PAIRED);
     for (uint32_t i = 0; i < count; i++) {
         aim(g, &views[i], i, &met);
     }

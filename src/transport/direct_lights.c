@@ -15,7 +15,7 @@ static void ask_lamp(alpi_direct_gather *g, uint32_t light, uint32_t i, uint32_t
     const float cosine = vec3_dot(at.direction, p->shading_normal);
     if (cosine > 0.0f) {
         const alpi_direct_way way = {origin, at.direction, alpi_direct_reach(at.distance, p),
-                                     ALPI_RAYS_NEAR};
+                                     ALPI_RAYS_PAIRED};
         alpi_direct_send(
             g, &way, at.light, cosine * factor,
             (alpi_direct_arrival){.part = (uint16_t)g->direct->light_parts[light],
@@ -46,7 +46,7 @@ void alpi_direct_add_lamps(alpi_direct_gather *g)
             ask_lamp(g, light, i, alpi_direct_replicate(i), (float)(1.0 / part));
         }
     }
-    alpi_direct_flush(g, ALPI_RAYS_NEAR);
+    alpi_direct_flush(g, ALPI_RAYS_PAIRED);
 }
 
 /// Asks a point of a sun's disk. @param factor 1 / the probability that the sun is asked
@@ -56,7 +56,7 @@ static void ask_sun(alpi_direct_gather *g, const alpi_sun *sun, uint32_t i, uint
     const alpi_receiver_point *p = &g->points[i];
     const alpi_direct_way way = {alpi_direct_start(p),
                                  alpi_sun_sample(sun, alpi_direct_draw(g, use, i)), INFINITY,
-                                 ALPI_RAYS_NEAR};
+                                 ALPI_RAYS_PAIRED};
     const float cosine = vec3_dot(way.direction, p->shading_normal);
     if (cosine > 0.0f) {
         alpi_direct_send(
@@ -102,5 +102,5 @@ void alpi_direct_add_suns(alpi_direct_gather *g)
             ask_sun(g, sun, i, ALPI_DIRECT_USE_SUN, (float)(1.0 / part));
         }
     }
-    alpi_direct_flush(g, ALPI_RAYS_NEAR);
+    alpi_direct_flush(g, ALPI_RAYS_PAIRED);
 }

@@ -122,7 +122,7 @@ static void trace(alpi_polygon_gather *g, uint32_t active)
             run++;
         } else if (run > 0) {
             alpi_trace_occluded(o->tracer, &w->rays[s - run], run, active, o->filter,
-                                ALPI_RAYS_NEAR);
+                                ALPI_RAYS_PAIRED);
             run = 0;
         }
     }

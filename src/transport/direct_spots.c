@@ -248,7 +248,7 @@ void alpi_direct_add_spots(alpi_direct_gather *g)
         aim(g, k * R, &given[k], &g->packets[k]);
     }
     alpi_trace_occluded(o->tracer, g->packets, packets, (1u << ALPI_PACKET) - 1u, o->filter,
-                        ALPI_RAYS_NEAR);
+                        ALPI_RAYS_PAIRED);
     alpi_directional_sums *others = g->by_direction;
     g->by_direction = others != NULL ? &g->spots.found.sums : NULL;
     for (uint32_t k = 0; k < packets; k++) {

@@ -32,24 +32,24 @@ typedef struct gather_job {
     alpi_occlusion_sums *sums;
 } gather_job;
 
+/// What no kernel sets: of a packet, or of a pair.
+#define START_RAYS(rays)                                                                           \
+    do {                                                                                           \
+        memset((rays)->minimum, 0, sizeof(rays)->minimum);                                         \
+        memset((rays)->time, 0, sizeof(rays)->time);                                               \
+        memset((rays)->mask, 0xff, sizeof(rays)->mask);                                            \
+        memset((rays)->id, 0, sizeof(rays)->id);                                                   \
+        memset((rays)->flags, 0, sizeof(rays)->flags);                                             \
+    } while (0)
+
 void alpi_occlusion_stand_start(const alpi_occlusion_setup *setup, alpi_occlusion_stand *stand)
 {
     const bool pairs = alpi_tracer_takes_pairs(setup->tracer, setup->filter);
     for (uint32_t k = 0; k < ALPI_TRACE_BATCH / 2 && pairs; k++) {
-        alpi_ray_pair *pair = &stand->pairs[k];
-        memset(pair->minimum, 0, sizeof pair->minimum);
-        memset(pair->time, 0, sizeof pair->time);
-        memset(pair->mask, 0xff, sizeof pair->mask);
-        memset(pair->id, 0, sizeof pair->id);
-        memset(pair->flags, 0, sizeof pair->flags);
+        START_RAYS(&stand->pairs[k]);
     }
     for (uint32_t k = 0; k < ALPI_TRACE_BATCH; k++) {
-        alpi_rays *rays = &stand->rays[k];
-        memset(rays->minimum, 0, sizeof rays->minimum);
-        memset(rays->time, 0, sizeof rays->time);
-        memset(rays->mask, 0xff, sizeof rays->mask);
-        memset(rays->id, 0, sizeof rays->id);
-        memset(rays->flags, 0, sizeof rays->flags);
+        START_RAYS(&stand->rays[k]);
     }
 }
 

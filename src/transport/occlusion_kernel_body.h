@@ -138,10 +138,8 @@ static inline void trace_batch(const alpi_occlusion_setup *setup, const batch_pl
     if (paired > 0) {
         alpi_trace_occluded_pairs(setup->tracer, stand->pairs, paired / 2, setup->filter);
     }
-    // What is not in pairs goes one call a packet, unless in a stream: calls of several pair them.
-    const uint32_t some = setup->spread == ALPI_RAYS_SCATTERED || setup->filter.few ? whole : 1;
-    for (uint32_t k = paired; k < whole; k += some) {
-        alpi_trace_occluded(setup->tracer, stand->rays + k, some, all, setup->filter,
+    if (paired < whole) {
+        alpi_trace_occluded(setup->tracer, stand->rays + paired, whole - paired, all, setup->filter,
                             setup->spread);
     }
     if (whole < plan->count) {

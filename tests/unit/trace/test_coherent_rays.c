@@ -122,7 +122,7 @@ static void hold_shadows(const alpi_tracer *tracer, alpi_trace_filter filter, ra
     }
     for (uint32_t count = 1; count <= MOST; count++) {
         memcpy(together, rays, sizeof together);
-        alpi_trace_occluded(tracer, together, count, ALL_LANES, filter, ALPI_RAYS_NEAR);
+        alpi_trace_occluded(tracer, together, count, ALL_LANES, filter, ALPI_RAYS_PAIRED);
         for (uint32_t p = 0; p < MOST; p++) {
             const alpi_rays *expected = p < count ? &alone[p] : &rays[p];
             if (!are_same(&together[p], expected, sizeof *expected)) {

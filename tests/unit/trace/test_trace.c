@@ -66,7 +66,7 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
         alpi_brute_force_nearest(scene, &rays, active, filter, &slow);
         same_hits(&fast, &slow, active);
         alpi_rays shadow = rays;
-        alpi_trace_occluded(tracer, &shadow, 1, active, filter, packet % 3 == 0);
+        alpi_trace_occluded(tracer, &shadow, 1, active, filter, (alpi_rays_spread)(packet % 3));
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             if ((active >> i & 1u) == 0) {
                 assert_true(shadow.maximum[i] == rays.maximum[i]);
@@ -102,7 +102,7 @@ static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
         if (packet % TOGETHER < TOGETHER - 1) {
             continue;
         }
-        alpi_trace_occluded(tracer, rays, TOGETHER, 0xffu, filter, ALPI_RAYS_NEAR);
+        alpi_trace_occluded(tracer, rays, TOGETHER, 0xffu, filter, ALPI_RAYS_PAIRED);
         for (uint32_t i = 0; i < TOGETHER * ALPI_PACKET; i++) {
             slips += rays[i / ALPI_PACKET].maximum[i % ALPI_PACKET] >= 0.0f;
         }
