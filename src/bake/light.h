@@ -77,17 +77,6 @@ void alpi_light_merge(alpi_reference_value *value, const alpi_reference_value *f
 alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
                              alpi_radiosity *solution);
 
-/// Has rays of texels go on from what is near (near_rays.h). Not
-/// - of layers: the light of a point is asked of all lights together, and layers shall sum to it;
-/// - of a number of bounces: cells hold all but the last, and from a point on it is the last but
-/// one;
-/// - by hemicubes: what their pixels see has no noise, and a path for each of the few that are near
-///   would be all there is.
-/// @param from what they meet; in these cases it is left as it is
-/// @param near out: how they do; from then on of `from`
-void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
-                     const alpi_radiosity *solution, alpi_gather_scene *from, alpi_reference *near);
-
 /// Shows the rays of a round what is known by now. The few samples of direct light of the first
 /// round make noise in corners, where a texel sees few others, that no number of rays takes off.
 /// What texels gathered by as many rays is finer than what blocks did. With a number of bounces it

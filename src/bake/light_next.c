@@ -20,35 +20,57 @@ uint32_t alpi_light_round_most_rays(const alp_light_options *o)
 
 // --- errors --------------------------------------------------------------------------------------
 
-static void sum_errors(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+/// Texels of which something is summed.
+typedef struct some_texels {
+    const alpi_light_round_state *round;
+    const uint32_t *list;
+} some_texels;
+
+static void sum_direct(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
-    const alpi_light_round_state *r = user;
+    const some_texels *some = user;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = r->task->order[i];
-        const alpi_reference_value *d = &r->solution->direct[t], *b = &r->task->values[t];
+        const alpi_reference_value *d = &some->round->solution->direct[some->list[i]];
         for (int k = 0; k < 3; k++) {
-            const double bounced =
-                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
-            sums[0] += (double)d->mean[k] + (double)b->mean[k];
+            sums[0] += (double)d->mean[k];
             sums[1] += (double)d->variance[k];
-            sums[2] += (double)b->variance[k];
-            sums[3] += bounced * bounced;
-            sums[4] += bounced;
         }
     }
 }
 
-alp_result alpi_light_round_measure(alpi_light_round_state *r)
+static void sum_bounced(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
-    double sums[ALPI_SUM_LIMIT] = {0.0};
-    const double count = 3.0 * fmax((double)r->task->count, 1.0);
-    ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_errors, r, NULL, sums));
-    const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
-    r->mean = sums[0] / count;
-    r->map_mean = direct ? r->mean : sums[4] / count;
-    r->direct_error = r->mean > 0.0 ? sqrt(sums[1] / count) / r->mean : 0.0;
-    r->bounced_error = r->map_mean > 0.0 ? sqrt(sums[2] / count) / r->map_mean : 0.0;
-    r->bounced_rms = sqrt(sums[3] / count);
+    const some_texels *some = user;
+    const alpi_light_round_state *r = some->round;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = some->list[i];
+        const alpi_reference_value *b = &r->task->values[t];
+        for (int k = 0; k < 3; k++) {
+            const double bounced =
+                (double)b->mean[k] - (r->skies != NULL ? (double)r->skies[t][k] : 0.0);
+            sums[0] += (double)b->mean[k];
+            sums[1] += (double)b->variance[k];
+            sums[2] += bounced * bounced;
+            sums[3] += bounced;
+        }
+    }
+}
+
+alp_result alpi_light_round_measure(alpi_light_round_state *r, const uint32_t *list, uint32_t count)
+{
+    const some_texels all = {r, r->task->order}, known = {r, list};
+    double d[ALPI_SUM_LIMIT] = {0.0}, b[ALPI_SUM_LIMIT] = {0.0};
+    ALP_TRY(alpi_parallel_sum(r->job->context, r->task->count, sum_direct, &all, NULL, d));
+    ALP_TRY(alpi_parallel_sum(r->job->context, count, sum_bounced, &known, NULL, b));
+    for (int k = 0; k < 4; k++) {
+        d[k] /= 3.0 * fmax((double)r->task->count, 1.0);
+        b[k] /= 3.0 * fmax((double)count, 1.0);
+    }
+    r->mean = d[0] + b[0];
+    r->map_mean = r->job->options.light.direct != ALP_DIRECT_OFF ? r->mean : b[3];
+    r->direct_error = r->mean > 0.0 ? sqrt(d[1]) / r->mean : 0.0;
+    r->bounced_error = r->map_mean > 0.0 ? sqrt(b[1]) / r->map_mean : 0.0;
+    r->bounced_rms = sqrt(b[2]);
     const double solved =
         r->fixed == NULL
             ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms, r->solved_noise)
@@ -102,14 +124,14 @@ static double typical_rays(const alpi_light_round_state *r)
 static alpi_light_plan cheapest(const alpi_light_round_state *r, const alpi_light_noise *noise,
                                 double aim)
 {
-    const alpi_light_effort effort = {
-        .direct = alpi_light_typical_samples(&r->direct),
-        .rays = typical_rays(r),
-        .most = alpi_light_round_most_rays(&r->job->options.light),
-        .texels = r->task->count,
-        .direct_power = r->direct.power,
-        .draw = fmax(r->solution->direct_draw, 1.0),
-        .traced = r->worst.count > 0 ? r->worst.count : (double)r->job->report.light_traced};
+    const alpi_light_effort effort = {.direct = alpi_light_typical_samples(&r->direct),
+                                      .rays = typical_rays(r),
+                                      .most = alpi_light_round_most_rays(&r->job->options.light),
+                                      .texels = r->task->count,
+                                      .direct_power = r->direct.power,
+                                      .rays_power = r->rays_power,
+                                      .draw = fmax(r->solution->direct_draw, 1.0),
+                                      .traced = r->worst.count > 0 ? r->worst.count : r->sending};
     return alpi_light_cheapest(&effort, noise, aim);
 }
 
@@ -136,19 +158,26 @@ static alp_result plan_for_worst(alpi_light_round_state *r, alpi_light_plan *p)
     return ALP_OK;
 }
 
-alp_result alpi_light_round_plan(alpi_light_round_state *r, alpi_light_plan *p)
+alpi_light_plan alpi_light_round_plan_all(const alpi_light_round_state *r)
 {
     const double aim = aim_of(r);
+    if (!(hypot(r->direct_error, r->bounced_error) > aim)) {
+        return (alpi_light_plan){0};
+    }
+    const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
+    const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
+    const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
+    return cheapest(r, &noise, aim);
+}
+
+alp_result alpi_light_round_plan(alpi_light_round_state *r, alpi_light_plan *p)
+{
     r->for_worst = false;
     r->worst.count = 0;
-    if (hypot(r->direct_error, r->bounced_error) > aim) {
-        const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
-        const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
-        const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
-        *p = cheapest(r, &noise, aim);
+    *p = alpi_light_round_plan_all(r);
+    if (p->direct > 0.0 || p->rays > 0.0) {
         return ALP_OK;
     }
-    *p = (alpi_light_plan){0};
     r->for_worst = r->job->options.light.error > 0.0f;
     return r->for_worst ? plan_for_worst(r, p) : ALP_OK;
 }

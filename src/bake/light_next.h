@@ -30,6 +30,8 @@ typedef struct alpi_light_round_state {
     uint32_t number;        // of the round
     uint32_t most_rays;     // of any texel so far
     float factor;           // alpi_bounced_report, of the last round of all texels
+    double sending;         // texels that send rays in a round of all; a guess before there is one
+    double rays_power;      // of rays, that the error of bounced light falls with
     double ray_seconds;     // of a ray more of a texel that sends any
     double mean, map_mean;  // of all light, and of that of the map: see alpi_light_round_measure
     double direct_error, bounced_error; // root mean squares over a mean
@@ -46,14 +48,26 @@ uint32_t alpi_light_round_most_rays(const alp_light_options *options);
 
 /// Finds the errors so far. They are over the mean of what the map will hold. Where that is bounced
 /// light alone, direct light is what others reflect, and errs over the mean of all.
+/// @param list [count] texels whose bounced light is known: those of the task, or some of them
 /// @return ALP_OK; CANCELLED
-alp_result alpi_light_round_measure(alpi_light_round_state *round);
+alp_result alpi_light_round_measure(alpi_light_round_state *round, const uint32_t *list,
+                                    uint32_t count);
 /// Error of the solution over the bounced light of a texel.
 double alpi_light_round_solved_share(const alpi_light_round_state *round);
 /// The map as it would be if this were all, in `fresh`, and its errors.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_round_look(alpi_light_round_state *round);
 
+/// Rays of the first round of a bake that goes for an error, where nothing says that it takes more.
+enum { ALPI_LIGHT_FIRST_RAYS = 64 };
+/// Finds how many rays the first round takes, so that it is the last one if it can be, and gives
+/// texels the samples of direct light that they will need, so that rays meet it without its noise.
+/// @param rays out: of a texel
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_light_prepare_first(alpi_light_round_state *round, uint32_t *rays);
+
+/// What the texels get together; nothing, where they are good enough.
+alpi_light_plan alpi_light_round_plan_all(const alpi_light_round_state *round);
 /// Plans the next round: for_worst and worst say whom it is for.
 /// @param plan out: nothing, where there is nothing to do, or nothing helps
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED

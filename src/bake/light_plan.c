@@ -21,10 +21,9 @@ double alpi_light_power(double had, double foreseen, double error)
 static alpi_light_plan plan_for(const alpi_light_effort *e, const alpi_light_noise *noise,
                                 double aim, double share)
 {
-    // A bounced ray takes as long as two or three of shadow (measured: 1.9 to 5). The error of
-    // rays, which are one sequence, falls faster than with their root (measured, .6 to .7).
+    // A bounced ray takes as long as two or three of shadow (measured: 1.9 to 5).
     const double dear = 2.5 / e->draw;
-    const double falls[2] = {e->direct_power, 0.62};
+    const double falls[2] = {e->direct_power, e->rays_power};
     alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim, .noisy = noise->noisy};
     p.direct = more_samples(noise->direct, p.for_direct, falls[0]) * e->direct;
     p.rays = more_samples(noise->bounced, sqrt(share) * aim, falls[1]) * e->rays;

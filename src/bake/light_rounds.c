@@ -15,20 +15,18 @@
 // single rounds: some texels, held out, are gathered beside the map in each round, x̂ = Σ wᵢ yᵢ, and
 // the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
 #include "bake/layers.h"
-#include "bake/light_next.h"
+#include "bake/light_rays.h"
 
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/bounced_map.h"
-#include "transport/cosine_rays.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
-    FIRST_RAYS = 64,  // of a bake that goes for an error
-    FIRST_DIRECT = 8, // the same
+    FIRST_DIRECT = 8, // of a bake that goes for an error
     ROUND_LIMIT = 12,
     TIMED_ROUND_LIMIT = 64 // each adds about as much as there is, or ends with the time
 };
@@ -100,6 +98,8 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         const double sent = (double)rays * fmax((double)report.traced, 1.0);
         r->ray_seconds = (alpi_seconds() - began) / sent;
         r->factor = report.factor;
+        r->sending = (double)report.traced;
+        r->rays_power = ALPI_LIGHT_RAYS_POWER;
         job->report.light_traced = report.traced;
         job->report.light_interpolated = report.interpolated;
     }
@@ -108,46 +108,17 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
                                    &t->progress);
 }
 
-/// Direct light has rounds of its own; nor do seeds that follow each other share any.
-static uint64_t seed_of_round(const alpi_light_round_state *r, bool direct)
-{
-    enum { FIRST_OF_DIRECT = 1 << 16 };
-    const uint32_t round = r->number + (direct ? FIRST_OF_DIRECT : 0);
-    return alpi_hash64(alpi_hash64(r->job->options.occlusion.seed) + round);
-}
-
 /// Bounced light by `rays` more of each texel that sends any.
 static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
                                  alpi_reference_value *values, float (*skies)[3],
                                  alpi_directional *directional)
 {
-    const alpi_bake_job *job = r->job;
-    alpi_gather_scene from = alpi_radiosity_scene(r->solution);
-    alpi_reference near;
-    if (r->fixed == NULL) {
-        alpi_light_near(job, r->task, r->solution, &from, &near);
-    }
-    const alpi_cosine_rays cosine = {
-        .context = job->context,
-        .samples = rays,
-        .replicates = ALPI_LIGHT_REPLICATES,
-        .joined = true,
-        .seed = seed_of_round(r, false),
-    };
-    alpi_cosine_rays others = cosine;
-    others.seed = alpi_hash64(~cosine.seed);
-    const alpi_gatherer own = alpi_cosine_rays_gatherer(&cosine);
-    const alpi_gatherer beside = alpi_cosine_rays_gatherer(&others);
-    const alpi_gather_job gather = {.context = job->context,
-                                    .from = &from,
-                                    .gatherer = r->fixed != NULL ? r->fixed : &own,
-                                    .receivers = r->task->receivers,
-                                    .values = values,
-                                    .skies = skies,
-                                    .directional = directional,
-                                    .directional_without_sky =
-                                        job->options.light.direct == ALP_DIRECT_OFF};
-    return map_bounced(r, &gather, &beside);
+    alpi_light_rays by;
+    alpi_light_rays_set(r, rays, alpi_light_round_seed(r, false), &by);
+    by.gather.values = values;
+    by.gather.skies = skies;
+    by.gather.directional = directional;
+    return map_bounced(r, &by.gather, &by.beside);
 }
 
 void alpi_light_merge(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
@@ -239,6 +210,11 @@ static double affordable(const alpi_light_round_state *r, double samples, double
     return most < samples && most < there / 8.0 ? 0.0 : most;
 }
 
+static alp_result measure(alpi_light_round_state *r)
+{
+    return alpi_light_round_measure(r, r->task->order, r->task->count);
+}
+
 /// One more round of what is too noisy.
 /// @param done out: nothing is, or nothing helps, or the time is over
 static alp_result improve(alpi_light_round_state *r, bool *done)
@@ -262,13 +238,13 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
                                       .among = r->for_worst ? r->worst.marks : NULL,
                                       .most = isinf(r->task->clock->deadline) ? HUGE_VAL
                                                                               : direct * listed,
-                                      .seed = seed_of_round(r, true)};
+                                      .seed = alpi_light_round_seed(r, true)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
     uint32_t count;
     (void)senders(r, &count);
-    const double sending = fmin(count, (double)r->job->report.light_traced);
+    const double sending = fmin(count, r->sending);
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
@@ -283,7 +259,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     }
     *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
     const double before = r->direct_error * r->mean;
-    ALP_TRY(alpi_light_round_measure(r));
+    ALP_TRY(measure(r));
     if (direct > 0.0 && !r->for_worst) {
         r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
                                            r->direct_error * r->mean / before);
@@ -293,38 +269,60 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
 
 // --- all of them ---------------------------------------------------------------------------------
 
+/// What samples of direct light take that are added to those of the solution.
+static alp_result start_direct(alpi_light_round_state *r)
+{
+    alp_context *context = r->job->context;
+    const uint32_t texels = r->task->receivers->count;
+    ALPI_TRY_NEW(context, r->fresh, texels);
+    if (r->task->directional != NULL) {
+        ALPI_TRY_NEW(context, r->fresh_directional, texels);
+    }
+    ALPI_TRY_NEW(context, r->direct.counts, texels);
+    r->direct.fresh = r->fresh;
+    r->direct.fresh_directional = r->fresh_directional;
+    for (uint32_t i = 0; i < r->task->count; i++) {
+        r->direct.counts[r->task->order[i]] = r->direct.most;
+    }
+    return ALP_OK;
+}
+
 /// The first round, without which there is nothing.
 static alp_result begin(alpi_light_round_state *r)
 {
     alp_context *context = r->job->context;
     const uint32_t texels = r->task->receivers->count;
-    const uint32_t most = alpi_light_round_most_rays(&r->job->options.light);
-    const bool more = alpi_light_has_rounds(&r->job->options) && most > FIRST_RAYS;
+    const uint32_t direct = r->solution->options.direct_samples;
+    const bool rounds = alpi_light_has_rounds(&r->job->options);
+    uint32_t rays = alpi_light_round_most_rays(&r->job->options.light);
+    const bool more = rounds && rays > ALPI_LIGHT_FIRST_RAYS;
     ALPI_TRY_NEW(context, r->task->values, texels);
     if (alpi_radiosity_scene(r->solution).sky) {
         ALPI_TRY_NEW(context, r->skies, texels);
     }
     ALPI_TRY_NEW(context, r->states, texels);
     ALPI_TRY_NEW(context, r->held_out, 1);
-    alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
-    ALP_TRY(gather_bounced(r, more ? FIRST_RAYS : most, r->task->values, r->skies,
-                           r->task->directional));
-    r->rays = more ? FIRST_RAYS : most;
-    r->job->report.light_samples =
-        r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : r->rays;
-    r->most_rays = r->rays;
     r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
-    const uint32_t direct = r->solution->options.direct_samples;
     r->direct = (alpi_light_direct){.job = r->job,
                                     .task = r->task,
                                     .solution = r->solution,
                                     .values = r->solution->direct,
                                     .most = direct,
-                                    .limit = alpi_light_round_most_rays(&r->job->options.light),
+                                    .limit = rays,
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
                                                (direct * fmax(r->task->count, 1.0))};
-    return alpi_light_round_measure(r);
+    if (rounds) {
+        ALP_TRY(start_direct(r));
+    }
+    if (more) {
+        ALP_TRY(alpi_light_prepare_first(r, &rays));
+    }
+    alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
+    ALP_TRY(gather_bounced(r, rays, r->task->values, r->skies, r->task->directional));
+    r->rays = r->most_rays = rays;
+    r->job->report.light_samples = r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : rays;
+    return measure(r);
 }
 
 static alp_result go_on(alpi_light_round_state *r)
@@ -333,16 +331,9 @@ static alp_result go_on(alpi_light_round_state *r)
     const uint32_t texels = r->task->receivers->count;
     const bool timed = !(r->job->options.light.error > 0.0f);
     const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
-    ALPI_TRY_NEW(context, r->fresh, texels);
     if (r->skies != NULL) {
         ALPI_TRY_NEW(context, r->fresh_skies, texels);
     }
-    if (r->task->directional != NULL) {
-        ALPI_TRY_NEW(context, r->fresh_directional, texels);
-    }
-    ALPI_TRY_NEW(context, r->direct.counts, texels);
-    r->direct.fresh = r->fresh;
-    r->direct.fresh_directional = r->fresh_directional;
     ALPI_TRY_NEW(context, r->between, texels);
     ALPI_TRY_NEW(context, r->rays_of, texels);
     if (!timed) {
@@ -353,7 +344,6 @@ static alp_result go_on(alpi_light_round_state *r)
     memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
     note_interpolated(r);
     for (uint32_t i = 0; i < r->task->count; i++) {
-        r->direct.counts[r->task->order[i]] = r->direct.most;
         r->rays_of[r->task->order[i]] = r->rays;
     }
     for (bool done = false; !done && r->number < limit;) {
@@ -390,7 +380,7 @@ static alp_result run_rounds(alpi_light_round_state *r)
     if (result == ALP_ERROR_CANCELLED && may_be_dropped(r)) {
         r->cut_off = true;
         r->task->clock->ended = true; // asked again it would cancel what it wanted kept
-        result = alpi_light_round_measure(r);
+        result = measure(r);
     }
     if (result == ALP_OK) {
         const bool ended = r->task->clock->ended;

@@ -209,7 +209,8 @@ static void powers_follow_the_error(void **state)
 static void plans_leave_alone_what_is_good(void **state)
 {
     (void)state;
-    const alpi_light_effort effort = {.direct = 8,
+    const alpi_light_effort effort = {.rays_power = ALPI_LIGHT_RAYS_POWER,
+                                      .direct = 8,
                                       .rays = 64,
                                       .most = 65536,
                                       .texels = 1e5,
@@ -230,7 +231,8 @@ static void plans_leave_alone_what_is_good(void **state)
 static void plans_know_what_draws_cost(void **state)
 {
     (void)state;
-    alpi_light_effort effort = {.direct = 8,
+    alpi_light_effort effort = {.rays_power = ALPI_LIGHT_RAYS_POWER,
+                                .direct = 8,
                                 .rays = 64,
                                 .most = 65536,
                                 .texels = 1e5,

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Rays of a round of light: how they are sent, and what they meet.
+#ifndef ALPI_BAKE_LIGHT_RAYS_H
+#define ALPI_BAKE_LIGHT_RAYS_H
+
+#include "bake/light_next.h"
+#include "transport/cosine_rays.h"
+
+/// Rays of a round's texels, and others of other random numbers, for texels that have some twice.
+/// It points into itself.
+typedef struct alpi_light_rays {
+    alpi_gather_scene from;
+    alpi_reference near;
+    alpi_cosine_rays cosine, others;
+    alpi_gatherer own, beside;
+    alpi_gather_job gather; // of no list, and to no values yet
+} alpi_light_rays;
+
+/// @param rays of a texel; the round's own gatherer, where it has one, has its own number
+void alpi_light_rays_set(const alpi_light_round_state *round, uint32_t rays, uint64_t seed,
+                         alpi_light_rays *by);
+
+/// Of the rays of a round, and of its samples of direct light. Nor do bakes by seeds that follow
+/// each other share any.
+uint64_t alpi_light_round_seed(const alpi_light_round_state *round, bool direct);
+
+#endif
