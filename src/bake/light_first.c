@@ -11,8 +11,7 @@
 
 enum {
     TRIAL_TEXELS = 256,
-    TEXELS_EACH = 32, // of the map, for each of those, at least
-    LEAST_TEXELS = 64,
+    LEAST_MAP = 32 * TRIAL_TEXELS, // texels: on less a trial costs more than it tells
     MOST_RAYS = 1024,
     MOST_KEPT_RAYS = 256 // where who ends the bake keeps what there is: it shall come soon
 };
@@ -25,11 +24,9 @@ static const double SENDING_SHARE = 0.25; // of texels that send rays, as a gues
 /// Some texels, evenly. @return how many
 static uint32_t choose(const alpi_light_round_state *r, uint32_t list[TRIAL_TEXELS])
 {
-    const uint32_t texels = r->task->count / TEXELS_EACH;
-    const uint32_t most = texels < TRIAL_TEXELS ? texels : TRIAL_TEXELS;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < most; i++) {
-        const uint32_t t = r->task->order[(uint64_t)i * r->task->count / most];
+    for (uint32_t i = 0; i < TRIAL_TEXELS; i++) {
+        const uint32_t t = r->task->order[(uint64_t)i * r->task->count / TRIAL_TEXELS];
         const bool hidden = (r->task->lattice->texels->flags[t] & ALPI_TEXEL_HIDDEN) != 0;
         list[count] = t;
         count += hidden ? 0 : 1;
@@ -86,14 +83,15 @@ static alp_result plan(alpi_light_round_state *r, const uint32_t *list, uint32_t
     return ALP_OK;
 }
 
-/// Direct light for the whole map, which the rays are shown then.
+/// Direct light for the whole map, which the rays are shown then, and by which what is near them is
+/// farther where light differs.
 static alp_result add_direct(alpi_light_round_state *r, double wanted)
 {
     const alpi_light_goal goal = {
         .wanted = wanted, .most = HUGE_VAL, .seed = alpi_light_round_seed(r, true)};
     bool dealt;
     ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
-    return dealt ? alpi_light_show(r->job, r->task, r->solution, 0, &r->solved_noise) : ALP_OK;
+    return alpi_light_show(r->job, r->task, r->solution, 0, &r->solved_noise);
 }
 
 alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
@@ -102,13 +100,11 @@ alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
     const uint32_t most = o->sampling.keep_partial ? MOST_KEPT_RAYS : MOST_RAYS;
     uint32_t list[TRIAL_TEXELS];
     *rays = ALPI_LIGHT_FIRST_RAYS;
-    if (!(o->light.error > 0.0f) || !isinf(r->task->clock->deadline)) { // a first one comes first
+    const bool timed = !isinf(r->task->clock->deadline); // something whole comes first
+    if (!(o->light.error > 0.0f) || timed || r->task->count < LEAST_MAP) {
         return ALP_OK;
     }
     const uint32_t count = choose(r, list);
-    if (count < LEAST_TEXELS) {
-        return ALP_OK;
-    }
     alpi_light_plan p;
     alpi_light_clock_part(r->task->clock, false, 1.0);
     ALP_TRY(plan(r, list, count, &p));
