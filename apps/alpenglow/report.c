@@ -177,6 +177,7 @@ static json_t *make_light(const alp_bake_report *r)
                               "mean_irradiance", json_number(r->light_mean));
     if (r->light_passes > 0) {
         json_object_set_new(light, "passes", json_integer((json_int_t)r->light_passes));
+        json_object_set_new(light, "rounds", json_integer((json_int_t)r->light_rounds));
         json_object_set_new(light, "traced", json_integer((json_int_t)r->light_traced));
         json_object_set_new(light, "interpolated", json_integer((json_int_t)r->light_interpolated));
     }

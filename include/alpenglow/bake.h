@@ -335,6 +335,7 @@ typedef struct alp_bake_report {
     double light_relative_error, light_p99_error;
     uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
     uint32_t light_passes;                     ///< of radiosity, one a bounce; else 0
+    uint32_t light_rounds;                     ///< of radiosity, in which texels sent rays; else 0
     /// Of each of the first 64 passes, the mean change of the light over its mean.
     float light_changes[64];
     alp_light_energy light_energy;

@@ -12,21 +12,22 @@
 enum {
     TRIAL_TEXELS = 256,
     LEAST_MAP = 32 * TRIAL_TEXELS, // texels: on less a trial costs more than it tells
-    MOST_RAYS = 1024,
-    MOST_KEPT_RAYS = 256 // where who ends the bake keeps what there is: it shall come soon
+    STREAM_TRIAL = 12
 };
-/// Error of a map by as many rays, over that of texels that all have their own: most of its are
-/// interpolated. Measured on the Cornell box, a sphere on a plane, living_room, teapot-room: .78 to
-/// .86.
+/// Error of a map by as many rays, over that of texels that all have their own: the mean over it is
+/// that of interpolated ones for the most part. Measured on the Cornell box, a sphere on a plane,
+/// living_room, teapot-room: .78 to .86.
 static const double MAP_SHARE = 0.85;
 static const double SENDING_SHARE = 0.25; // of texels that send rays, as a guess
 
-/// Some texels, evenly. @return how many
+/// Some texels, one at random of each run of them that are as long. @return how many
 static uint32_t choose(const alpi_light_round_state *r, uint32_t list[TRIAL_TEXELS])
 {
+    const double each = (double)r->task->count / TRIAL_TEXELS;
     uint32_t count = 0;
     for (uint32_t i = 0; i < TRIAL_TEXELS; i++) {
-        const uint32_t t = r->task->order[(uint64_t)i * r->task->count / TRIAL_TEXELS];
+        const float within = alpi_unit_float(alpi_random_key(r->task->count, i, STREAM_TRIAL));
+        const uint32_t t = r->task->order[(uint32_t)(each * (i + (double)within))];
         const bool hidden = (r->task->lattice->texels->flags[t] & ALPI_TEXEL_HIDDEN) != 0;
         list[count] = t;
         count += hidden ? 0 : 1;
@@ -41,8 +42,8 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
     alpi_reference_value *values = r->task->values, found[TRIAL_TEXELS];
     alpi_task_progress told = r->task->progress;
     alpi_light_rays by;
-    alpi_light_rays_set(r, ALPI_LIGHT_FIRST_RAYS, alpi_hash64(alpi_light_round_seed(r, false)),
-                        &by);
+    alpi_light_rays_start(r, ALPI_LIGHT_FIRST_RAYS, alpi_hash64(alpi_light_round_seed(r, false)),
+                          &by);
     by.gather.list = list;
     by.gather.count = count;
     by.gather.values = values;
@@ -68,17 +69,19 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
 }
 
 /// Plans as for a round after one that found what the trial did.
-static alp_result plan(alpi_light_round_state *r, const uint32_t *list, uint32_t count,
-                       alpi_light_plan *p)
+static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p)
 {
-    const bool all = r->job->options.sampling.accuracy == ALP_ADAPTIVE_OFF;
+    const bool adaptive = alpi_light_round_is_adaptive(r);
+    uint32_t list[TRIAL_TEXELS];
+    const uint32_t count = choose(r, list);
+    r->sending = (adaptive ? SENDING_SHARE : 1.0) * r->task->count;
+    r->rays_power = ALPI_LIGHT_FIRST_RAYS_POWER;
+    alpi_light_clock_part(r->task->clock, false, r->sending / (2.0 * TRIAL_TEXELS));
     ALP_TRY(try_texels(r, list, count));
     ALP_TRY(alpi_light_round_measure(r, list, count));
-    r->bounced_error *= all ? 1.0 : MAP_SHARE;
-    r->sending = (all ? 1.0 : SENDING_SHARE) * r->task->count;
-    r->rays_power = ALPI_LIGHT_FIRST_RAYS_POWER;
+    r->bounced_error *= adaptive ? MAP_SHARE : 1.0;
     r->rays = ALPI_LIGHT_FIRST_RAYS;
-    *p = alpi_light_round_plan_all(r);
+    (void)alpi_light_round_plan_all(r, p);
     r->rays = 0; // there was no round yet
     return ALP_OK;
 }
@@ -90,6 +93,7 @@ static alp_result add_direct(alpi_light_round_state *r, double wanted)
     const alpi_light_goal goal = {
         .wanted = wanted, .most = HUGE_VAL, .seed = alpi_light_round_seed(r, true)};
     bool dealt;
+    alpi_light_clock_part(r->task->clock, false, 1.0);
     ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     return alpi_light_show(r->job, r->task, r->solution, 0, &r->solved_noise);
 }
@@ -97,17 +101,14 @@ static alp_result add_direct(alpi_light_round_state *r, double wanted)
 alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
 {
     const alp_bake_options *o = &r->job->options;
-    const uint32_t most = o->sampling.keep_partial ? MOST_KEPT_RAYS : MOST_RAYS;
-    uint32_t list[TRIAL_TEXELS];
+    // Who may end the bake before gets something whole first.
+    const bool may_end = o->sampling.keep_partial || !isinf(r->task->clock->deadline);
     *rays = ALPI_LIGHT_FIRST_RAYS;
-    const bool timed = !isinf(r->task->clock->deadline); // something whole comes first
-    if (!(o->light.error > 0.0f) || timed || r->task->count < LEAST_MAP) {
+    if (!(o->light.error > 0.0f) || may_end || r->task->count < LEAST_MAP) {
         return ALP_OK;
     }
-    const uint32_t count = choose(r, list);
     alpi_light_plan p;
-    alpi_light_clock_part(r->task->clock, false, 1.0);
-    ALP_TRY(plan(r, list, count, &p));
-    *rays = alpi_cosine_rays_samples((uint32_t)fmin(*rays + p.rays, most), ALPI_LIGHT_REPLICATES);
+    ALP_TRY(plan(r, &p));
+    *rays = alpi_cosine_rays_samples((uint32_t)(*rays + p.rays), ALPI_LIGHT_REPLICATES);
     return p.direct > 0.0 ? add_direct(r, p.for_direct * r->mean) : ALP_OK;
 }

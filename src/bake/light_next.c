@@ -18,6 +18,12 @@ uint32_t alpi_light_round_most_rays(const alp_light_options *o)
                            : alpi_cosine_rays_samples(o->samples, ALPI_LIGHT_REPLICATES);
 }
 
+bool alpi_light_round_is_adaptive(const alpi_light_round_state *r)
+{
+    return r->fixed == NULL && !r->job->options.light.denoise &&
+           r->job->options.sampling.accuracy != ALP_ADAPTIVE_OFF;
+}
+
 // --- errors --------------------------------------------------------------------------------------
 
 /// Texels of which something is summed.
@@ -158,24 +164,25 @@ static alp_result plan_for_worst(alpi_light_round_state *r, alpi_light_plan *p)
     return ALP_OK;
 }
 
-alpi_light_plan alpi_light_round_plan_all(const alpi_light_round_state *r)
+bool alpi_light_round_plan_all(const alpi_light_round_state *r, alpi_light_plan *p)
 {
     const double aim = aim_of(r);
+    *p = (alpi_light_plan){0};
     if (!(hypot(r->direct_error, r->bounced_error) > aim)) {
-        return (alpi_light_plan){0};
+        return false;
     }
     const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
     const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
     const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
-    return cheapest(r, &noise, aim);
+    *p = cheapest(r, &noise, aim);
+    return true;
 }
 
 alp_result alpi_light_round_plan(alpi_light_round_state *r, alpi_light_plan *p)
 {
     r->for_worst = false;
     r->worst.count = 0;
-    *p = alpi_light_round_plan_all(r);
-    if (p->direct > 0.0 || p->rays > 0.0) {
+    if (alpi_light_round_plan_all(r, p)) {
         return ALP_OK;
     }
     r->for_worst = r->job->options.light.error > 0.0f;

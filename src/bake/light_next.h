@@ -43,6 +43,8 @@ typedef struct alpi_light_round_state {
     bool cut_off;                       // by the clock, or by who watches
 } alpi_light_round_state;
 
+/// Whether texels are interpolated in rounds of all.
+bool alpi_light_round_is_adaptive(const alpi_light_round_state *round);
 /// The most rays of a texel.
 uint32_t alpi_light_round_most_rays(const alp_light_options *options);
 
@@ -58,16 +60,18 @@ double alpi_light_round_solved_share(const alpi_light_round_state *round);
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_round_look(alpi_light_round_state *round);
 
-/// Rays of the first round of a bake that goes for an error, where nothing says that it takes more.
+/// Rays of the first round, where nothing says that it takes more.
 enum { ALPI_LIGHT_FIRST_RAYS = 64 };
 /// Finds how many rays the first round takes, so that it is the last one if it can be, and gives
 /// texels the samples of direct light that they will need, so that rays meet it without its noise.
+/// Values and skies of the task are written over; the round's scratch of direct light is there.
 /// @param rays out: of a texel
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_prepare_first(alpi_light_round_state *round, uint32_t *rays);
 
-/// What the texels get together; nothing, where they are good enough.
-alpi_light_plan alpi_light_round_plan_all(const alpi_light_round_state *round);
+/// Plans what the texels get together. @return whether they are not good enough yet; the plan may
+/// be nothing even then, where nothing helps
+bool alpi_light_round_plan_all(const alpi_light_round_state *round, alpi_light_plan *plan);
 /// Plans the next round: for_worst and worst say whom it is for.
 /// @param plan out: nothing, where there is nothing to do, or nothing helps
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED

@@ -36,8 +36,8 @@ typedef struct alpi_light_plan {
 /// other, .53 to .64 was measured.
 #define ALPI_LIGHT_FIRST_POWER 0.6
 /// That of rays, which are one sequence: it falls faster than with their root. Measured, of rounds
-/// that follow each other, .6 to .7; of one by more rays, whose lattice is finer too, .66 to .90:
-/// with the most of it bakes take least time, as what is foreseen has a margin of its own.
+/// that follow each other, .6 to .7; of one by more rays, whose lattice is finer too, .66 to .90,
+/// of which the most is taken, as more samples than that are planned anyway.
 #define ALPI_LIGHT_RAYS_POWER 0.62
 #define ALPI_LIGHT_FIRST_RAYS_POWER 0.9
 /// The power that more samples have shown, within what is ever seen: half, to three quarters, which

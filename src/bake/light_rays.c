@@ -22,8 +22,6 @@ enum { BOUNCES = 4 };
 ///   would be all there is.
 /// @param from what they meet; in these cases it is left as it is
 /// @param near out: how they do; from then on of `from`
-void alpi_light_near(const alpi_bake_job *job, const alpi_light_task *task,
-                     const alpi_radiosity *solution, alpi_gather_scene *from, alpi_reference *near);
 static void go_on_from_near(const alpi_bake_job *job, const alpi_light_task *task,
                             const alpi_radiosity *solution, alpi_gather_scene *from,
                             alpi_reference *near)
@@ -46,8 +44,8 @@ static void go_on_from_near(const alpi_bake_job *job, const alpi_light_task *tas
     from->near_reach = NEAR_REACH;
 }
 
-void alpi_light_rays_set(const alpi_light_round_state *r, uint32_t rays, uint64_t seed,
-                         alpi_light_rays *by)
+void alpi_light_rays_start(const alpi_light_round_state *r, uint32_t rays, uint64_t seed,
+                           alpi_light_rays *by)
 {
     const alpi_bake_job *job = r->job;
     by->from = alpi_radiosity_scene(r->solution);

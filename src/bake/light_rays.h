@@ -17,11 +17,11 @@ typedef struct alpi_light_rays {
 } alpi_light_rays;
 
 /// @param rays of a texel; the round's own gatherer, where it has one, has its own number
-void alpi_light_rays_set(const alpi_light_round_state *round, uint32_t rays, uint64_t seed,
-                         alpi_light_rays *by);
+void alpi_light_rays_start(const alpi_light_round_state *round, uint32_t rays, uint64_t seed,
+                           alpi_light_rays *by);
 
-/// Of the rays of a round, and of its samples of direct light. Nor do bakes by seeds that follow
-/// each other share any.
+/// Of the rays of a round, or of its samples of direct light, which has rounds of its own. Bakes by
+/// seeds that follow each other share none.
 uint64_t alpi_light_round_seed(const alpi_light_round_state *round, bool direct);
 
 #endif

@@ -18,7 +18,6 @@
 #include "bake/light_rays.h"
 
 #include "base/memory.h"
-#include "base/random.h"
 #include "base/tasks.h"
 #include "maps/bounced_map.h"
 
@@ -26,7 +25,7 @@
 #include <string.h>
 
 enum {
-    FIRST_DIRECT = 8, // of a bake that goes for an error
+    FIRST_DIRECT = 8, // samples, where there are rounds
     ROUND_LIMIT = 12,
     TIMED_ROUND_LIMIT = 64 // each adds about as much as there is, or ends with the time
 };
@@ -78,8 +77,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
     alpi_bounced_options options = {
         .gather = gather,
         .near = job->validity.near,
-        .adaptive = all && r->fixed == NULL && !job->options.light.denoise &&
-                    job->options.sampling.accuracy != ALP_ADAPTIVE_OFF,
+        .adaptive = all && alpi_light_round_is_adaptive(r),
         .straight = true,
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
         .beside = beside,
@@ -104,6 +102,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         job->report.light_interpolated = report.interpolated;
     }
     job->report.rays += report.rays;
+    job->report.light_rounds++;
     return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, states, r->rays_of, rays,
                                    &t->progress);
 }
@@ -114,7 +113,7 @@ static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
                                  alpi_directional *directional)
 {
     alpi_light_rays by;
-    alpi_light_rays_set(r, rays, alpi_light_round_seed(r, false), &by);
+    alpi_light_rays_start(r, rays, alpi_light_round_seed(r, false), &by);
     by.gather.values = values;
     by.gather.skies = skies;
     by.gather.directional = directional;
@@ -318,7 +317,8 @@ static alp_result begin(alpi_light_round_state *r)
     if (more) {
         ALP_TRY(alpi_light_prepare_first(r, &rays));
     }
-    alpi_light_clock_part(r->task->clock, true, more ? 1.0 : 0.0);
+    const bool planned = r->sending > 0.0; // to be the last one
+    alpi_light_clock_part(r->task->clock, true, more && !planned ? 1.0 : 0.0);
     ALP_TRY(gather_bounced(r, rays, r->task->values, r->skies, r->task->directional));
     r->rays = r->most_rays = rays;
     r->job->report.light_samples = r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : rays;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
 #include "bake/layers.h"
-#include "bake/light.h"
+#include "bake/light_next.h"
+#include "bake/light_plan.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -69,9 +70,8 @@ enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
 /// long again.
 static double guess_texel_rays(double error, uint64_t texels, double rms)
 {
-    enum { FIRST_RAYS = 64 };
     const double each = pow(0.39 * rms / error, 2.0);
-    return 0.5 * (double)texels * fmax(each, FIRST_RAYS);
+    return 0.5 * (double)texels * fmax(each, ALPI_LIGHT_FIRST_RAYS);
 }
 
 uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light)
@@ -91,7 +91,7 @@ uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_t
         if (!(left > 0.0)) {
             break; // nor do fewer leave any
         }
-        const double cost = blocks * rays + others * pow(left, -0.5 / 0.62);
+        const double cost = blocks * rays + others * pow(left, -0.5 / ALPI_LIGHT_RAYS_POWER);
         if (cost <= best_cost) {
             best_cost = cost;
             best = rays;

@@ -16,6 +16,7 @@ typedef struct bake_kind {
     alp_gather gather;
     alp_direct direct;
     uint32_t bounces, lamps;
+    uint32_t size; // or 0
 } bake_kind;
 
 #define OCCLUSION (ALP_MAP_AO | ALP_MAP_BENT)
@@ -47,6 +48,15 @@ static const bake_kind kinds[] = {
      .layers = true,
      .bounces = 2,
      .lamps = 2},
+    {.name = "layers after a trial, as there are texels enough",
+     .scene = "builtin:cornell",
+     .maps = BY_DIRECTION,
+     .accuracy = ALP_ADAPTIVE_AUTO,
+     .error = 0.2f,
+     .layers = true,
+     .bounces = ALP_BOUNCES_CONVERGE,
+     .lamps = 1,
+     .size = 128},
     {.name = "denoised",
      .scene = "builtin:sphere-plane", // under the sky alone: is it a closed room?
      .maps = ALP_MAP_LIGHT,
@@ -67,7 +77,7 @@ static const bake_kind kinds[] = {
 
 static uint32_t size_of(const bake_kind *kind)
 {
-    return kind->error > 0.0f ? SIZE_OF_ROUNDS : SIZE;
+    return kind->size > 0 ? kind->size : kind->error > 0.0f ? SIZE_OF_ROUNDS : SIZE;
 }
 
 /// @param lamps [LAMP_LIMIT], which the options point at

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which packets the occlusion kernel lays side by side, whatever the machine takes: never those of
 // two receivers, for what a ray through an edge is told may hang on what it is with, and a receiver
-// must not hang on its neighbours; and as many as it can of one. The kernel is compiled with a pen
-// in the place of the tracer.
+// must not hang on its neighbours; and all of a receiver's where their number is even. The kernel
+// is compiled with a pen in the place of the tracer.
 #include "test_scenes.h"
 
 #include "base/memory.h"
