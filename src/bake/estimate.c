@@ -19,7 +19,7 @@ static const double TEXELS_PER_CHART = 1500.0;
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
 static const double BOUNCED_OVER_PATHS = 0.46;   // error of 64 rays of a texel, over that of paths
-static const double BOUNCED_POWER = 1.6;         // of what is asked less, that rays grow with
+static const double BOUNCED_POWER = 1.38;        // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
 static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
 static const double ERROR_OVER_POINTS = 1.3;     // of occlusion, of texels over that of points

@@ -91,8 +91,8 @@ static void memory_of_layers_is_estimated(void **state)
 
 /// Rays and memory within a half of what they will be, in the mean over seeds where light is for an
 /// error: its last round is a quarter of all rays, and chance whether it is needed. An even sky is
-/// told three times as many, as it is less noise to a texel's rays than to the paths of a pilot (25
-/// times, before what lamps bring to these was left out). Seconds are the machine's.
+/// told two to three times as many, as it is less noise to a texel's rays than to the paths of a
+/// pilot (25 times, before what lamps bring to these was left out). Seconds are the machine's.
 static void work_is_known_within_a_half(void **state)
 {
     (void)state;
