@@ -288,7 +288,7 @@ alp_result alpi_few_create(const alp_scene *scene, const uint32_t *triangles, ui
     if (made == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    made->loops = &ALPI_COMPILED_FOR(scene->context, alpi_few_loops);
+    made->loops = &ALPI_COMPILED_WIDE_FOR(scene->context, alpi_few_loops);
     for (uint32_t t = 0; t < count; t++) {
         add_triangle(scene, triangles[t], made, &raw[t]);
     }

@@ -18,8 +18,8 @@ enum {
 
 struct alpi_few;
 
-/// The loops, compiled for any machine and for x86-64-v3. No fused operations in either: the same
-/// bits.
+/// The loops, compiled for any machine, for x86-64-v3 and, two packets at a time, for x86-64-v4. No
+/// fused operations in any: the same bits.
 typedef struct alpi_few_loops {
     /// As alpi_trace_occluded. @param lanes all ones for those that take part, 0 for the others
     void (*occluded)(const struct alpi_few *few, alpi_rays *packets, uint32_t count,
@@ -29,7 +29,7 @@ typedef struct alpi_few_loops {
                     const uint32_t *active, uint32_t count, bool one_sided, alpi_hits *hits);
 } alpi_few_loops;
 
-extern const alpi_few_loops alpi_few_loops_baseline, alpi_few_loops_v3;
+extern const alpi_few_loops alpi_few_loops_baseline, alpi_few_loops_v3, alpi_few_loops_v4;
 
 /// Of edges or corners: bit i % 64 of word i / 64.
 typedef struct alpi_few_set {

@@ -13,26 +13,53 @@
 #include <string.h>
 
 // Vectors of the compiler's: left to itself, gcc makes branches of comparisons that are combined.
-#ifdef __AVX__
+// One holds a part of a packet, all of it, or two packets side by side.
+#if defined(__AVX512F__)
+#include <immintrin.h>
+enum { WIDTH = 16 };
+#elif defined(__AVX__)
 enum { WIDTH = 8 };
 #else
 enum { WIDTH = 4 };
 #endif
+enum {
+    TOGETHER = (int)WIDTH > (int)ALPI_PACKET ? 2 : 1,                    // packets in a vector
+    PART = (int)WIDTH < (int)ALPI_PACKET ? (int)WIDTH : (int)ALPI_PACKET // lanes of each
+};
 typedef float floats __attribute__((vector_size(4 * WIDTH)));
 typedef int32_t masks __attribute__((vector_size(4 * WIDTH))); // all ones or 0, of a comparison
 
-static inline floats load(const float *lanes)
+/// Lanes of a packet, and of the one beside it, if any.
+static inline floats load(const float *lanes, const float *beside)
 {
+#if defined(__AVX512F__)
+    return (floats)_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(lanes)),
+                                      _mm256_loadu_ps(beside), 1);
+#else
     floats v;
+    (void)beside;
     memcpy(&v, lanes, sizeof v);
     return v;
+#endif
 }
 
-static inline masks load_masks(const uint32_t *lanes)
+/// A field of two packets, from lane `first` on.
+#define LOAD(rays, field, first) load((rays)[0]->field + (first), (rays)[1]->field + (first))
+
+static inline void keep(floats v, float *lanes, float *beside)
 {
-    masks v;
-    memcpy(&v, lanes, sizeof v);
-    return v;
+#if defined(__AVX512F__)
+    _mm256_storeu_ps(lanes, _mm512_castps512_ps256((__m512)v));
+    _mm256_storeu_ps(beside, _mm512_extractf32x8_ps((__m512)v, 1));
+#else
+    (void)beside;
+    memcpy(lanes, &v, sizeof v);
+#endif
+}
+
+static inline masks load_masks(const uint32_t *lanes, const uint32_t *beside)
+{
+    return (masks)load((const float *)lanes, (const float *)beside);
 }
 
 static inline floats choose(masks which, floats a, floats b)
@@ -43,7 +70,9 @@ static inline floats choose(masks which, floats a, floats b)
 /// Bit i: lane i.
 static inline uint32_t bits_of(masks which)
 {
-#ifdef __AVX__
+#if defined(__AVX512F__)
+    return _mm512_movepi32_mask((__m512i)which);
+#elif defined(__AVX__)
     return (uint32_t)__builtin_ia32_movmskps256((floats)which);
 #else
     uint32_t bits = 0;
@@ -56,10 +85,10 @@ static inline uint32_t bits_of(masks which)
 
 /// Corners seen from the origins of a packet.
 static inline void see_corners(const alpi_few *few, const alpi_few_list *list,
-                               const alpi_rays *rays, int i, floats corners[][3])
+                               const alpi_rays *const rays[2], int i, floats corners[][3])
 {
-    const floats origin[3] = {load(rays->origin_x + i), load(rays->origin_y + i),
-                              load(rays->origin_z + i)};
+    const floats origin[3] = {LOAD(rays, origin_x, i), LOAD(rays, origin_y, i),
+                              LOAD(rays, origin_z, i)};
     for (uint32_t c = 0; c < list->corner_count; c++) {
         const uint32_t corner = list->corners[c];
         for (int k = 0; k < 3; k++) {
@@ -181,6 +210,24 @@ static void list_near(const alpi_few *few, const reached_box *box, alpi_few_list
     list->corner_count = list_members(&corners, list->corners);
 }
 
+/// How far any ray of the lanes that count goes.
+static float farthest(const alpi_rays *packets, uint32_t count, const uint32_t lanes[ALPI_PACKET])
+{
+    floats far = {0};
+    float reach = 0.0f;
+    for (const alpi_rays *rays = packets; rays < packets + count; rays++) {
+        for (int i = 0; i < ALPI_PACKET; i += PART) {
+            const floats maximum = load(rays->maximum + i, rays->maximum + i);
+            const masks active = load_masks(lanes + i, lanes + i);
+            far = choose(active & (maximum > far), maximum, far);
+        }
+    }
+    for (int i = 0; i < WIDTH; i++) {
+        reach = far[i] > reach ? far[i] : reach;
+    }
+    return reach;
+}
+
 /// @param lanes that count: all ones for these, 0 for the others
 /// @param room  for a list @return it, or that of all
 static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *packets,
@@ -188,14 +235,17 @@ static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *p
                                          alpi_few_list *room)
 {
     const floats none = (floats){0} + INFINITY;
-    floats low[3] = {none, none, none}, high[3] = {-none, -none, -none}, far = {0};
-    for (const alpi_rays *rays = packets; rays < packets + count; rays++) {
-        for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
-            const masks active = load_masks(lanes + i);
-            const floats at[3] = {load(rays->origin_x + i), load(rays->origin_y + i),
-                                  load(rays->origin_z + i)};
-            const floats reach = load(rays->maximum + i);
-            far = choose(active & (reach > far), reach, far);
+    floats low[3] = {none, none, none}, high[3] = {-none, -none, -none};
+    const float reach = farthest(packets, count, lanes);
+    if (!(reach < few->extent)) {
+        return &few->all;
+    }
+    for (uint32_t p = 0; p < count; p++) {
+        const alpi_rays *const rays[2] = {&packets[p], &packets[p]};
+        for (int i = 0; i < ALPI_PACKET; i += PART) {
+            const masks active = load_masks(lanes + i, lanes + i);
+            const floats at[3] = {LOAD(rays, origin_x, i), LOAD(rays, origin_y, i),
+                                  LOAD(rays, origin_z, i)};
             for (int k = 0; k < 3; k++) {
                 low[k] = choose(active & (at[k] < low[k]), at[k], low[k]);
                 high[k] = choose(active & (at[k] > high[k]), at[k], high[k]);
@@ -203,16 +253,11 @@ static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *p
         }
     }
     reached_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    float reach = 0.0f;
     for (int i = 0; i < WIDTH; i++) {
-        reach = far[i] > reach ? far[i] : reach;
         for (int k = 0; k < 3; k++) {
             box.low[k] = low[k][i] < box.low[k] ? low[k][i] : box.low[k];
             box.high[k] = high[k][i] > box.high[k] ? high[k][i] : box.high[k];
         }
-    }
-    if (!(reach < few->extent)) {
-        return &few->all;
     }
     for (int k = 0; k < 3; k++) {
         box.low[k] -= reach + few->slack;
@@ -222,22 +267,22 @@ static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *p
     return room;
 }
 
-static inline void load_direction(const alpi_rays *rays, int i, floats direction[3])
+static inline void load_direction(const alpi_rays *const rays[2], int i, floats direction[3])
 {
-    direction[0] = load(rays->direction_x + i);
-    direction[1] = load(rays->direction_y + i);
-    direction[2] = load(rays->direction_z + i);
+    direction[0] = LOAD(rays, direction_x, i);
+    direction[1] = LOAD(rays, direction_y, i);
+    direction[2] = LOAD(rays, direction_z, i);
 }
 
-/// What is the same for all rays from the origins of a packet, WIDTH lanes of it.
+/// What is the same for all rays from the origins of a vector of lanes.
 typedef struct seen_list {
     floats corners[ALPI_FEW_EDGES][3]; // by corner
     floats across[ALPI_FEW_EDGES][3];  // by place in the list, see_edge
     floats heights[ALPI_FEW_LIMIT];    // by place in the list, see_plane
 } seen_list;
 
-static inline void see_list(const alpi_few *few, const alpi_few_list *list, const alpi_rays *rays,
-                            int i, seen_list *seen)
+static inline void see_list(const alpi_few *few, const alpi_few_list *list,
+                            const alpi_rays *const rays[2], int i, seen_list *seen)
 {
     see_corners(few, list, rays, i, seen->corners);
     for (uint32_t e = 0; e < list->edge_count; e++) {
@@ -263,11 +308,13 @@ static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays 
 {
     seen_list seen;
     masks sides[2 * ALPI_FEW_EDGES];
-    for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
-        const masks active = load_masks(lanes + i);
-        see_list(few, list, packets, i, &seen);
-        for (alpi_rays *rays = packets; rays < packets + count; rays++) {
-            const floats minimum = load(rays->minimum + i), maximum = load(rays->maximum + i);
+    for (int i = 0; i < ALPI_PACKET; i += PART) {
+        const masks active = load_masks(lanes + i, lanes + i);
+        see_list(few, list, (const alpi_rays *const[2]){packets, packets}, i, &seen);
+        for (uint32_t p = 0; p < count; p += TOGETHER) {
+            alpi_rays *const to[2] = {&packets[p], &packets[p + 1 < count ? p + 1 : p]};
+            const alpi_rays *const rays[2] = {to[0], to[1]};
+            const floats minimum = LOAD(rays, minimum, i), maximum = LOAD(rays, maximum, i);
             masks stopped = {0};
             floats direction[3];
             load_direction(rays, i, direction);
@@ -279,7 +326,7 @@ static void stop_rays(const alpi_few *few, const alpi_few_list *list, alpi_rays 
                 stopped |= m.met;
             }
             const floats left = choose(stopped & active, (floats){0} - INFINITY, maximum);
-            memcpy(rays->maximum + i, &left, sizeof left);
+            keep(left, to[0]->maximum + i, to[1]->maximum + i);
         }
     }
 }
@@ -304,12 +351,13 @@ typedef struct nearest_hits {
     masks sides[2 * ALPI_FEW_EDGES]; // see pass_edge
 } nearest_hits;
 
-/// WIDTH lanes of a packet, from `first` on, and what they see.
+/// A vector of lanes, from `first` on, of a packet or of two, and what they see. A packet alone is
+/// there twice.
 typedef struct packet_view {
     const alpi_few *few;
     const alpi_few_list *list;
     seen_list *seen;
-    const alpi_rays *rays;
+    const alpi_rays *const *rays; // [2]
     int first;
 } packet_view;
 
@@ -318,11 +366,11 @@ static inline void find_nearest(const packet_view *view, bool one_sided, nearest
     const alpi_few *few = view->few;
     const alpi_few_list *list = view->list;
     const seen_list *seen = view->seen;
-    const alpi_rays *rays = view->rays;
+    const alpi_rays *const *rays = view->rays;
     const int i = view->first;
     floats direction[3];
-    const floats minimum = load(rays->minimum + i);
-    hits->distance = load(rays->maximum + i);
+    const floats minimum = LOAD(rays, minimum, i);
+    hits->distance = LOAD(rays, maximum, i);
     hits->polygon = (masks){0} - 1;
     hits->behind = (masks){0};
     load_direction(rays, i, direction);
@@ -374,18 +422,15 @@ static inline void find_triangle(const alpi_few_polygon *polygon, seen_list *see
 }
 
 /// The lanes of `which` of some numbers, the others as they are.
-static inline void store(masks which, masks numbers, void *lanes)
+static inline void store(masks which, floats numbers, float *lanes, float *beside)
 {
-    masks before;
-    memcpy(&before, lanes, sizeof before);
-    before = (which & numbers) | (~which & before);
-    memcpy(lanes, &before, sizeof before);
+    keep(choose(which, numbers, load(lanes, beside)), lanes, beside);
 }
 
 /// Writes down what the lanes that take part met: polygon by polygon, of which a packet meets two
 /// or three.
 static inline void take_hits(const packet_view *view, const nearest_hits *found, masks active,
-                             alpi_hits *hits)
+                             alpi_hits *const hits[2])
 {
     floats direction[3];
     const masks hit = active & (found->polygon != -1);
@@ -402,40 +447,72 @@ static inline void take_hits(const packet_view *view, const nearest_hits *found,
         left &= ~bits_of(which);
     }
     const floats distance = choose(hit, found->distance, (floats){0} + INFINITY);
-    store(active, (masks)distance, hits->distance + view->first);
-    store(active, all.triangle, hits->triangle + view->first);
-    store(active, (masks)all.b1, hits->b1 + view->first);
-    store(active, (masks)all.b2, hits->b2 + view->first);
-    hits->behind |= bits_of(hit & found->behind) << view->first;
+    const int i = view->first;
+    store(active, distance, hits[0]->distance + i, hits[1]->distance + i);
+    store(active, (floats)all.triangle, (float *)(hits[0]->triangle + i),
+          (float *)(hits[1]->triangle + i));
+    store(active, all.b1, hits[0]->b1 + i, hits[1]->b1 + i);
+    store(active, all.b2, hits[0]->b2 + i, hits[1]->b2 + i);
+    const uint32_t behind = bits_of(hit & found->behind);
+    hits[0]->behind |= (behind & ((1u << PART) - 1u)) << i;
+    hits[1]->behind |= TOGETHER > 1 ? behind >> PART : 0;
 }
 
-/// What packets see that share their origins with the one before, and reach everything, is what
-/// that one saw.
+static void spread_bits(uint32_t bits, uint32_t lanes[ALPI_PACKET])
+{
+    for (int lane = 0; lane < ALPI_PACKET; lane++) {
+        lanes[lane] = 0u - (bits >> lane & 1u);
+    }
+}
+
+/// Packets that were met last.
+typedef struct packets_before {
+    const alpi_few_list *list;
+    const alpi_rays *rays[2];
+} packets_before;
+
+/// Whether packets see what those before them saw: they share their origins, and all reach
+/// everything.
+static bool see_the_same(const alpi_few *few, const packets_before *before,
+                         const packets_before *now)
+{
+    return before->list == &few->all && now->list == &few->all &&
+           share_origins(before->rays[0], now->rays[0]) &&
+           (TOGETHER == 1 || share_origins(before->rays[1], now->rays[1]));
+}
+
+/// Two packets go side by side where both reach everything: what one may reach is not the other's.
 static void nearest(const alpi_few *few, const alpi_rays *const *packets, const uint32_t *active,
                     uint32_t count, bool one_sided, alpi_hits *hits)
 {
-    seen_list seen[ALPI_PACKET / WIDTH];
-    const alpi_few_list *before = NULL;
-    for (uint32_t p = 0; p < count; p++) {
-        const alpi_rays *rays = packets[p];
-        alpi_few_list room;
-        uint32_t lanes[ALPI_PACKET];
-        for (int lane = 0; lane < ALPI_PACKET; lane++) {
-            lanes[lane] = 0u - (active[p] >> lane & 1u);
+    seen_list seen[ALPI_PACKET / PART];
+    packets_before before = {0};
+    for (uint32_t p = 0, q; p < count; p = q + 1) {
+        alpi_few_list room, other;
+        uint32_t lanes[2][ALPI_PACKET];
+        packets_before now;
+        spread_bits(active[p], lanes[0]);
+        now.list = list_reached(few, packets[p], 1, lanes[0], &room);
+        q = p;
+        if (TOGETHER > 1 && p + 1 < count && now.list == &few->all) {
+            spread_bits(active[p + 1], lanes[1]);
+            q += list_reached(few, packets[p + 1], 1, lanes[1], &other) == &few->all ? 1 : 0;
         }
-        const alpi_few_list *list = list_reached(few, rays, 1, lanes, &room);
-        const bool again =
-            before == list && list == &few->all && share_origins(packets[p - 1], rays);
-        before = list;
+        now.rays[0] = packets[p];
+        now.rays[1] = packets[q];
+        const bool again = see_the_same(few, &before, &now);
+        before = now;
         hits[p].behind &= ~active[p];
-        for (int i = 0; i < ALPI_PACKET; i += WIDTH) {
-            const packet_view view = {few, list, &seen[i / WIDTH], rays, i};
+        hits[q].behind &= ~active[q];
+        for (int i = 0; i < ALPI_PACKET; i += PART) {
+            const packet_view view = {few, now.list, &seen[i / PART], now.rays, i};
             nearest_hits found;
             if (!again) {
-                see_list(few, list, rays, i, view.seen);
+                see_list(few, now.list, now.rays, i, view.seen);
             }
             find_nearest(&view, one_sided, &found);
-            take_hits(&view, &found, load_masks(lanes + i), &hits[p]);
+            take_hits(&view, &found, load_masks(lanes[0] + i, lanes[q - p] + i),
+                      (alpi_hits *const[2]){&hits[p], &hits[q]});
         }
     }
 }

@@ -39,12 +39,21 @@ static void close_rig(rig *r)
     alp_context_destroy(r->context);
 }
 
+enum { LOOPS = 3 };
+
 /// Loops that this machine can run.
-static int list_loops(const rig *r, const alpi_few_loops *loops[2])
+static int list_loops(const rig *r, const alpi_few_loops *loops[LOOPS])
 {
-    loops[0] = &alpi_few_loops_baseline;
-    loops[1] = r->few->loops;
-    return loops[1] == loops[0] ? 1 : 2;
+    const alpi_few_loops *middle = &ALPI_COMPILED_FOR(r->context, alpi_few_loops);
+    int count = 0;
+    loops[count++] = &alpi_few_loops_baseline;
+    if (middle != loops[0]) {
+        loops[count++] = middle;
+    }
+    if (r->few->loops != loops[count - 1]) {
+        loops[count++] = r->few->loops;
+    }
+    return count;
 }
 
 /// What one packet meets.
@@ -109,7 +118,7 @@ static int agree_with_brute_force(const rig *r, const alpi_few_loops *loops, boo
 
 static void agree_by_all_loops(rig *r)
 {
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(r, loops);
     for (int k = 0; k < count; k++) {
         const int both = agree_with_brute_force(r, loops[k], false);
@@ -218,7 +227,7 @@ static void no_ray_slips_between_two(void **state)
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 6, 6, 1.0, 1);
     open_rig(test_mesh_scene(context, mesh, 0), &r);
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(&r, loops);
     for (uint32_t packet = 0; packet < 20000; packet++) {
         alpi_rays rays;
@@ -252,7 +261,7 @@ static void grazing_rays_end_within(void **state)
     test_mesh *mesh = test_mesh_start();
     add_turned_box(mesh, (double[]){3.0, 2.0, 1.0}, 5.0, 0.7);
     open_rig(test_mesh_scene(test_context(1), mesh, 0), &r);
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(&r, loops);
     uint32_t hits_seen = 0;
     for (uint32_t packet = 0; packet < 4000; packet++) {
@@ -286,7 +295,7 @@ static void meet_every_corner(alp_scene *scene)
 {
     rig r;
     open_rig(scene, &r);
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(&r, loops);
     for (int way = 0; way < 27; way++) {
         if (way == 13) {
@@ -342,7 +351,7 @@ static void planes_are_passed_within(void **state)
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){1, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
     open_rig(test_mesh_scene(context, mesh, 0), &r);
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(&r, loops);
     alpi_rays rays;
     memset(&rays, 0, sizeof rays);
@@ -374,7 +383,7 @@ static void planes_are_passed_within(void **state)
 /// The nearest hits of a batch. @return rays that met something
 static int meet_nearest(const rig *r, const alpi_rays rays[BATCH])
 {
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(r, loops);
     const alpi_rays *packets[BATCH];
     uint32_t active[BATCH];
@@ -403,7 +412,7 @@ static void meet_batches(alp_scene *scene)
 {
     rig r;
     open_rig(scene, &r);
-    const alpi_few_loops *loops[2];
+    const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(&r, loops);
     int stopped = 0, left = 0, met = 0;
     for (uint32_t batch = 0; batch < 100; batch++) {
