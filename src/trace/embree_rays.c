@@ -283,12 +283,25 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
     }
 }
 
+/// Where they are few enough, packets meet all triangles: coherent ones too, as those from one point
+/// look at the edges once.
+static bool meet_few(const alpi_tracer *tracer, const alpi_rays *const *packets,
+                     const uint32_t *active, uint32_t count, alpi_trace_filter filter,
+                     alpi_hits *hits)
+{
+    const alpi_few *few = tracer->few;
+    if (few == NULL || few->edge_count > ALPI_FEW_NEAREST) {
+        return false;
+    }
+    few->loops->nearest(few, packets, active, count, filter.one_sided, hits);
+    return true;
+}
+
 void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                              const uint32_t *active, uint32_t count, alpi_trace_filter filter,
                              alpi_hits *hits)
 {
-    if (tracer->few != NULL && tracer->few->edge_count <= ALPI_FEW_NEAREST) {
-        tracer->few->loops->nearest(tracer->few, packets, active, count, filter.one_sided, hits);
+    if (meet_few(tracer, packets, active, count, filter, hits)) {
         return;
     }
     alpi_trace_context context = start_context(tracer, filter);
@@ -306,15 +319,16 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits)
 {
-    alpi_trace_context context = start_context(tracer, filter);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    trace_nearest(tracer, rays, active, &context, hits);
+    alpi_trace_nearest_coherent_many(tracer, &rays, &active, 1, filter, hits);
 }
 
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                                       const uint32_t *active, uint32_t count,
                                       alpi_trace_filter filter, alpi_hits *hits)
 {
+    if (meet_few(tracer, packets, active, count, filter, hits)) {
+        return;
+    }
     alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (uint32_t p = 0; p < count;) {
