@@ -68,8 +68,8 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
     return ALP_OK;
 }
 
-/// Plans as for a round after one that found what the trial did.
-static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p)
+/// Plans as for a round after one that found what the trial did. @param rays out: of a texel
+static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p, double *rays)
 {
     const bool adaptive = alpi_light_round_is_adaptive(r);
     uint32_t list[TRIAL_TEXELS];
@@ -81,7 +81,9 @@ static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p)
     ALP_TRY(alpi_light_round_measure(r, list, count));
     r->bounced_error *= adaptive ? MAP_SHARE : 1.0;
     r->rays = ALPI_LIGHT_FIRST_RAYS;
-    (void)alpi_light_round_plan_all(r, p);
+    *rays = alpi_light_round_plan_all(r, p)
+                ? r->rays + p->rays
+                : fmax(alpi_light_round_enough(r), ALPI_LIGHT_FEWEST_RAYS);
     r->rays = 0; // there was no round yet
     return ALP_OK;
 }
@@ -108,7 +110,8 @@ alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
         return ALP_OK;
     }
     alpi_light_plan p;
-    ALP_TRY(plan(r, &p));
-    *rays = alpi_cosine_rays_samples((uint32_t)(*rays + p.rays), ALPI_LIGHT_REPLICATES);
+    double wanted;
+    ALP_TRY(plan(r, &p, &wanted));
+    *rays = alpi_light_ray_count(wanted);
     return p.direct > 0.0 ? add_direct(r, p.for_direct * r->mean) : ALP_OK;
 }

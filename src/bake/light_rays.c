@@ -44,6 +44,28 @@ static void go_on_from_near(const alpi_bake_job *job, const alpi_light_task *tas
     from->near_reach = NEAR_REACH;
 }
 
+/// Replicates that packets make: ALPI_LIGHT_REPLICATES if they can. 0: none do.
+static uint32_t find_replicates(uint32_t packets)
+{
+    static const uint8_t ways[] = {ALPI_LIGHT_REPLICATES, 5, 6, 7, 3};
+    for (uint32_t i = 0; i < sizeof ways; i++) {
+        if (packets >= ways[i] && packets % ways[i] == 0) {
+            return ways[i];
+        }
+    }
+    return 0;
+}
+
+uint32_t alpi_light_ray_count(double rays)
+{
+    const double least = ALPI_LIGHT_REPLICATES * ALPI_PACKET;
+    uint32_t packets = (uint32_t)ceil(fmax(rays, least) / ALPI_PACKET);
+    while (find_replicates(packets) == 0) {
+        packets++;
+    }
+    return packets * ALPI_PACKET;
+}
+
 void alpi_light_rays_start(const alpi_light_round_state *r, uint32_t rays, uint64_t seed,
                            alpi_light_rays *by)
 {
@@ -55,7 +77,7 @@ void alpi_light_rays_start(const alpi_light_round_state *r, uint32_t rays, uint6
     by->cosine = (alpi_cosine_rays){
         .context = job->context,
         .samples = rays,
-        .replicates = ALPI_LIGHT_REPLICATES,
+        .replicates = find_replicates(rays / ALPI_PACKET),
         .joined = true,
         .seed = seed,
     };

@@ -16,7 +16,12 @@ typedef struct alpi_light_rays {
     alpi_gather_job gather; // of no list, and to no values yet
 } alpi_light_rays;
 
-/// @param rays of a texel; the round's own gatherer, where it has one, has its own number
+/// So many rays or a few more: packets in three to seven equal replicates, by whose spread the
+/// noise is known. Fours of them alone would send up to a third more than is asked.
+uint32_t alpi_light_ray_count(double rays);
+
+/// @param rays of a texel, a number that alpi_light_ray_count gives; the round's own gatherer,
+/// where it has one, has its own number
 void alpi_light_rays_start(const alpi_light_round_state *round, uint32_t rays, uint64_t seed,
                            alpi_light_rays *by);
 

@@ -247,8 +247,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
-        ALP_TRY(add_bounced(
-            r, alpi_cosine_rays_samples((uint32_t)fmax(rays, 1.0), ALPI_LIGHT_REPLICATES)));
+        ALP_TRY(add_bounced(r, alpi_light_ray_count(rays)));
     }
     if (direct < direct_asked || rays < rays_asked) { // the clock had a say
         r->cut_off = true;

@@ -283,8 +283,8 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
     }
 }
 
-/// Where they are few enough, packets meet all triangles: coherent ones too, as those from one point
-/// look at the edges once.
+/// Where they are few enough, packets meet all triangles: coherent ones too, as those from one
+/// point look at the edges once.
 static bool meet_few(const alpi_tracer *tracer, const alpi_rays *const *packets,
                      const uint32_t *active, uint32_t count, alpi_trace_filter filter,
                      alpi_hits *hits)

@@ -47,7 +47,11 @@ static alp_bake_report bake(float error, double time_limit, uint64_t seed)
 static void few_rays_do_for_a_large_error(void **state)
 {
     (void)state;
-    assert_int_equal(bake(0.2f, 0.0, 0).light_samples, ALPI_LIGHT_FIRST_RAYS);
+    assert_int_equal(bake(0.2f, 0.0, 0).light_samples, ALPI_LIGHT_FEWEST_RAYS);
+    const alp_bake_report report = bake(0.05f, 0.0, 0);
+    assert_true(report.light_samples > ALPI_LIGHT_FEWEST_RAYS &&
+                report.light_samples < ALPI_LIGHT_FIRST_RAYS);
+    assert_true(report.light_relative_error <= 0.05 && report.light_rounds == 1);
 }
 
 /// Nor is it far better than was asked for. Where it falls short by a little, one more follows.
