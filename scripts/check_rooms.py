@@ -166,11 +166,13 @@ def faults_of_file(root, path):
 
 
 def listed_files(cmake):
-    """Names of sources in a CMakeLists.txt; alp_compile_twice(NAME) stands for two (src/)."""
+    """Names of sources in a CMakeLists.txt; alp_compile_twice(NAME) stands for two, thrice for
+    three (src/)."""
     text = cmake.read_text(encoding="utf-8")
-    twice = re.findall(r"^alp_compile_twice\((\w+)\)$", text, re.MULTILINE)
+    compiled = re.findall(r"^alp_compile_(twice|thrice)\((\w+)\)$", text, re.MULTILINE)
+    kinds = {"twice": ("baseline", "v3"), "thrice": ("baseline", "v3", "v4")}
     return {*re.findall(r"[\w.]+\.(?:cpp|c)\b", text),
-            *(f"{name}_{kind}.c" for name in twice for kind in ("baseline", "v3"))}
+            *(f"{name}_{kind}.c" for times, name in compiled for kind in kinds[times])}
 
 
 def unlisted_files(root):
