@@ -15,8 +15,8 @@
 // Vectors of the compiler's: left to itself, gcc makes branches of comparisons that are combined.
 // One holds a part of a packet, all of it, or two packets side by side.
 #if defined(__AVX512F__)
-#include <immintrin.h>
 enum { WIDTH = 16 };
+typedef float half_floats __attribute__((vector_size(32)));
 #elif defined(__AVX__)
 enum { WIDTH = 8 };
 #else
@@ -33,8 +33,10 @@ typedef int32_t masks __attribute__((vector_size(4 * WIDTH))); // all ones or 0,
 static inline floats load(const float *lanes, const float *beside)
 {
 #if defined(__AVX512F__)
-    return (floats)_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(lanes)),
-                                      _mm256_loadu_ps(beside), 1);
+    half_floats a, b;
+    memcpy(&a, lanes, sizeof a);
+    memcpy(&b, beside, sizeof b);
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 #else
     floats v;
     (void)beside;
@@ -49,8 +51,10 @@ static inline floats load(const float *lanes, const float *beside)
 static inline void keep(floats v, float *lanes, float *beside)
 {
 #if defined(__AVX512F__)
-    _mm256_storeu_ps(lanes, _mm512_castps512_ps256((__m512)v));
-    _mm256_storeu_ps(beside, _mm512_extractf32x8_ps((__m512)v, 1));
+    const half_floats a = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
+    const half_floats b = __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+    memcpy(lanes, &a, sizeof a);
+    memcpy(beside, &b, sizeof b);
 #else
     (void)beside;
     memcpy(lanes, &v, sizeof v);
@@ -71,7 +75,7 @@ static inline floats choose(masks which, floats a, floats b)
 static inline uint32_t bits_of(masks which)
 {
 #if defined(__AVX512F__)
-    return _mm512_movepi32_mask((__m512i)which);
+    return (uint16_t)__builtin_ia32_cvtd2mask512(which);
 #elif defined(__AVX__)
     return (uint32_t)__builtin_ia32_movmskps256((floats)which);
 #else
