@@ -29,8 +29,8 @@ enum {
 typedef float floats __attribute__((vector_size(4 * WIDTH)));
 typedef int32_t masks __attribute__((vector_size(4 * WIDTH))); // all ones or 0, of a comparison
 
-/// Lanes of a packet, and of the one beside it, if any.
-static inline floats load(const float *lanes, const float *beside)
+/// Lanes of a packet, and of the one beside it, if any: floats, or numbers whose bits are kept.
+static inline floats load(const void *lanes, const void *beside)
 {
 #if defined(__AVX512F__)
     half_floats a, b;
@@ -48,7 +48,7 @@ static inline floats load(const float *lanes, const float *beside)
 /// A field of two packets, from lane `first` on.
 #define LOAD(rays, field, first) load((rays)[0]->field + (first), (rays)[1]->field + (first))
 
-static inline void keep(floats v, float *lanes, float *beside)
+static inline void keep(floats v, void *lanes, void *beside)
 {
 #if defined(__AVX512F__)
     const half_floats a = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
@@ -63,7 +63,7 @@ static inline void keep(floats v, float *lanes, float *beside)
 
 static inline masks load_masks(const uint32_t *lanes, const uint32_t *beside)
 {
-    return (masks)load((const float *)lanes, (const float *)beside);
+    return (masks)load(lanes, beside);
 }
 
 static inline floats choose(masks which, floats a, floats b)
@@ -426,7 +426,7 @@ static inline void find_triangle(const alpi_few_polygon *polygon, seen_list *see
 }
 
 /// The lanes of `which` of some numbers, the others as they are.
-static inline void store(masks which, floats numbers, float *lanes, float *beside)
+static inline void store(masks which, floats numbers, void *lanes, void *beside)
 {
     keep(choose(which, numbers, load(lanes, beside)), lanes, beside);
 }
@@ -453,8 +453,7 @@ static inline void take_hits(const packet_view *view, const nearest_hits *found,
     const floats distance = choose(hit, found->distance, (floats){0} + INFINITY);
     const int i = view->first;
     store(active, distance, hits[0]->distance + i, hits[1]->distance + i);
-    store(active, (floats)all.triangle, (float *)(hits[0]->triangle + i),
-          (float *)(hits[1]->triangle + i));
+    store(active, (floats)all.triangle, hits[0]->triangle + i, hits[1]->triangle + i);
     store(active, all.b1, hits[0]->b1 + i, hits[1]->b1 + i);
     store(active, all.b2, hits[0]->b2 + i, hits[1]->b2 + i);
     const uint32_t behind = bits_of(hit & found->behind);
