@@ -97,14 +97,11 @@ static void find_in_fan(const fan *f, double u, double v, double b[2])
 /// The piece that holds u of a texel's area.
 static uint32_t find_piece(const alpi_texels *texels, uint32_t texel, float u)
 {
-    uint32_t low = texels->piece_first[texel], high = texels->piece_first[texel + 1] - 1;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (u < texels->piece_ends[middle]) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
+    uint32_t low = texels->piece_first[texel], count = texels->piece_first[texel + 1] - low;
+    while (count > 1) { // chosen, not branched to: which half it is, nobody can foresee
+        const uint32_t half = count / 2;
+        low = u >= texels->piece_ends[low + half - 1] ? low + half : low;
+        count -= half;
     }
     return low;
 }

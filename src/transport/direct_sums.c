@@ -19,10 +19,12 @@ void alpi_direct_add_polygons(const alpi_polygon_gather *polygons, uint32_t lane
         const double light[3] = {(double)polygon->radiance.x, (double)polygon->radiance.y,
                                  (double)polygon->radiance.z};
         double all[3] = {0.0, 0.0, 0.0};
-        for (int i = 0; i < 3 * R; i++) {
-            const double one = ALPI_PI * light[i % 3] * polygons->sums[lane][p][i / 3][i % 3];
-            sums[polygon->part][i / 3][i % 3] += one;
-            all[i % 3] += one;
+        for (int r = 0; r < R; r++) {
+            for (int k = 0; k < 3; k++) {
+                const double one = ALPI_PI * light[k] * polygons->sums[lane][p][r][k];
+                sums[polygon->part][r][k] += one;
+                all[k] += one;
+            }
         }
         if (directional != NULL) {
             alpi_directional_add_found(&polygons->directional[lane][p], all, directional);
@@ -47,35 +49,46 @@ void alpi_direct_halves_release(const alpi_direct *d, alpi_direct_halves *halves
 static void compare_halves(const double (*sums)[3], uint32_t each,
                            const alpi_reference_value *value, float told[2])
 {
-    double apart = 0.0, variance = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double half[2] = {0.0, 0.0};
-        for (int r = 0; r < R; r++) {
-            half[r / ALPI_DIRECT_HALF] += sums[r][k] / ((double)each * ALPI_DIRECT_HALF);
+    double halves[2][3] = {{0.0}}, apart = 0.0, variance = 0.0;
+    for (int r = 0; r < R; r++) {
+        for (int k = 0; k < 3; k++) {
+            halves[r / ALPI_DIRECT_HALF][k] += sums[r][k];
         }
-        apart += 0.25 * (half[0] - half[1]) * (half[0] - half[1]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double half = (halves[0][k] - halves[1][k]) / ((double)each * ALPI_DIRECT_HALF);
+        apart += 0.25 * half * half;
         variance += (double)value->variance[k];
     }
     told[0] += (float)apart;
     told[1] += (float)variance;
 }
 
-/// Adds up the parts, or those of them that repeat nothing. @return whether any is left out
-static bool add_parts(const alpi_direct *d, const double (*sums)[R][3],
+/// Whether some part repeats what one half of its samples found.
+static bool repeats_any(const alpi_direct *d, const alpi_polygon_gather *polygons, uint32_t lane)
+{
+    bool any = false;
+    for (uint32_t p = 0; p < d->part_count && polygons != NULL; p++) {
+        any = any || alpi_polygons_repeat(polygons, lane, p);
+    }
+    return any;
+}
+
+/// Adds up the parts. @param polygons NULL, or those whose parts that repeat are left out
+static void add_parts(const alpi_direct *d, const double (*sums)[R][3],
                       const alpi_polygon_gather *polygons, uint32_t lane, double out[R][3])
 {
-    bool left_out = false;
     memset(out, 0, R * sizeof *out);
     for (uint32_t p = 0; p < d->part_count; p++) {
         if (polygons != NULL && alpi_polygons_repeat(polygons, lane, p)) {
-            left_out = true;
             continue;
         }
-        for (int i = 0; i < 3 * R; i++) {
-            out[i / 3][i % 3] += sums[p][i / 3][i % 3];
+        for (int r = 0; r < R; r++) {
+            for (int k = 0; k < 3; k++) {
+                out[r][k] += sums[p][r][k];
+            }
         }
     }
-    return left_out;
 }
 
 void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t receiver,
@@ -85,6 +98,7 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
     const uint32_t each = d->samples / R;
     alpi_reference_value *value = &output->values[receiver], compared;
     double together[R][3];
+    const double(*all)[3] = sums[0]; // of one part there is nothing to add up
     float mean[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t p = 0; p < d->part_count; p++) {
         alpi_reference_value part;
@@ -93,18 +107,21 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
             mean[k] += part.mean[k];
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
-        *value = part; // of one part: all there is
+        *value = part;
     }
-    add_parts(d, sums, NULL, lane, together);
     if (d->part_count != 1) {
-        alpi_reference_mean((const double(*)[3])together, R, each, value);
+        add_parts(d, sums, NULL, lane, together);
+        all = (const double(*)[3])together;
+        alpi_reference_mean(all, R, each, value);
         memcpy(value->mean, mean, sizeof mean);
     }
     compared = *value;
-    if (polygons != NULL && add_parts(d, sums, polygons, lane, together)) {
-        alpi_reference_mean((const double(*)[3])together, R, each, &compared);
+    if (repeats_any(d, polygons, lane)) {
+        add_parts(d, sums, polygons, lane, together);
+        all = (const double(*)[3])together;
+        alpi_reference_mean(all, R, each, &compared);
     }
-    compare_halves((const double(*)[3])together, each, &compared, told);
+    compare_halves(all, each, &compared, told);
 }
 
 static void add_halves(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])

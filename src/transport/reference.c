@@ -45,17 +45,21 @@ void alpi_reference_mean(const double (*sums)[3], uint32_t replicates, uint32_t 
 {
     const double one = 1.0 / each, all = one / replicates;
     const double pairs = 1.0 / (replicates * (replicates - 1.0));
+    double sum[3] = {0.0}, squares[3] = {0.0};
+    for (uint32_t r = 0; r < replicates; r++) { // the channels side by side: sums wait for no sum
+        for (int k = 0; k < 3; k++) {
+            sum[k] += sums[r][k];
+        }
+    }
+    for (uint32_t r = 0; r < replicates; r++) {
+        for (int k = 0; k < 3; k++) {
+            const double apart = sums[r][k] * one - sum[k] * all;
+            squares[k] += apart * apart;
+        }
+    }
     for (int k = 0; k < 3; k++) {
-        double sum = 0.0, squares = 0.0;
-        for (uint32_t r = 0; r < replicates; r++) {
-            sum += sums[r][k];
-        }
-        for (uint32_t r = 0; r < replicates; r++) {
-            const double apart = sums[r][k] * one - sum * all;
-            squares += apart * apart;
-        }
-        value->mean[k] = (float)(sum * all);
-        value->variance[k] = (float)(squares * pairs);
+        value->mean[k] = (float)(sum[k] * all);
+        value->variance[k] = (float)(squares[k] * pairs);
     }
 }
 
