@@ -14,7 +14,10 @@
 
 // Vectors of the compiler's: left to itself, gcc makes branches of comparisons that are combined.
 // One holds a part of a packet, all of it, or two packets side by side.
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define BY_SIXTEEN
+#endif
+#if defined(BY_SIXTEEN)
 enum { WIDTH = 16 };
 typedef float half_floats __attribute__((vector_size(32)));
 #elif defined(__AVX__)
@@ -32,7 +35,7 @@ typedef int32_t masks __attribute__((vector_size(4 * WIDTH))); // all ones or 0,
 /// Lanes of a packet, and of the one beside it, if any: floats, or numbers whose bits are kept.
 static inline floats load(const void *lanes, const void *beside)
 {
-#if defined(__AVX512F__)
+#if defined(BY_SIXTEEN)
     half_floats a, b;
     memcpy(&a, lanes, sizeof a);
     memcpy(&b, beside, sizeof b);
@@ -50,7 +53,7 @@ static inline floats load(const void *lanes, const void *beside)
 
 static inline void keep(floats v, void *lanes, void *beside)
 {
-#if defined(__AVX512F__)
+#if defined(BY_SIXTEEN)
     const half_floats a = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
     const half_floats b = __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
     memcpy(lanes, &a, sizeof a);
@@ -74,7 +77,7 @@ static inline floats choose(masks which, floats a, floats b)
 /// Bit i: lane i.
 static inline uint32_t bits_of(masks which)
 {
-#if defined(__AVX512F__)
+#if defined(BY_SIXTEEN)
     return (uint16_t)__builtin_ia32_cvtd2mask512(which);
 #elif defined(__AVX__)
     return (uint32_t)__builtin_ia32_movmskps256((floats)which);
@@ -232,6 +235,12 @@ static float farthest(const alpi_rays *packets, uint32_t count, const uint32_t l
     return reach;
 }
 
+/// Whether some ray may reach across everything.
+static bool reaches_all(const alpi_few *few, float reach)
+{
+    return !(reach < few->extent);
+}
+
 /// @param lanes that count: all ones for these, 0 for the others
 /// @param room  for a list @return it, or that of all
 static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *packets,
@@ -241,7 +250,7 @@ static const alpi_few_list *list_reached(const alpi_few *few, const alpi_rays *p
     const floats none = (floats){0} + INFINITY;
     floats low[3] = {none, none, none}, high[3] = {-none, -none, -none};
     const float reach = farthest(packets, count, lanes);
-    if (!(reach < few->extent)) {
+    if (reaches_all(few, reach)) {
         return &few->all;
     }
     for (uint32_t p = 0; p < count; p++) {
@@ -470,17 +479,15 @@ static void spread_bits(uint32_t bits, uint32_t lanes[ALPI_PACKET])
 
 /// Packets that were met last.
 typedef struct packets_before {
-    const alpi_few_list *list;
+    bool reach_all;
     const alpi_rays *rays[2];
 } packets_before;
 
 /// Whether packets see what those before them saw: they share their origins, and all reach
 /// everything.
-static bool see_the_same(const alpi_few *few, const packets_before *before,
-                         const packets_before *now)
+static bool see_the_same(const packets_before *before, const packets_before *now)
 {
-    return before->list == &few->all && now->list == &few->all &&
-           share_origins(before->rays[0], now->rays[0]) &&
+    return before->reach_all && now->reach_all && share_origins(before->rays[0], now->rays[0]) &&
            (TOGETHER == 1 || share_origins(before->rays[1], now->rays[1]));
 }
 
@@ -491,27 +498,25 @@ static void nearest(const alpi_few *few, const alpi_rays *const *packets, const 
     seen_list seen[ALPI_PACKET / PART];
     packets_before before = {0};
     for (uint32_t p = 0, q; p < count; p = q + 1) {
-        alpi_few_list room, other;
+        alpi_few_list room;
         uint32_t lanes[2][ALPI_PACKET];
-        packets_before now;
         spread_bits(active[p], lanes[0]);
-        now.list = list_reached(few, packets[p], 1, lanes[0], &room);
+        const alpi_few_list *list = list_reached(few, packets[p], 1, lanes[0], &room);
         q = p;
-        if (TOGETHER > 1 && p + 1 < count && now.list == &few->all) {
+        if (TOGETHER > 1 && p + 1 < count && list == &few->all) {
             spread_bits(active[p + 1], lanes[1]);
-            q += list_reached(few, packets[p + 1], 1, lanes[1], &other) == &few->all ? 1 : 0;
+            q += reaches_all(few, farthest(packets[p + 1], 1, lanes[1])) ? 1 : 0;
         }
-        now.rays[0] = packets[p];
-        now.rays[1] = packets[q];
-        const bool again = see_the_same(few, &before, &now);
+        const packets_before now = {list == &few->all, {packets[p], packets[q]}};
+        const bool again = see_the_same(&before, &now);
         before = now;
         hits[p].behind &= ~active[p];
         hits[q].behind &= ~active[q];
         for (int i = 0; i < ALPI_PACKET; i += PART) {
-            const packet_view view = {few, now.list, &seen[i / PART], now.rays, i};
+            const packet_view view = {few, list, &seen[i / PART], now.rays, i};
             nearest_hits found;
             if (!again) {
-                see_list(few, now.list, now.rays, i, view.seen);
+                see_list(few, list, now.rays, i, view.seen);
             }
             find_nearest(&view, one_sided, &found);
             take_hits(&view, &found, load_masks(lanes[0] + i, lanes[q - p] + i),

@@ -166,12 +166,13 @@ void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, 
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets. In scenes of few triangles, what those that follow each other see
-/// from the same origins, lane by lane, is found once.
+/// from the same origins, lane by lane, is found once, or once a pair where the machine has vectors
+/// of sixteen.
 void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
                              const uint32_t *active, uint32_t count, alpi_trace_filter filter,
                              alpi_hits *hits);
 /// The same, faster where the rays of a packet leave from about one place in about one direction (a
-/// camera's), and twice as slow where they do not.
+/// camera's), and twice as slow where they do not; in scenes of few triangles as above.
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets, two that follow each other together where the machine has vectors

@@ -56,8 +56,8 @@ static void compare_halves(const double (*sums)[3], uint32_t each,
         }
     }
     for (int k = 0; k < 3; k++) {
-        const double half = (halves[0][k] - halves[1][k]) / ((double)each * ALPI_DIRECT_HALF);
-        apart += 0.25 * half * half;
+        const double difference = (halves[0][k] - halves[1][k]) / ((double)each * ALPI_DIRECT_HALF);
+        apart += 0.25 * difference * difference;
         variance += (double)value->variance[k];
     }
     told[0] += (float)apart;
@@ -67,11 +67,15 @@ static void compare_halves(const double (*sums)[3], uint32_t each,
 /// Whether some part repeats what one half of its samples found.
 static bool repeats_any(const alpi_direct *d, const alpi_polygon_gather *polygons, uint32_t lane)
 {
-    bool any = false;
-    for (uint32_t p = 0; p < d->part_count && polygons != NULL; p++) {
-        any = any || alpi_polygons_repeat(polygons, lane, p);
+    if (polygons == NULL) {
+        return false;
     }
-    return any;
+    for (uint32_t p = 0; p < d->part_count; p++) {
+        if (alpi_polygons_repeat(polygons, lane, p)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Adds up the parts. @param polygons NULL, or those whose parts that repeat are left out
@@ -107,7 +111,7 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
             mean[k] += part.mean[k];
         }
         alpi_direct_put_part(output, d->part_count, p, receiver, &part);
-        *value = part;
+        *value = part; // of one part: all there is
     }
     if (d->part_count != 1) {
         add_parts(d, sums, NULL, lane, together);

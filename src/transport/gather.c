@@ -5,7 +5,6 @@
 #include "transport/near_rays.h"
 #include "transport/panes.h"
 
-#include <assert.h>
 #include <string.h>
 
 /// Points that rays of a packet have met, and whose they are.
@@ -454,9 +453,7 @@ alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_pr
     enum { RAYS_PER_RANGE = 4096 }; // some tenths of a millisecond
     alpi_gather_job own = *job;
     const uint32_t rays = job->gatherer->packet_count * ALPI_PACKET;
-    assert(job->gatherer->replicates > 0 &&
-           job->gatherer->replicates <= ALPI_GATHER_REPLICATE_LIMIT &&
-           job->gatherer->packet_count % job->gatherer->replicates == 0);
+    alpi_gather_check(job->gatherer);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)rays;
     told.units_are_rays = true;

@@ -9,6 +9,8 @@
 #include "transport/reference.h"
 #include "transport/surface_light.h"
 
+#include <assert.h>
+
 /// What a gatherer looks at; all borrowed. Emissive surfaces and the sky count where a ray happens
 /// to meet them, or else are direct light's, which knows better ways to them (alpi_direct). Lamps
 /// and suns always are: no ray meets a point, and a sun's disk is smaller than what is between two
@@ -73,6 +75,14 @@ typedef struct alpi_gatherer {
 static inline uint32_t alpi_gather_packets_each(const alpi_gatherer *gatherer)
 {
     return gatherer->packet_count / gatherer->replicates;
+}
+/// Packets make replicates that are all as large, or light would be lost.
+static inline void alpi_gather_check(const alpi_gatherer *gatherer)
+{
+    (void)gatherer;
+    assert(gatherer->packet_count > 0 && gatherer->replicates > 0 &&
+           gatherer->replicates <= ALPI_GATHER_REPLICATE_LIMIT &&
+           gatherer->packet_count % gatherer->replicates == 0);
 }
 /// The replicate of a packet.
 static inline uint32_t alpi_gather_replicate(const alpi_gatherer *gatherer, uint32_t packet)

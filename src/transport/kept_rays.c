@@ -96,6 +96,7 @@ static alp_result run(kept_job *k, alpi_task_fn *body, const alpi_task_progress 
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
                                 alpi_kept_rays *kept)
 {
+    alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)kept->rays;
@@ -129,6 +130,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
 alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
                                  const alpi_task_progress *progress)
 {
+    alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
     return run(&k, gather_range, progress);
 }

@@ -5,6 +5,7 @@
 #include "soup.h"
 
 #include "scene/mesh_builder.h"
+#include "trace/few.h"
 
 /// MOST: packets of a round, past the eight that are laid out together and past two times as many.
 enum { MOST = 21, ROUNDS = 9, ALL_LANES = 0xff };
@@ -231,6 +232,18 @@ static void few_triangles(void **state)
     hold_every_level(make_few, NULL);
 }
 
+/// So few that packets meet each of them, and Embree is not asked.
+static alp_scene *make_fewest(alp_context *context)
+{
+    return soup_make(context, ALPI_FEW_NEAREST / 3, 6.0f); // without an edge in common
+}
+
+static void fewest_triangles(void **state)
+{
+    (void)state;
+    hold_every_level(make_fewest, NULL);
+}
+
 /// Of 1,520 triangles, whose edges are those of two.
 static alp_scene *make_sphere(alp_context *context)
 {
@@ -291,9 +304,8 @@ static void surfaces_of_all_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_triangles),
-        cmocka_unit_test(few_triangles),
-        cmocka_unit_test(edges_of_two_triangles),
+        cmocka_unit_test(many_triangles),        cmocka_unit_test(few_triangles),
+        cmocka_unit_test(fewest_triangles),      cmocka_unit_test(edges_of_two_triangles),
         cmocka_unit_test(surfaces_of_all_kinds),
     };
 #if defined(__x86_64__)

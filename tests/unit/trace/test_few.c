@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "trace/few.h"
 
-enum { PACKETS = 2000, BATCH = 24 };
+enum { PACKETS = 2000, BATCH = 24, ENDING = 5 }; // of a batch, those first whose reach ends
 
 static const uint32_t ALL[ALPI_PACKET] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX,
                                           UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
@@ -381,7 +381,7 @@ static void planes_are_passed_within(void **state)
 }
 
 /// The nearest hits of a batch. @return rays that met something
-static int meet_nearest(const rig *r, const alpi_rays rays[BATCH])
+static int meet_nearest(const rig *r, const alpi_rays rays[BATCH], bool one_sided)
 {
     const alpi_few_loops *loops[LOOPS];
     const int count = list_loops(r, loops);
@@ -393,17 +393,38 @@ static int meet_nearest(const rig *r, const alpi_rays rays[BATCH])
     for (uint32_t p = 0; p < BATCH; p++) {
         packets[p] = &rays[p];
         active[p] = p % 4 == 2 ? 0xdbu : 0xffu;
-        meet(&alpi_few_loops_baseline, r->few, packets[p], active[p], false, &alone[p]);
+        meet(&alpi_few_loops_baseline, r->few, packets[p], active[p], one_sided, &alone[p]);
         for (int i = 0; i < ALPI_PACKET; i++) {
             met += (active[p] >> i & 1u) != 0 && alone[p].triangle[i] != ALPI_NONE;
         }
     }
     for (int k = 0; k < count; k++) {
         memset(together, 0x55, sizeof together);
-        loops[k]->nearest(r->few, packets, active, BATCH, false, together);
+        loops[k]->nearest(r->few, packets, active, BATCH, one_sided, together);
         assert_memory_equal(together, alone, sizeof alone);
     }
     return met;
+}
+
+/// Shadow rays of a batch, and of its first packets alone, whose reaches end.
+/// @param alone [BATCH] out: what they are packet by packet
+static void stop_batch(const rig *r, const alpi_rays rays[BATCH], bool one_sided,
+                       alpi_rays alone[BATCH])
+{
+    const alpi_few_loops *loops[LOOPS];
+    const int count = list_loops(r, loops);
+    memcpy(alone, rays, BATCH * sizeof *rays);
+    for (uint32_t p = 0; p < BATCH; p++) {
+        alpi_few_loops_baseline.occluded(r->few, &alone[p], 1, SOME, one_sided);
+    }
+    for (int k = 0; k < count; k++) {
+        for (uint32_t packets = ENDING; packets <= BATCH; packets += BATCH - ENDING) {
+            alpi_rays together[BATCH];
+            memcpy(together, rays, sizeof together);
+            loops[k]->occluded(r->few, together, packets, SOME, one_sided);
+            assert_memory_equal(together, alone, packets * sizeof *alone);
+        }
+    }
 }
 
 /// Batches of packets, some of which share their origins, with reaches of their own: what a packet
@@ -413,7 +434,7 @@ static void meet_batches(alp_scene *scene)
     rig r;
     open_rig(scene, &r);
     const alpi_few_loops *loops[LOOPS];
-    const int count = list_loops(&r, loops);
+    print_message("by %d loops\n", list_loops(&r, loops));
     int stopped = 0, left = 0, met = 0;
     for (uint32_t batch = 0; batch < 100; batch++) {
         alpi_rays rays[BATCH], alone[BATCH];
@@ -421,24 +442,16 @@ static void meet_batches(alp_scene *scene)
             soup_rays(&rays[p], batch * BATCH + p);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 const float far = 0.1f + 0.1f * (float)(p % 7);
-                rays[p].maximum[i] = p % 11 == 10 || p / 5 % 2 == 1 ? INFINITY : far;
+                rays[p].maximum[i] = p % 11 == 10 || p / ENDING % 2 == 1 ? INFINITY : far;
             }
-            const uint32_t first = p / 5 * 5; // five packets from the same eight points
+            // Five packets from the same eight points; of the first five, three and two.
+            const uint32_t first = p < ENDING ? p / 3 * 3 : p / ENDING * ENDING;
             memcpy(rays[p].origin_x, rays[first].origin_x, sizeof rays[p].origin_x);
             memcpy(rays[p].origin_y, rays[first].origin_y, sizeof rays[p].origin_y);
             memcpy(rays[p].origin_z, rays[first].origin_z, sizeof rays[p].origin_z);
         }
-        met += meet_nearest(&r, rays);
-        memcpy(alone, rays, sizeof rays);
-        for (uint32_t p = 0; p < BATCH; p++) {
-            alpi_few_loops_baseline.occluded(r.few, &alone[p], 1, SOME, false);
-        }
-        for (int k = 0; k < count; k++) {
-            alpi_rays together[BATCH];
-            memcpy(together, rays, sizeof rays);
-            loops[k]->occluded(r.few, together, BATCH, SOME, false);
-            assert_memory_equal(together, alone, sizeof alone);
-        }
+        met += meet_nearest(&r, rays, batch % 2 == 1);
+        stop_batch(&r, rays, batch % 2 == 1, alone);
         for (uint32_t p = 0; p < BATCH; p++) {
             for (int i = 0; i < ALPI_PACKET; i++) {
                 stopped += alone[p].maximum[i] < 0.0f;

@@ -3,6 +3,7 @@
 #include "soup.h"
 
 #include "base/memory.h"
+#include "trace/few.h"
 
 enum { PACKETS = 400 };
 
@@ -139,18 +140,25 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     alp_context_destroy(context);
 }
 
+/// In a hierarchy, and so few that packets meet each of them: their edges, which are of one alone.
 static void random_rays_hit_what_brute_force_hits(void **state)
 {
     (void)state;
-    alp_context *context = test_context(1);
-    alp_scene *scene = soup_make(context, 600, 0.4f);
-    int both = 0, front = 0;
-    agrees_with_brute_force(scene, (alpi_trace_filter){0}, &both);
-    agrees_with_brute_force(scene, (alpi_trace_filter){.one_sided = true}, &front);
-    print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
-    assert_true(both > PACKETS / 2 && front > PACKETS / 4 && front < both);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
+    const struct {
+        uint32_t triangles;
+        float size;
+    } soups[] = {{600, 0.4f}, {ALPI_FEW_NEAREST / 3, 3.0f}};
+    for (size_t k = 0; k < sizeof soups / sizeof *soups; k++) {
+        alp_context *context = test_context(1);
+        alp_scene *scene = soup_make(context, soups[k].triangles, soups[k].size);
+        int both = 0, front = 0;
+        agrees_with_brute_force(scene, (alpi_trace_filter){0}, &both);
+        agrees_with_brute_force(scene, (alpi_trace_filter){.one_sided = true}, &front);
+        print_message("%d hits, %d with single-sided surfaces open from behind\n", both, front);
+        assert_true(both > PACKETS / 2 && front > PACKETS / 4 && front < both);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
 }
 
 /// Gives every second triangle a surface whose material is cut by a checkered alpha texture.
