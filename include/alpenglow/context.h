@@ -62,7 +62,8 @@ typedef struct alp_context_options {
     /// The number changes the time taken and never a bit of the result.
     uint32_t worker_count;
     /// A host's own scheduler: must call `body` over disjoint ranges that cover [0, count), with
-    /// `worker` in [0, worker_count) and never the same worker twice at once. NULL = own pool.
+    /// `worker` in [0, worker_count) and never the same worker twice at once, on stacks of 1 MiB at
+    /// least. NULL = own pool.
     void (*parallel_for)(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
                          void *body_user);
     void *parallel_user;

@@ -16,8 +16,11 @@ typedef struct alpi_light_rays {
     alpi_gather_job gather; // of no list, and to no values yet
 } alpi_light_rays;
 
-/// So many rays or a few more: packets in three to seven equal replicates, by whose spread the
-/// noise is known. Fours of them alone would send up to a third more than is asked.
+/// Equal replicates that the packets of so many rays make, three to seven, by whose spread their
+/// noise is known; 0: none do.
+uint32_t alpi_light_replicates(uint32_t rays);
+/// So many rays or a few more, that make replicates. Fours of packets alone would send up to a half
+/// more than is asked.
 uint32_t alpi_light_ray_count(double rays);
 
 /// @param rays of a texel, a number that alpi_light_ray_count gives; the round's own gatherer,

@@ -172,12 +172,13 @@ void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *
                              const uint32_t *active, uint32_t count, alpi_trace_filter filter,
                              alpi_hits *hits);
 /// The same, faster where the rays of a packet leave from about one place in about one direction (a
-/// camera's), and twice as slow where they do not; in scenes of few triangles as above.
+/// camera's), and twice as slow where they do not.
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits);
 /// The same of several packets, two that follow each other together where the machine has vectors
 /// of sixteen: up to a fifth faster where they leave from about one place in about one direction
 /// too. A ray through the very edge of two triangles may be told either, by what it is paired with.
+/// In scenes of few triangles it is alpi_trace_nearest_many.
 /// Masks must be all ones, id and flags 0.
 /// @param hits [count]
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,

@@ -50,9 +50,9 @@ static void rays_make_replicates(void **state)
     (void)state;
     for (uint32_t asked = 0; asked <= 5000; asked++) {
         const uint32_t rays = alpi_light_ray_count((double)asked), packets = rays / ALPI_PACKET;
-        const bool equal = packets % 3 == 0 || packets % 4 == 0 || packets % 5 == 0 ||
-                           packets % 7 == 0; // six is twice three
-        assert_true(rays % ALPI_PACKET == 0 && packets >= ALPI_LIGHT_REPLICATES && equal);
+        const uint32_t replicates = alpi_light_replicates(rays);
+        assert_true(replicates >= 3 && replicates <= 7 && packets % replicates == 0);
+        assert_true(rays % ALPI_PACKET == 0 && packets >= ALPI_LIGHT_REPLICATES);
         assert_true(rays >= asked && (packets == ALPI_LIGHT_REPLICATES || rays < asked + 24));
     }
 }

@@ -200,6 +200,26 @@ static void rounds_agree_with_one(void **state)
     alp_context_destroy(context);
 }
 
+/// Rounds send no more than what is given, nor less where nothing is missing.
+static void rounds_send_what_is_given(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:cornell");
+    alp_bake_options options = light_options(40);
+    options.sampling.keep_partial = true;
+    static const uint32_t given[] = {672, 1440, 1728, 2784};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        alp_bake_report report;
+        options.light.samples = given[i];
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+        print_message("%u rays given, %u sent\n", given[i], report.light_samples);
+        assert_true(report.light_samples <= given[i] && report.light_samples % 32 == 0);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +228,7 @@ int main(void)
         cmocka_unit_test(what_is_cancelled_may_be_kept),
         cmocka_unit_test(light_that_is_not_denoised_is_kept),
         cmocka_unit_test(rounds_agree_with_one),
+        cmocka_unit_test(rounds_send_what_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -148,7 +148,7 @@ static void hold_round(const alp_scene *scene, const alpi_tracer *tracer, alpi_t
         aim_packet(scene, aim, round, p, &rays[p]);
         packets[p] = &rays[p];
         active[p] = pick_lanes(round, p);
-        alpi_trace_nearest_coherent(tracer, &rays[p], active[p], filter, &alone[p]);
+        alpi_trace_nearest_coherent_many(tracer, &packets[p], &active[p], 1, filter, &alone[p]);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             tally->met += (active[p] >> i & 1u) != 0 && alone[p].triangle[i] != ALPI_NONE;
         }

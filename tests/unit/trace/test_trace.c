@@ -66,6 +66,9 @@ static void agrees_with_brute_force(alp_scene *scene, alpi_trace_filter filter, 
         alpi_trace_nearest(tracer, &rays, active, filter, &fast);
         alpi_brute_force_nearest(scene, &rays, active, filter, &slow);
         same_hits(&fast, &slow, active);
+        memset(&fast, 0x55, sizeof fast);
+        alpi_trace_nearest_coherent(tracer, &rays, active, filter, &fast);
+        same_hits(&fast, &slow, active);
         alpi_rays shadow = rays;
         alpi_trace_occluded(tracer, &shadow, 1, active, filter, (alpi_rays_spread)(packet % 3));
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
