@@ -19,11 +19,11 @@ typedef struct alpi_light_rays {
 /// Equal replicates that the packets of so many rays make, three to seven, by whose spread their
 /// noise is known; 0: none do.
 uint32_t alpi_light_replicates(uint32_t rays);
-/// So many rays or a few more, that make replicates. Fours of packets alone would send up to a half
-/// more than is asked.
+/// So many rays or fewer than 24 more, that make replicates; fours of packets alone would send up
+/// to 31 more.
 uint32_t alpi_light_ray_count(double rays);
 
-/// @param rays of a texel, a number that alpi_light_ray_count gives; the round's own gatherer,
+/// @param rays of a texel, a number that makes replicates; the round's own gatherer,
 /// where it has one, has its own number
 void alpi_light_rays_start(const alpi_light_round_state *round, uint32_t rays, uint64_t seed,
                            alpi_light_rays *by);

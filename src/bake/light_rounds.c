@@ -209,9 +209,9 @@ static double affordable(const alpi_light_round_state *r, double samples, double
     return most < samples && most < there / 8.0 ? 0.0 : most;
 }
 
-/// Rays to send of those that are planned. A number that is given is met: all of its rounds send a
-/// part of it.
-static uint32_t ray_count(const alpi_light_round_state *r, double rays)
+/// A number of rays for those that are planned. Where the bake's own number is given, in multiples
+/// of what that is rounded to: then rounds add up to it.
+static uint32_t rays_to_send(const alpi_light_round_state *r, double rays)
 {
     return r->job->options.light.error > 0.0f
                ? alpi_light_ray_count(rays)
@@ -256,7 +256,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
-        ALP_TRY(add_bounced(r, ray_count(r, rays)));
+        ALP_TRY(add_bounced(r, rays_to_send(r, rays)));
     }
     if (direct < direct_asked || rays < rays_asked) { // the clock had a say
         r->cut_off = true;
