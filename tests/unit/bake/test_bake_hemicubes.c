@@ -15,22 +15,22 @@ enum { LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS };
 
 typedef struct bake_kind {
     const char *name, *scene; // NULL: a ball on the ground
-    bool glows;               // the ball and the ground do
     uint32_t hemicube; // from 32 on together; 34: packets that are not full, an odd number of them
     alp_sky_kind sky;
     alp_emitters emitters;
     bool layers;
+    bool glows; // the ball and the ground do
 } bake_kind;
 
 static const bake_kind KINDS[] = {
     // The room's triangles are so few that packets meet each of them.
-    {"a room", "builtin:cornell", false, 32, ALP_SKY_NONE, ALP_EMITTERS_ANALYTIC, false},
-    {"a room, counted", "builtin:cornell", false, 32, ALP_SKY_NONE, ALP_EMITTERS_COUNTED, false},
-    {"layers of a room", "builtin:cornell", false, 34, ALP_SKY_CONSTANT, ALP_EMITTERS_ANALYTIC,
-     true},
-    {"counted", NULL, true, 32, ALP_SKY_NONE, ALP_EMITTERS_COUNTED, false},
-    {"under a sky", NULL, false, 34, ALP_SKY_CLEAR, ALP_EMITTERS_ANALYTIC, false},
-    {"layers", NULL, true, 34, ALP_SKY_CONSTANT, ALP_EMITTERS_ANALYTIC, true},
+    {"a room", "builtin:cornell", 32, ALP_SKY_NONE, ALP_EMITTERS_ANALYTIC, false, false},
+    {"a room, counted", "builtin:cornell", 32, ALP_SKY_NONE, ALP_EMITTERS_COUNTED, false, false},
+    {"layers of a room", "builtin:cornell", 34, ALP_SKY_CONSTANT, ALP_EMITTERS_ANALYTIC, true,
+     false},
+    {"counted", NULL, 32, ALP_SKY_NONE, ALP_EMITTERS_COUNTED, false, true},
+    {"under a sky", NULL, 34, ALP_SKY_CLEAR, ALP_EMITTERS_ANALYTIC, false, false},
+    {"layers", NULL, 34, ALP_SKY_CONSTANT, ALP_EMITTERS_ANALYTIC, true, true},
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
