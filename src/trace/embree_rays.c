@@ -319,8 +319,8 @@ void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits)
 {
-    // Also where triangles are few: a picture of the Cornell box takes two thirds of the time that
-    // it takes where each packet alone meets all of them.
+    // Also where triangles are few: a picture of the Cornell box takes .6 of the time that it
+    // takes where each packet alone meets all of them.
     alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     trace_nearest(tracer, rays, active, &context, hits);
