@@ -17,7 +17,8 @@ static const double PAGE_SHARE = 0.84; // of a page that its charts leave for te
 static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
 // share falls with the side of a map.
-static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0; // the latter × √texels
+static const double LATTICE_SHARE = 1.0 / 16.0;
+static const double EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0; // × √texels: of occlusion, of light
 static const double BOUNCED_OVER_PATHS = 0.46;   // error of 64 rays of a texel, over that of paths
 static const double BOUNCED_POWER = 1.38;        // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
@@ -137,9 +138,9 @@ static double find_growth(const work_guess *g)
     return 1.0 + ERROR_OF_DETAIL * g->detail;
 }
 
-static double find_traced_share(const work_guess *g)
+static double find_traced_share(const work_guess *g, double edge_texels)
 {
-    const double share = LATTICE_SHARE + EDGE_TEXELS / sqrt(g->texels);
+    const double share = LATTICE_SHARE + edge_texels / sqrt(g->texels);
     return g->options->sampling.accuracy == ALP_ADAPTIVE_OFF
                ? 1.0
                : fmin(share * (1.0 + TRACED_OF_DETAIL * g->detail), 1.0);
@@ -181,7 +182,8 @@ static double count_block_rays(const work_guess *g)
            TEXELS_OF_BLOCK;
 }
 
-static void add_light(const work_guess *g, alp_bake_work *w)
+/// @param layers that there are besides the whole: they keep the rays that texels send
+static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
 {
     const alp_light_options *l = &g->options->light;
     if (l->gather == ALP_GATHER_PATHS && l->bounces > 0) { // from every texel, which asks all light
@@ -193,7 +195,8 @@ static void add_light(const work_guess *g, alp_bake_work *w)
     const double direct = l->bounces == 0                     ? l->samples
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
-    double rays = count_bounced(g) * find_traced_share(g);
+    double rays = count_bounced(g) * find_traced_share(g, LIT_EDGE_TEXELS);
+    w->bytes += layers > 0 ? to_count(g->texels * rays * sizeof(uint32_t)) : 0;
     rays += l->bounces > 0 ? count_block_rays(g) : 0.0;
     w->rays += to_count(g->texels * (rays + direct * g->pilot.rays));
     const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;
@@ -204,7 +207,7 @@ static void add_occlusion(const work_guess *g, alp_bake_work *w)
 {
     const alp_bake_options *o = g->options;
     const double wanted = (double)o->sampling.error;
-    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g);
+    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g, EDGE_TEXELS);
     double rays = o->occlusion.samples;
     if (wanted > 0.0) {
         const double over = ERROR_OVER_POINTS * find_growth(g) * g->pilot.occlusion_error / wanted;
@@ -254,7 +257,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
         add_occlusion(&g, work);
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
-        add_light(&g, work);
+        add_light(&g, job->layers.light.count, work);
     }
     const double limit = o->sampling.time_limit;
     if (limit > 0.0 && work->seconds > limit) {

@@ -18,7 +18,7 @@ enum {
 /// that of interpolated ones for the most part. Measured on the Cornell box, a sphere on a plane,
 /// living_room, teapot-room: .78 to .86.
 static const double MAP_SHARE = 0.85;
-static const double SENDING_SHARE = 0.25; // of texels that send rays, as a guess
+static const double SENDING_SHARE = 0.15; // of texels that send rays, as a guess
 
 /// Some texels, one at random of each run of them that are as long. @return how many
 static uint32_t choose(const alpi_light_round_state *r, uint32_t list[TRIAL_TEXELS])

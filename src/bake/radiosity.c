@@ -44,7 +44,7 @@ static uint32_t find_direct_samples(const alp_light_options *o)
 
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
+    enum { TEXELS_PER_BLOCK = 8, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
     }
@@ -66,12 +66,12 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
 enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
 
 /// Rays that texels and direct light take, about, for an error: measured on the Cornell box, a
-/// sphere on a plane, living_room, a quarter of the texels being traced and direct light taking as
-/// long again.
+/// sphere on a plane, living_room, a seventh of the texels being traced and direct light taking
+/// half as long again as a quarter of them would.
 static double guess_texel_rays(double error, uint64_t texels, double rms)
 {
     const double each = pow(0.39 * rms / error, 2.0);
-    return 0.5 * (double)texels * fmax(each, ALPI_LIGHT_FIRST_RAYS);
+    return 0.4 * (double)texels * fmax(each, ALPI_LIGHT_FIRST_RAYS);
 }
 
 uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light)

@@ -28,12 +28,13 @@ static alp_result prepare(alpi_bounced_again *a, uint64_t kept_limit,
             a->list[a->traced++] = t;
         }
     }
-    if (!alpi_gather_meets_cells(a->options.gather->from) || texels == 0 ||
-        alpi_kept_rays_size(g) * texels > kept_limit) {
+    if (!alpi_gather_meets_cells(a->options.gather->from) || a->traced == 0 ||
+        alpi_kept_rays_size(g) * a->traced > kept_limit) {
         return ALP_OK;
     }
     const alpi_gather_job job = job_of(a);
-    ALP_TRY(alpi_kept_rays_reserve(context, g, texels, &a->kept));
+    ALP_TRY(alpi_kept_rays_reserve(context, g, a->traced, &a->kept));
+    a->kept.by_list = true;
     a->rays += (uint64_t)a->traced * g->packet_count * ALPI_PACKET;
     return alpi_kept_rays_trace(&job, progress, &a->kept);
 }
@@ -46,6 +47,7 @@ alp_result alpi_bounced_again_create(const alpi_bounced_options *options,
     *again = (alpi_bounced_again){.options = *options, .lattice = *lattice};
     again->lattice.states = states;
     again->lattice.straight = options->straight;
+    again->lattice.borders = true;
     again->lattice.values = NULL;
     const alp_result result = prepare(again, kept_limit, progress);
     if (result != ALP_OK) {

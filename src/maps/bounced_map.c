@@ -15,6 +15,9 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
+/// Share of the spread near another surface. Half of it and half of the bend, with all texels that
+/// touch one traced, took twice the rays of the Cornell box for the same error (docs/radiosity.md).
+static const float NEAR_SPREAD = 0.3f;
 
 typedef struct bounced_job {
     const alpi_bounced_options *options;
@@ -221,6 +224,8 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
                                       .bend = BEND_LIMIT,
                                       .kink = KINK_LIMIT,
                                       .noise = noise_at,
+                                      .near_spread = NEAR_SPREAD,
+                                      .near_bend = 1.0f,
                                       .user = job,
                                       .pass = job->pass,
                                       .flood = job->flood};
@@ -237,7 +242,8 @@ static alp_result judge(bounced_job *job, uint32_t pass, bool flood, uint64_t *t
     return trace_wanted(job, traced);
 }
 
-/// Wants texels traced that have another surface near, or all.
+/// Wants texels traced that touch another surface, in every second row every second, or all: light
+/// that bounced changes less at once than occlusion does.
 static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -247,7 +253,8 @@ static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t 
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
         job->wanted[t] =
             job->lattice.states[t] == ALPI_TEXEL_OPEN &&
-            (!job->options->adaptive || alpi_lattice_needs_rays(&job->lattice, t, near));
+            (!job->options->adaptive ||
+             (near == ALPI_TOUCHING && alpi_lattice_is_coarse(job->lattice.texels->pixels[t])));
     }
     return ALP_OK;
 }
@@ -482,6 +489,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice.states = states;
     job.lattice.straight = options->straight;
+    job.lattice.borders = true;
     job.lattice.values = options->levels;
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);

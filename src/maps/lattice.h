@@ -27,6 +27,7 @@ typedef struct alpi_lattice {
     float *values;   // [count] where the state is not OPEN
     bool straight;   // stencils are linear where a cubic would do too: less of the noise, and no
                      // more of the bend than the judge lets pass
+    bool borders;    // a border's texels may be interpolated along it: see alpi_lattice_stencil
 } alpi_lattice;
 
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
@@ -54,17 +55,22 @@ typedef struct alpi_stencil {
 } alpi_stencil;
 
 /// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
-/// between two (type 1) and those in the middle of four (type 2).
+/// between two (type 1) and those in the middle of four (type 2). Of spacing 2, type 1 goes in two:
+/// those in rows and columns of the lattice first (3), for the sake of borders.
 /// COARSE is the last that belongs to the lattice of half the spacing.
-enum { ALPI_LATTICE_PASSES = 5, ALPI_LATTICE_COARSE = 2 };
+enum { ALPI_LATTICE_PASSES = 6, ALPI_LATTICE_COARSE = 2 };
 /// The pass a texel belongs to, by its pixel.
 uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
-/// Distance in texels to the nearest texels that pass `pass` interpolates from: 2, 2, 1, 1.
+/// Whether a texel belongs to the lattice of half the spacing, every second of every second row.
+bool alpi_lattice_is_coarse(const uint16_t pixel[2]);
+/// Distance in texels to the nearest texels that pass `pass` interpolates from: 2, 2, 1, 1, 1.
 uint32_t alpi_lattice_reach(uint32_t pass);
 
 /// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
-/// else, and in straight lattices, linear. @return false: a neighbour is missing, in another chart,
-/// or turned away
+/// else, and in straight lattices, linear. A neighbour is missing if it is in another chart, or
+/// turned away. Then, with `borders`, a texel in the middle of four takes the two of them that lie
+/// along the border, and one of pass 4 the two of pass 3 that do.
+/// @return false: something is missing
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 /// Not clamped: a bound on every pass would darken what is nearly open.
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
@@ -78,20 +84,14 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
 /// neighbours; half its step to a traced one where a neighbour is missing; 0 with none traced.
 float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel);
 
-/// Whether a texel is traced whatever its stencil says: if it touches another surface, and if one
-/// is near, in every second row every second. A contact shadow may be smaller than the lattice.
-/// Ward's criterion: light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein,
-/// R. D. Clear. A Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
-/// @param near alpi_nearness
-bool alpi_lattice_needs_rays(const alpi_lattice *lattice, uint32_t texel, uint8_t near);
-
 /// Who says which texels may be interpolated.
 typedef struct alpi_lattice_judge {
     alpi_lattice *lattice; // gets states and values of what is interpolated
     const uint32_t *order;
-    const uint8_t *near;                           // [texels] alpi_nearness, or NULL: all are far
-    uint8_t *wanted;                               // [texels] to be traced, in and out
-    float spread, bend, kink;                      // the most there may be, times
+    const uint8_t *near;          // [texels] alpi_nearness, or NULL: all are far
+    uint8_t *wanted;              // [texels] to be traced, in and out
+    float near_spread, near_bend; // shares of the first two for texels near another surface
+    float spread, bend, kink;     // the most there may be, times
     float (*noise)(const void *user, float level); // about a value; NULL: 1
     const void *user;
     uint32_t pass; // whose texels are judged by their stencils

@@ -26,6 +26,9 @@ enum {
 // the bend a tenth fewer texels are traced and what is interpolated grows three times darker, with
 // twice the others small shadows get lost (docs/accuracy.md).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
+// Shares of them near another surface: these cost the same error as tracing all of it there, and a
+// quarter less time on cornell.
+static const float NEAR_SPREAD = 0.1f, NEAR_BEND = 0.5f;
 
 typedef struct map_job {
     const alpi_occlusion_setup *setup;
@@ -200,6 +203,8 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
                                       .order = job->order,
                                       .near = job->options->near,
                                       .wanted = job->wanted,
+                                      .near_spread = NEAR_SPREAD,
+                                      .near_bend = NEAR_BEND,
                                       .spread = job->spread_limit,
                                       .bend = job->bend_limit,
                                       .kink = job->kink_limit,
@@ -244,14 +249,20 @@ static alp_result renew(map_job *job)
     return ALP_OK;
 }
 
-/// Wants texels traced that have another surface near.
+/// Wants texels traced whatever their stencils say: those that touch another surface, and of those
+/// near one every second of every second row. A contact shadow may be smaller than the lattice.
+/// Ward's criterion: light changes over the distance to what is seen. G. J. Ward, F. M. Rubinstein,
+/// R. D. Clear. A Ray Tracing Solution for Diffuse Interreflection. SIGGRAPH 1988.
 static alp_result want_near(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const map_job *job = user;
     for (uint32_t i = begin; i < end && job->options->near != NULL; i++) {
         const uint32_t t = job->order[i];
-        job->wanted[t] = alpi_lattice_needs_rays(job->lattice, t, job->options->near[t]);
+        const uint8_t near = job->options->near[t];
+        job->wanted[t] =
+            near == ALPI_TOUCHING ||
+            (near == ALPI_NEAR && alpi_lattice_is_coarse(job->lattice->texels->pixels[t]));
     }
     return ALP_OK;
 }

@@ -162,29 +162,28 @@ static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
     s->count = left;
 }
 
-/// The nearest that another surface is to any texel of a square.
-static uint8_t nearest_in(const alpi_patches *p, const page_square *s)
+/// Side of the blocks of a square: half of it near another surface, a texel where a part of one
+/// lies in a solid, for its light is that of the other part.
+static uint32_t choose_side(const alpi_patches *p, const page_square *s, uint32_t spacing)
 {
-    uint8_t nearest = ALPI_FAR;
+    uint32_t side = spacing;
     for (uint32_t i = 0; i < s->count && p->near != NULL; i++) {
         const uint32_t t = s->texels[i];
-        const bool covered = p->texels->valid != NULL && p->texels->valid[t] != 0; // in part
-        const uint8_t near = covered ? ALPI_TOUCHING : p->near[t];
-        nearest = near > nearest ? near : nearest;
+        if (p->texels->valid != NULL && p->texels->valid[t] != 0) {
+            return 1;
+        }
+        side = p->near[t] == ALPI_FAR ? side : spacing % 2 == 0 ? spacing / 2 : 1;
     }
-    return nearest;
+    return side;
 }
 
-/// Blocks of one square of the page, or of its quarters, and theirs, where light changes fast: half
-/// the size near another surface, single texels where one touches.
+/// Blocks of one square of the page, or of its parts, where light changes fast.
 static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0, uint32_t spacing,
                          uint32_t *placed)
 {
     page_square s;
     list_square(p, page, x0, y0, spacing, &s);
-    const uint8_t nearest = nearest_in(p, &s);
-    const bool halves = nearest == ALPI_NEAR && spacing % 2 == 0;
-    const uint32_t part = nearest == ALPI_FAR ? spacing : halves ? spacing / 2 : 1;
+    const uint32_t part = choose_side(p, &s, spacing);
     while (part == spacing && s.count > 0) {
         take_block(p, &s, placed);
     }

@@ -60,7 +60,8 @@ typedef struct alpi_patches {
 typedef struct alpi_block_rule {
     uint32_t spacing;    // side of a block in texels, [1, 16]; 1: each texel is one
     const uint8_t *near; // [texels] alpi_nearness, or NULL: near another surface, where bounced
-                         // light changes fast, blocks are half as long, where one touches, texels
+                         // light changes fast, blocks are half as long (texels, of an odd
+                         // spacing), and texels where any of theirs lies in a solid in part
 } alpi_block_rule;
 
 /// @param order [count] texels with light of their own, neighbours together

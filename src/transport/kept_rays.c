@@ -20,7 +20,7 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
     if (cells == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    *kept = (alpi_kept_rays){context, count, rays, cells};
+    *kept = (alpi_kept_rays){context, count, rays, cells, kept->by_list};
     return ALP_OK;
 }
 
@@ -42,6 +42,13 @@ static uint32_t receiver_at(const alpi_gather_job *job, uint32_t i)
     return job->list != NULL ? job->list[i] : i;
 }
 
+/// The rays of the i-th of the list.
+static uint32_t (*rays_of(const kept_job *k, uint32_t i))[ALPI_PACKET]
+{
+    const size_t row = k->kept->by_list ? i : receiver_at(k->job, i);
+    return (uint32_t(*)[ALPI_PACKET])(k->kept->cells + row * k->kept->rays);
+}
+
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -52,8 +59,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
-        uint32_t(*cells)[ALPI_PACKET] =
-            (uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
+        uint32_t(*cells)[ALPI_PACKET] = rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
@@ -113,8 +119,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     without_sky.skies = NULL;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
-        const uint32_t(*cells)[ALPI_PACKET] =
-            (const uint32_t(*)[ALPI_PACKET])(k->kept->cells + (size_t)receiver * k->kept->rays);
+        uint32_t(*cells)[ALPI_PACKET] = rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
             for (int r = 0; r < ALPI_PACKET && p + AHEAD < job->gatherer->packet_count; r++) {

@@ -45,19 +45,22 @@ static void tear_down(lattice_setup *s)
 static void every_texel_has_its_pass_and_its_turn(void **state)
 {
     (void)state;
-    // Of 4 × 4 texels one is the lattice; 2 and 1 belong to spacing 4; 8 and 4 to spacing 2.
+    // Of 4 × 4 texels one is the lattice; 2 and 1 belong to spacing 4; 4, 4 and 4 to spacing 2.
     uint32_t counts[ALPI_LATTICE_PASSES] = {0};
     for (uint16_t y = 0; y < 4; y++) {
         for (uint16_t x = 0; x < 4; x++) {
             counts[alpi_lattice_pass((uint16_t[]){x, y})]++;
         }
     }
-    const uint32_t expected[ALPI_LATTICE_PASSES] = {1, 2, 1, 8, 4};
+    const uint32_t expected[ALPI_LATTICE_PASSES] = {1, 2, 1, 4, 4, 4};
     assert_memory_equal(counts, expected, sizeof counts);
     assert_int_equal(alpi_lattice_pass((uint16_t[]){6, 4}), 1);
     assert_int_equal(alpi_lattice_pass((uint16_t[]){6, 10}), 2);
-    assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 10}), 3);
-    assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 9}), 4);
+    assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 8}), 3);
+    assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 10}), 4);
+    assert_int_equal(alpi_lattice_pass((uint16_t[]){7, 9}), 5);
+    assert_true(alpi_lattice_is_coarse((uint16_t[]){6, 10}));
+    assert_false(alpi_lattice_is_coarse((uint16_t[]){7, 8}));
 
     lattice_setup s;
     set_up(&s);
@@ -74,6 +77,11 @@ static void every_texel_has_its_pass_and_its_turn(void **state)
         assert_true(s.texels.pixels[s.lattice.order[i]][1] < 2);
     }
     tear_down(&s);
+}
+
+static bool is_between_two(uint32_t pass)
+{
+    return pass == 1 || pass == 3 || pass == 4;
 }
 
 /// A polynomial of degree three in x plus one in y.
@@ -105,7 +113,7 @@ static void cubics_are_interpolated_exactly(void **state)
         }
         ASSERT_NEAR(weight, 1.0f, 1e-6);
         const uint32_t pass = alpi_lattice_pass(s.texels.pixels[i]);
-        const uint32_t whole = pass == 1 || pass == 3 ? 4 : 8;
+        const uint32_t whole = is_between_two(pass) ? 4 : 8;
         if (stencil.count == whole) {
             ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), cubic(s.texels.pixels[i]), 2e-6);
             cubic_count++;
@@ -131,12 +139,12 @@ static void straight_stencils_take_two_and_know_their_bend(void **state)
     }
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         const uint32_t h = alpi_lattice_reach(pass);
-        const uint32_t x = 16 + h, y = pass == 1 || pass == 3 ? 16 : 16 + h;
+        const uint32_t x = 16 + h, y = pass == 4 ? 18 : is_between_two(pass) ? 16 : 16 + h;
         const uint32_t texel = l->grid[y * SIZE + x];
         assert_int_equal(alpi_lattice_pass(s.texels.pixels[texel]), pass);
         alpi_stencil stencil;
         assert_true(alpi_lattice_stencil(l, texel, &stencil));
-        const uint32_t axes = pass == 1 || pass == 3 ? 1 : 2;
+        const uint32_t axes = is_between_two(pass) ? 1 : 2;
         assert_int_equal(stencil.count, 2 * axes);
         for (uint32_t k = 0; k < stencil.count; k++) {
             assert_true(stencil.weights[k] == 0.5f / (float)axes);
@@ -145,6 +153,52 @@ static void straight_stencils_take_two_and_know_their_bend(void **state)
         ASSERT_NEAR(stencil.bend, missed, 1e-6); // rounding of values up to 5
         ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), l->values[texel] + missed / (float)axes,
                     1e-6);
+    }
+    tear_down(&s);
+}
+
+/// Where one of the four, or two, is missing, those along the border do; and no other ones.
+static void at_a_border_stencils_go_along_it(void **state)
+{
+    (void)state;
+    lattice_setup s;
+    set_up(&s);
+    alpi_lattice *l = &s.lattice;
+    for (uint32_t i = 0; i < s.texels.count; i++) {
+        const uint16_t *p = s.texels.pixels[i];
+        l->values[i] = (float)p[1] + (p[0] == SIZE - 1 ? 0.0f : 100.0f);
+        l->states[i] = ALPI_TEXEL_TRACED;
+    }
+    const uint32_t x = SIZE - 1; // odd: beyond it is another chart, or none
+    for (uint32_t y = 4; y < SIZE - 4; y++) {
+        const uint32_t texel = l->grid[y * SIZE + x];
+        alpi_stencil stencil;
+        l->borders = false;
+        assert_false(alpi_lattice_stencil(l, texel, &stencil));
+        l->borders = true;
+        const bool found = alpi_lattice_stencil(l, texel, &stencil);
+        assert_int_equal(found, y % 4 != 0); // pass 3 has none before it
+        for (uint32_t k = 0; found && k < stencil.count; k++) {
+            const uint16_t *p = s.texels.pixels[stencil.texels[k]];
+            assert_int_equal(p[0], x);
+            assert_true(alpi_lattice_pass(p) < alpi_lattice_pass(s.texels.pixels[texel]));
+        }
+        if (found) {
+            ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), (float)y, 1e-5);
+        }
+    }
+    // Inside a chart nothing changes.
+    for (uint32_t y = 8; y < 12; y++) {
+        for (uint32_t inner = 8; inner < 12; inner++) {
+            alpi_stencil with, without;
+            const uint32_t texel = l->grid[y * SIZE + inner];
+            l->borders = true;
+            const bool found = alpi_lattice_stencil(l, texel, &with);
+            l->borders = false;
+            assert_int_equal(found, alpi_lattice_stencil(l, texel, &without));
+            assert_true(!found || with.count == without.count);
+            assert_true(!found || with.weights[0] == without.weights[0]);
+        }
     }
     tear_down(&s);
 }
@@ -211,6 +265,7 @@ int main(void)
         cmocka_unit_test(every_texel_has_its_pass_and_its_turn),
         cmocka_unit_test(cubics_are_interpolated_exactly),
         cmocka_unit_test(straight_stencils_take_two_and_know_their_bend),
+        cmocka_unit_test(at_a_border_stencils_go_along_it),
         cmocka_unit_test(no_stencil_crosses_a_chart_or_takes_the_unknown),
         cmocka_unit_test(kinks_are_found_beside_traced_texels_only),
     };

@@ -152,6 +152,31 @@ static void kept_rays_find_what_traced_rays_find(void **state)
     }
 }
 
+/// Rays of a list alone take room for no others, and find the same.
+static void rays_of_a_list_are_kept_by_it(void **state)
+{
+    (void)state;
+    static setting s;
+    static const uint32_t list[] = {RECEIVERS - 1, 2, 5};
+    enum { LISTED = 3 };
+    alpi_kept_rays kept = {0};
+    alpi_reference_value traced[RECEIVERS];
+    open_setting(&s, 2, false);
+    ASSERT_OK(s.context, alpi_kept_rays_reserve(s.context, &s.gatherer, LISTED, &kept));
+    kept.by_list = true;
+    alpi_gather_job job = job_of(&s, list, LISTED);
+    ASSERT_OK(s.context, alpi_kept_rays_trace(&job, NULL, &kept));
+    set_light(&s, 0.75f, 0.5f);
+    job = job_of(&s, list, LISTED);
+    ASSERT_OK(s.context, alpi_gather_irradiance(&job, NULL));
+    memcpy(traced, s.values, sizeof traced);
+    job = job_of(&s, list, LISTED);
+    ASSERT_OK(s.context, alpi_kept_rays_gather(&job, &kept, NULL));
+    assert_memory_equal(s.values, traced, sizeof traced); // those of others untouched
+    alpi_kept_rays_destroy(&kept);
+    close_setting(&s);
+}
+
 /// What rays bring, what leaves, and what black backs swallow make the whole; from below the floor
 /// nothing but backs and the open is seen.
 static void rays_that_are_lost_are_counted(void **state)
@@ -231,6 +256,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kept_rays_find_what_traced_rays_find),
+        cmocka_unit_test(rays_of_a_list_are_kept_by_it),
         cmocka_unit_test(rays_that_are_lost_are_counted),
         cmocka_unit_test(lists_and_more_room),
         cmocka_unit_test(lack_of_memory_is_told),
