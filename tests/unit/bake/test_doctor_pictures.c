@@ -159,32 +159,6 @@ static void spots_of_sets_are_ringed(void **state)
     }
 }
 
-static void any_number_of_workers_draws_the_same(void **state)
-{
-    (void)state;
-    alp_image *images[2][2];
-    alp_context *contexts[2];
-    for (int i = 0; i < 2; i++) {
-        contexts[i] = test_context(i == 0 ? 1 : 3);
-        alp_scene *scene = make(contexts[i], ACROSS, UP);
-        alp_diagnosis *d = diagnose(contexts[i], scene);
-        images[i][0] = draw(d, 0);
-        images[i][1] = draw(d, 2);
-        alp_diagnosis_destroy(d);
-        alp_scene_destroy(scene);
-    }
-    for (int k = 0; k < 2; k++) {
-        const alp_image_info info = alp_image_get_info(images[0][k]);
-        assert_memory_equal(alp_image_bytes(images[0][k]), alp_image_bytes(images[1][k]),
-                            (size_t)info.width * info.height * info.channels);
-    }
-    for (int i = 0; i < 2; i++) {
-        alp_image_destroy(images[i][0]);
-        alp_image_destroy(images[i][1]);
-        alp_context_destroy(contexts[i]);
-    }
-}
-
 static void what_is_not_there_is_not_drawn(void **state)
 {
     (void)state;
@@ -229,7 +203,6 @@ int main(void)
         cmocka_unit_test(the_scene_shows_turned_normals),
         cmocka_unit_test(spots_are_shown_from_nearby),
         cmocka_unit_test(spots_of_sets_are_ringed),
-        cmocka_unit_test(any_number_of_workers_draws_the_same),
         cmocka_unit_test(what_is_not_there_is_not_drawn),
         cmocka_unit_test(every_allocation_may_fail),
     };

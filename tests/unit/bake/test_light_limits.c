@@ -180,46 +180,6 @@ static void light_that_is_not_denoised_is_kept(void **state)
     alp_context_destroy(context);
 }
 
-/// Rounds that double until the samples are there have the same mean as one round of them.
-static void rounds_agree_with_one(void **state)
-{
-    (void)state;
-    alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(SIZE);
-    options.light.samples = 256;
-    alp_bake_report once, rounds;
-    ASSERT_OK(context, alp_bake(scene, &options, NULL, &once));
-    options.sampling.keep_partial = true;
-    ASSERT_OK(context, alp_bake(scene, &options, NULL, &rounds));
-    assert_false(rounds.cut_off);
-    assert_true(rounds.light_samples <= 256 && rounds.light_samples > 64);
-    // Means over thousands of texels of some per cent each; what blocks share is within them.
-    ASSERT_NEAR(rounds.light_mean / once.light_mean, 1.0, 0.005);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-/// Rounds add up to the number of rays that is given.
-static void rounds_send_what_is_given(void **state)
-{
-    (void)state;
-    alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(40);
-    options.sampling.keep_partial = true;
-    static const uint32_t given[] = {672, 1440, 1728, 2784};
-    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
-        alp_bake_report report;
-        options.light.samples = given[i];
-        ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
-        print_message("%u rays given, %u sent\n", given[i], report.light_samples);
-        assert_int_equal(report.light_samples, given[i]);
-    }
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,8 +187,6 @@ int main(void)
         cmocka_unit_test(no_time_is_no_light),
         cmocka_unit_test(what_is_cancelled_may_be_kept),
         cmocka_unit_test(light_that_is_not_denoised_is_kept),
-        cmocka_unit_test(rounds_agree_with_one),
-        cmocka_unit_test(rounds_send_what_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Rounds of a number of rays that is given, where someone may end them.
+#include "test_scenes.h"
+
+enum { SIZE = 64 };
+
+static alp_scene *load(alp_context *context, const char *name)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    return scene;
+}
+
+static alp_bake_options light_options(uint32_t size)
+{
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.size = size;
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.maps = ALP_MAP_LIGHT;
+    options.sampling.keep_partial = true;
+    return options;
+}
+
+/// Rounds that double until the samples are there have the same mean as one round of them.
+static void rounds_agree_with_one(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:cornell");
+    alp_bake_options options = light_options(SIZE);
+    options.light.samples = 256;
+    options.sampling.keep_partial = false;
+    alp_bake_report once, rounds;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &once));
+    options.sampling.keep_partial = true;
+    ASSERT_OK(context, alp_bake(scene, &options, NULL, &rounds));
+    assert_false(rounds.cut_off);
+    assert_true(rounds.light_samples <= 256 && rounds.light_samples > 64);
+    // Means over thousands of texels of some per cent each; what blocks share is within them.
+    ASSERT_NEAR(rounds.light_mean / once.light_mean, 1.0, 0.005);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+/// Rounds add up to the number of rays that is given.
+static void rounds_send_what_is_given(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *scene = load(context, "builtin:cornell");
+    alp_bake_options options = light_options(40);
+    static const uint32_t given[] = {672, 1440, 1728, 2784};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        alp_bake_report report;
+        options.light.samples = given[i];
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
+        print_message("%u rays given, %u sent\n", given[i], report.light_samples);
+        assert_int_equal(report.light_samples, given[i]);
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rounds_agree_with_one),
+        cmocka_unit_test(rounds_send_what_is_given),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
