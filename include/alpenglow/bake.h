@@ -188,8 +188,9 @@ typedef struct alp_light_options {
     /// differs where surfaces meet, and where several rounds are gathered (error) by noise. Its
     /// stated error is that of the whole. Not with PATHS or denoise. Cost: the rays of each round
     /// once more, a look-up of them a layer, and 37 bytes of a texel and layer, 12 more where
-    /// materials are double-sided. Where the rays of a round would take more than 1 GiB, and in
-    /// scenes that light passes through, they are traced again for each layer. Default false.
+    /// materials are double-sided. Where the rays of a round would not fit into the memory that is
+    /// left (memory_limit), and in scenes that light passes through, they are traced again for each
+    /// layer. Default false.
     bool layers;
 } alp_light_options;
 

@@ -31,17 +31,18 @@ static float larger(float a, float b)
 /// alpi_receiver_offset for the whole triangle: it is convex there, and largest at a corner.
 static float find_offset(const alpi_facet *f, const vec3 corner[3])
 {
-    float largest = 0.0f;
+    float largest[3] = {0.0f, 0.0f, 0.0f}; // by axis: three short chains instead of a long one
     for (int k = 0; k < 3; k++) {
-        largest = larger(largest, larger(fabsf(corner[k].x), fabsf(corner[k].y)));
-        largest = larger(largest, fabsf(corner[k].z));
+        largest[0] = larger(largest[0], fabsf(corner[k].x));
+        largest[1] = larger(largest[1], fabsf(corner[k].y));
+        largest[2] = larger(largest[2], fabsf(corner[k].z));
     }
     for (int axis = 0; axis < 3; axis++) {
         const double e1 = f->edges[0][axis], e2 = f->edges[1][axis];
-        largest = larger(largest, larger((float)fabs(e1), (float)fabs(e2)));
-        largest = larger(largest, (float)fabs(e2 - e1));
+        const float edge = larger((float)fabs(e1), (float)fabs(e2));
+        largest[axis] = larger(largest[axis], larger(edge, (float)fabs(e2 - e1)));
     }
-    return alpi_receiver_offset((vec3){largest, 0.0f, 0.0f}, NULL);
+    return alpi_receiver_offset(vec3_load(largest), NULL);
 }
 
 static void load_shape(alpi_facet *f, const vec3 corner[3])

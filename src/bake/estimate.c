@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { MOST_RAYS = 65536 }; // of a texel
+enum { MOST_RAYS = 65536, MOST_KEPT = 1024 }; // of a texel; and in one round
 // Measured on the truth table (docs/conventions.md, "Limits and estimates").
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
@@ -182,7 +182,7 @@ static double count_block_rays(const work_guess *g)
            TEXELS_OF_BLOCK;
 }
 
-/// @param layers that there are besides the whole: they keep the rays that texels send
+/// @param layers that there are besides the whole
 static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
 {
     const alp_light_options *l = &g->options->light;
@@ -195,8 +195,12 @@ static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
     const double direct = l->bounces == 0                     ? l->samples
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
-    double rays = count_bounced(g) * find_traced_share(g, LIT_EDGE_TEXELS);
-    w->bytes += layers > 0 ? to_count(g->texels * rays * sizeof(uint32_t)) : 0;
+    const double share = find_traced_share(g, LIT_EDGE_TEXELS);
+    double rays = count_bounced(g) * share;
+    if (layers > 0) { // those of a round are sent once more, and kept
+        w->bytes += to_count(g->texels * fmin(rays, MOST_KEPT * share) * sizeof(uint32_t));
+        rays *= 2.0;
+    }
     rays += l->bounces > 0 ? count_block_rays(g) : 0.0;
     w->rays += to_count(g->texels * (rays + direct * g->pilot.rays));
     const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;

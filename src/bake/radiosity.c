@@ -66,8 +66,8 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
 enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
 
 /// Rays that texels and direct light take, about, for an error: measured on the Cornell box, a
-/// sphere on a plane, living_room, a seventh of the texels being traced and direct light taking
-/// half as long again as a quarter of them would.
+/// sphere on a plane, living_room, a seventh of the texels being traced and direct light taking as
+/// long as a quarter of them would.
 static double guess_texel_rays(double error, uint64_t texels, double rms)
 {
     const double each = pow(0.39 * rms / error, 2.0);

@@ -44,11 +44,8 @@ alp_result alpi_bounced_again_create(const alpi_bounced_options *options,
                                      uint64_t kept_limit, const alpi_task_progress *progress,
                                      alpi_bounced_again *again)
 {
-    *again = (alpi_bounced_again){.options = *options, .lattice = *lattice};
-    again->lattice.states = states;
-    again->lattice.straight = options->straight;
-    again->lattice.borders = true;
-    again->lattice.values = NULL;
+    *again = (alpi_bounced_again){.options = *options,
+                                  .lattice = alpi_bounced_lattice(options, lattice, states, NULL)};
     const alp_result result = prepare(again, kept_limit, progress);
     if (result != ALP_OK) {
         alpi_bounced_again_destroy(again);

@@ -15,8 +15,7 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-/// Share of the spread near another surface. Half of it and half of the bend, with all texels that
-/// touch one traced, took twice the rays of the Cornell box for the same error (docs/radiosity.md).
+/// Share of the spread near another surface: docs/radiosity.md, "Borders and corners".
 static const float NEAR_SPREAD = 0.3f;
 
 typedef struct bounced_job {
@@ -475,22 +474,29 @@ static alp_result run(bounced_job *job)
     return state_errors(job);
 }
 
+alpi_lattice alpi_bounced_lattice(const alpi_bounced_options *options, const alpi_lattice *lattice,
+                                  uint8_t *states, float *values)
+{
+    alpi_lattice own = *lattice;
+    own.states = states;
+    own.values = values;
+    own.straight = options->straight;
+    own.along_borders = true;
+    return own;
+}
+
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
                             const alpi_task_progress *progress, uint8_t *states,
                             alpi_bounced_report *report)
 {
     const bool first = report->traced == 0 || !options->adaptive;
     bounced_job job = {.options = options,
-                       .lattice = *lattice,
                        .report = report,
                        .factor = 1.0f,
                        .expected = (first ? options->count : report->traced) + ALPI_HELD_OUT};
     *report = (alpi_bounced_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
-    job.lattice.states = states;
-    job.lattice.straight = options->straight;
-    job.lattice.borders = true;
-    job.lattice.values = options->levels;
+    job.lattice = alpi_bounced_lattice(options, lattice, states, options->levels);
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);
     alpi_release(lattice->context, job.list);

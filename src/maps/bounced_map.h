@@ -2,8 +2,9 @@
 // Bounced light at the texels of an atlas, over the adaptive lattice: it changes slowly but where
 // surfaces meet, so that most texels can be interpolated.
 //
-// Passes, stencils and flood are those of occlusion (lattice.h); what is smooth is judged by the
-// noise of the rays, in proportion to the light that is there. Bounced light is judged by the mean
+// Passes and flood are those of occlusion (lattice.h), and stencils, which also go along borders;
+// what is smooth is judged by the noise of the rays, in proportion to the light that is there.
+// Bounced light is judged by the mean
 // of its channels; its channels, and a sky's part of them, are interpolated by the same stencils.
 // Based on: H. Elias. Radiosity (the adaptive light map).
 #ifndef ALPI_MAPS_BOUNCED_MAP_H
@@ -57,6 +58,11 @@ typedef struct alpi_bounced_report {
 alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_lattice *lattice,
                             const alpi_task_progress *progress, uint8_t *states,
                             alpi_bounced_report *report);
+
+/// The lattice that a map of these options is made on: what interpolates its like again takes it.
+/// @param states, values [texels] of it
+alpi_lattice alpi_bounced_lattice(const alpi_bounced_options *options, const alpi_lattice *lattice,
+                                  uint8_t *states, float *values);
 
 /// Mean square error of texels by channel, held to what was found there apart, whose own error is
 /// taken off: E[(x − y)²] − Var y = E[(x − truth)²]. Not below 0.

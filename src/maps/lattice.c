@@ -242,16 +242,20 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     if (pass == 1 || pass == 3 || pass == 4) { // halfway between two
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
         whole = add_axis(lattice, &c, across ? h : 0, across ? 0 : h, 1.0f, stencil);
-        if (!whole && pass == 4 && lattice->borders) {
+        if (!whole && pass == 4 && lattice->along_borders) {
             whole = add_axis(lattice, &c, across ? 0 : 2 * h, across ? 2 * h : 0, 1.0f, stencil);
         }
     } else if (pass != 0) { // in the middle of four
         const bool along_x = add_axis(lattice, &c, h, 0, 0.5f, stencil);
-        const bool along_y = add_axis(lattice, &c, 0, h, 0.5f, stencil);
-        for (uint32_t i = 0; i < stencil->count && along_x != along_y; i++) {
-            stencil->weights[i] *= 2.0f;
+        const bool along_y =
+            (along_x || lattice->along_borders) && add_axis(lattice, &c, 0, h, 0.5f, stencil);
+        whole = along_x && along_y;
+        if (lattice->along_borders && along_x != along_y) {
+            whole = true;
+            for (uint32_t i = 0; i < stencil->count; i++) {
+                stencil->weights[i] *= 2.0f;
+            }
         }
-        whole = (along_x && along_y) || (lattice->borders && (along_x || along_y));
     }
     stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
     return whole;

@@ -27,7 +27,7 @@ typedef struct alpi_lattice {
     float *values;   // [count] where the state is not OPEN
     bool straight;   // stencils are linear where a cubic would do too: less of the noise, and no
                      // more of the bend than the judge lets pass
-    bool borders;    // a border's texels may be interpolated along it: see alpi_lattice_stencil
+    bool along_borders; // a border's texels may be interpolated along it: alpi_lattice_stencil
 } alpi_lattice;
 
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
@@ -63,13 +63,14 @@ enum { ALPI_LATTICE_PASSES = 6, ALPI_LATTICE_COARSE = 2 };
 uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
 /// Whether a texel belongs to the lattice of half the spacing, every second of every second row.
 bool alpi_lattice_is_coarse(const uint16_t pixel[2]);
-/// Distance in texels to the nearest texels that pass `pass` interpolates from: 2, 2, 1, 1, 1.
+/// Distance in texels to the nearest texels that pass `pass` interpolates from inside a chart: 2,
+/// 2, 1, 1, 1.
 uint32_t alpi_lattice_reach(uint32_t pass);
 
 /// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
 /// else, and in straight lattices, linear. A neighbour is missing if it is in another chart, or
-/// turned away. Then, with `borders`, a texel in the middle of four takes the two of them that lie
-/// along the border, and one of pass 4 the two of pass 3 that do.
+/// turned away. Then, with `along_borders`, a texel in the middle of four takes the two of them
+/// that lie along the border, and one of pass 4 the two of pass 3 that do.
 /// @return false: something is missing
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 /// Not clamped: a bound on every pass would darken what is nearly open.
@@ -90,8 +91,8 @@ typedef struct alpi_lattice_judge {
     const uint32_t *order;
     const uint8_t *near;          // [texels] alpi_nearness, or NULL: all are far
     uint8_t *wanted;              // [texels] to be traced, in and out
-    float near_spread, near_bend; // shares of the first two for texels near another surface
-    float spread, bend, kink;     // the most there may be, times
+    float spread, bend, kink;     // the most there may be, times `noise`
+    float near_spread, near_bend; // shares of spread and bend, for texels near another surface
     float (*noise)(const void *user, float level); // about a value; NULL: 1
     const void *user;
     uint32_t pass; // whose texels are judged by their stencils

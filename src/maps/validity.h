@@ -11,7 +11,7 @@
 typedef enum alpi_nearness {
     ALPI_FAR = 0,
     ALPI_NEAR,    // some texels: interpolate with care
-    ALPI_TOUCHING // about one: do not interpolate
+    ALPI_TOUCHING // about one: occlusion may change within a texel
 } alpi_nearness;
 
 /// What a few short rays found around the texels.

@@ -233,20 +233,22 @@ static void look_at(const alpi_polygon_gather *g, uint32_t polygon, uint32_t hal
 {
     const alpi_polygon_tally *t = &g->tallies[polygon];
     const double limit = UNEVEN / sqrt((double)g->samples) / ALPI_POLYGON_HALF;
+    const double channels = g->options->filter.panes ? 3.0 : 1.0;
     double factor = 0.0, weight = 0.0, seen = 0.0, least = HUGE_VAL, most = 0.0;
     for (uint32_t r = half * ALPI_POLYGON_HALF; r < (half + 1) * ALPI_POLYGON_HALF; r++) {
         factor += t->factor[r][lane];
         least = fmin(least, t->factor[r][lane]);
         most = fmax(most, t->factor[r][lane]);
         weight += t->weight[r][lane];
-        for (int k = 0; k < 3; k++) {
-            seen += t->seen[g->options->filter.panes ? k : 0][r][lane] / 3.0;
+        seen += t->seen[0][r][lane];
+        for (int k = 1; k < 3 && g->options->filter.panes; k++) {
+            seen += t->seen[k][r][lane];
         }
     }
     if (factor > 0.0) {
         const bool uneven = most - least > limit * factor;
         look->free[half] |= seen > 0.0 ? 1u << lane : 0u;
-        look->hidden[half] |= seen < weight * (1.0 - 1e-9) ? 1u << lane : 0u;
+        look->hidden[half] |= seen < channels * weight * (1.0 - 1e-9) ? 1u << lane : 0u;
         look->unclear[half] |= uneven || weight == 0.0 ? 1u << lane : 0u;
     }
 }
@@ -330,10 +332,10 @@ static bool repeat_half(alpi_polygon_tally *t, uint32_t lane)
 
 /// Spreads replicates of which each is there twice as far as those of R have to be for the variance
 /// of the mean of R / 2: Σ d² / (R/2 (R/2 − 1)) = Σ 2 (f d)² / (R (R − 1)).
-static void widen(double sums[R][3])
+static void widen(double sums[R][3], int channels)
 {
     const double f = sqrt((R - 1.0) / (ALPI_POLYGON_HALF - 1.0));
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < channels; k++) {
         double mean = 0.0;
         for (int r = 0; r < R; r++) {
             mean += sums[r][k] / R;
@@ -358,7 +360,9 @@ static void scale_tally(alpi_polygon_tally *t, uint32_t half, uint32_t lane, dou
 
 /// Form factor × visibility of each replicate, linearised about that of all, so that their mean is
 /// that of all: F_r V + F (S_r − V W_r) / W.
-static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sums[R][3])
+/// @param halved whether one half of the samples is there, twice
+static void finish(const alpi_polygon_tally *t, bool panes, bool halved, int lane,
+                   double sums[R][3])
 {
     const int channels = panes ? 3 : 1;
     double factor = 0.0, weight = 0.0;
@@ -377,6 +381,9 @@ static void finish(const alpi_polygon_tally *t, bool panes, int lane, double sum
             const double apart = t->seen[k][r][lane] - visible * t->weight[r][lane];
             sums[r][k] = weight > 0.0 ? t->factor[r][lane] * visible + factor * apart * scale : 0.0;
         }
+    }
+    if (halved) {
+        widen(sums, channels);
     }
     for (int r = 0; r < R && channels == 1; r++) {
         sums[r][1] = sums[r][2] = sums[r][0];
@@ -557,10 +564,8 @@ alp_result alpi_polygons_gather(alpi_polygon_gather *g, const uint32_t *receiver
     }
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = 0; k < g->polygon_count; k++) {
-            finish(&g->tallies[k], g->options->filter.panes, (int)i, g->sums[i][k]);
-            if (((g->halved[k] & ~g->missed[k]) >> i & 1u) != 0) {
-                widen(g->sums[i][k]);
-            }
+            const bool halved = ((g->halved[k] & ~g->missed[k]) >> i & 1u) != 0;
+            finish(&g->tallies[k], g->options->filter.panes, halved, (int)i, g->sums[i][k]);
         }
     }
     return ALP_OK;

@@ -64,18 +64,15 @@ static void compare_halves(const double (*sums)[3], uint32_t each,
     told[1] += (float)variance;
 }
 
-/// Whether some part repeats what one half of its samples found.
-static bool repeats_any(const alpi_direct *d, const alpi_polygon_gather *polygons, uint32_t lane)
+/// How many parts repeat what one half of their samples found.
+static uint32_t count_repeated(const alpi_direct *d, const alpi_polygon_gather *polygons,
+                               uint32_t lane)
 {
-    if (polygons == NULL) {
-        return false;
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < d->part_count && polygons != NULL; p++) {
+        count += alpi_polygons_repeat(polygons, lane, p);
     }
-    for (uint32_t p = 0; p < d->part_count; p++) {
-        if (alpi_polygons_repeat(polygons, lane, p)) {
-            return true;
-        }
-    }
-    return false;
+    return count;
 }
 
 /// Adds up the parts. @param polygons NULL, or those whose parts that repeat are left out
@@ -119,8 +116,12 @@ void alpi_direct_put(const alpi_direct *d, const double (*sums)[R][3], uint32_t 
         alpi_reference_mean(all, R, each, value);
         memcpy(value->mean, mean, sizeof mean);
     }
+    const uint32_t repeated = count_repeated(d, polygons, lane);
+    if (repeated == d->part_count) { // most receivers: their halves tell nothing
+        return;
+    }
     compared = *value;
-    if (repeats_any(d, polygons, lane)) {
+    if (repeated > 0) {
         add_parts(d, sums, polygons, lane, together);
         all = (const double(*)[3])together;
         alpi_reference_mean(all, R, each, &compared);

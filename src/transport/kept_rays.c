@@ -4,6 +4,8 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
+#include <assert.h>
+
 enum { RAYS_PER_RANGE = 4096 };
 enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
 
@@ -43,10 +45,10 @@ static uint32_t receiver_at(const alpi_gather_job *job, uint32_t i)
 }
 
 /// The rays of the i-th of the list.
-static uint32_t (*rays_of(const kept_job *k, uint32_t i))[ALPI_PACKET]
+static uint32_t *rays_of(const kept_job *k, uint32_t i)
 {
     const size_t row = k->kept->by_list ? i : receiver_at(k->job, i);
-    return (uint32_t(*)[ALPI_PACKET])(k->kept->cells + row * k->kept->rays);
+    return k->kept->cells + row * k->kept->rays;
 }
 
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -59,7 +61,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
-        uint32_t(*cells)[ALPI_PACKET] = rays_of(k, i);
+        uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
@@ -95,6 +97,7 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
 static alp_result run(kept_job *k, alpi_task_fn *body, const alpi_task_progress *progress)
 {
     const uint32_t rays = k->kept->rays;
+    assert(!k->kept->by_list || k->job->count <= k->kept->receivers);
     return alpi_parallel_for(k->job->context, k->job->count,
                              rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1, body, k, progress);
 }
@@ -119,7 +122,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     without_sky.skies = NULL;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
-        uint32_t(*cells)[ALPI_PACKET] = rays_of(k, i);
+        const uint32_t(*cells)[ALPI_PACKET] = (const uint32_t(*)[ALPI_PACKET])rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
             for (int r = 0; r < ALPI_PACKET && p + AHEAD < job->gatherer->packet_count; r++) {

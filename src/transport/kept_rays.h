@@ -11,8 +11,8 @@ typedef struct alpi_kept_rays {
     uint32_t receivers; // that there is room for
     uint32_t rays;      // of each
     uint32_t *cells;    // [receivers][rays]
-    bool by_list;       // the i-th row is of the i-th receiver of one list that all jobs have, not
-                        // of receiver i: set once there is room
+    bool by_list;       // the i-th row is of the i-th receiver of the one list that all jobs have,
+                        // not of receiver i; the caller's to set, before any is traced
 } alpi_kept_rays;
 
 /// Bytes of the rays of a receiver.

@@ -110,11 +110,43 @@ static void memory_limit_is_kept(void **state)
     assert_true(kept > 0 && traced_again > 0 && refused > 0);
 }
 
+/// With layers, which keep rays of every round, too.
+static void memory_limit_is_kept_by_layers(void **state)
+{
+    (void)state;
+    uint64_t fewest = UINT64_MAX, most = 0; // rays: where all are kept, and where none are
+    int refused = 0;
+    for (double limit = 20.0; limit > 2.0; limit *= 0.7) {
+        alp_context *context = test_context(2);
+        alp_scene *scene = load(context, "builtin:cornell");
+        const double loaded = (double)alp_context_peak_memory(context);
+        alp_bake_options options = light_options(128);
+        options.light.samples = 512;
+        options.light.layers = true;
+        options.sampling.memory_limit = (uint64_t)(limit * 0x1p20);
+        alp_bake_report report;
+        if (alp_bake(scene, &options, NULL, &report) == ALP_OK) {
+            const double peak = ((double)report.peak_memory_bytes - loaded) / 0x1p20;
+            print_message("memory limit %.2f MiB with layers: peak %.2f, %llu rays\n", limit, peak,
+                          (unsigned long long)report.rays);
+            assert_true(peak <= limit);
+            fewest = report.rays < fewest ? report.rays : fewest;
+            most = report.rays > most ? report.rays : most;
+        } else {
+            refused++;
+        }
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+    assert_true(fewest < most && refused > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_light_is_known_beforehand),
         cmocka_unit_test(memory_limit_is_kept),
+        cmocka_unit_test(memory_limit_is_kept_by_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

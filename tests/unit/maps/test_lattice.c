@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "base/context.h"
 #include "maps/lattice.h"
+#include "maps/validity.h"
 #include "test_scenes.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { SIZE = 32 };
 
@@ -157,48 +159,127 @@ static void straight_stencils_take_two_and_know_their_bend(void **state)
     tear_down(&s);
 }
 
-/// Where one of the four, or two, is missing, those along the border do; and no other ones.
+static bool is_same(const alpi_stencil *a, const alpi_stencil *b)
+{
+    return a->count == b->count && a->bend == b->bend && a->spread == b->spread &&
+           memcmp(a->texels, b->texels, a->count * sizeof *a->texels) == 0 &&
+           memcmp(a->weights, b->weights, a->count * sizeof *a->weights) == 0;
+}
+
+/// A texel of the line that is the border, counted along it: of the last column, or the last row.
+static uint32_t at_border(const alpi_lattice *l, bool row, uint32_t border, uint32_t along)
+{
+    return l->grid[row ? border * SIZE + along : along * SIZE + border];
+}
+
+/// Light that is a parabola along the border, and far from it beside it: of stencils that go along
+/// it, what they miss is known, and they take no others, all of coarser passes.
+static void hold_border(lattice_setup *s, bool row, uint32_t border)
+{
+    alpi_lattice *l = &s->lattice;
+    const float bent = 0.01f;
+    const int across = row ? 1 : 0;
+    for (uint32_t i = 0; i < s->texels.count; i++) {
+        const uint16_t *p = s->texels.pixels[i];
+        const float along = (float)p[1 - across];
+        l->values[i] = 0.5f * bent * along * along + (p[across] == border ? 0.0f : 100.0f);
+        l->states[i] = p[across] <= border ? ALPI_TEXEL_TRACED : ALPI_TEXEL_OPEN;
+    }
+    for (uint32_t along = 8; along < SIZE - 8; along++) {
+        const uint32_t texel = at_border(l, row, border, along);
+        const uint32_t pass = alpi_lattice_pass(s->texels.pixels[texel]);
+        alpi_stencil stencil;
+        l->along_borders = false;
+        const bool inside = alpi_lattice_stencil(l, texel, &stencil);
+        l->along_borders = true;
+        const bool found = alpi_lattice_stencil(l, texel, &stencil);
+        // What pass 3 has beyond the border, and pass 1, nothing along it stands for.
+        assert_int_equal(found, inside || pass == 2 || pass == 4 || pass == 5);
+        if (!found || inside) {
+            continue;
+        }
+        float weight = 0.0f;
+        const float h = pass == 5 ? 1.0f : 2.0f, missed = 0.5f * bent * h * h;
+        assert_int_equal(stencil.count, l->straight ? 2 : 4);
+        for (uint32_t k = 0; k < stencil.count; k++) {
+            const uint16_t *p = s->texels.pixels[stencil.texels[k]];
+            assert_int_equal(p[across], border);
+            assert_true(alpi_lattice_pass(p) < pass);
+            weight += stencil.weights[k];
+        }
+        ASSERT_NEAR(weight, 1.0f, 1e-6);
+        ASSERT_NEAR(stencil.bend, missed, 2e-6);
+        ASSERT_NEAR(stencil.spread, bent * (float)along * 2.0f * h, 1e-5);
+        ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil),
+                    l->values[texel] + (l->straight ? missed : 0.0f), 2e-6);
+    }
+}
+
+/// Where one of the four, or two, is missing, those along the border do.
 static void at_a_border_stencils_go_along_it(void **state)
+{
+    (void)state;
+    static const uint32_t borders[] = {SIZE - 1, SIZE - 2,
+                                       SIZE - 10}; // odd, and 2 beyond the lattice
+    lattice_setup s;
+    set_up(&s);
+    alpi_lattice *l = &s.lattice;
+    for (int k = 0; k < 12; k++) {
+        l->straight = k / 6 != 0;
+        hold_border(&s, k % 2 != 0, borders[k / 2 % 3]);
+    }
+    // Inside a chart nothing changes.
+    for (uint32_t i = 0; i < s.texels.count; i++) {
+        l->states[i] = ALPI_TEXEL_TRACED;
+    }
+    for (uint32_t i = 0; i < 64; i++) {
+        alpi_stencil with, without;
+        const uint32_t texel = l->grid[(8 + i / 8) * SIZE + 8 + i % 8];
+        l->along_borders = true;
+        const bool found = alpi_lattice_stencil(l, texel, &with);
+        l->along_borders = false;
+        assert_int_equal(found, alpi_lattice_stencil(l, texel, &without));
+        assert_true(!found || is_same(&with, &without));
+    }
+    tear_down(&s);
+}
+
+/// What is near another surface has limits of its own.
+static void near_surfaces_the_judge_is_stricter(void **state)
 {
     (void)state;
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
+    const uint32_t middle = l->grid[16 * SIZE + 18]; // of pass 1, between x = 16 and 20
+    uint8_t near[2 * SIZE * SIZE] = {0}, wanted[2 * SIZE * SIZE] = {0};
     for (uint32_t i = 0; i < s.texels.count; i++) {
-        const uint16_t *p = s.texels.pixels[i];
-        l->values[i] = (float)p[1] + (p[0] == SIZE - 1 ? 0.0f : 100.0f);
-        l->states[i] = ALPI_TEXEL_TRACED;
+        const float x = (float)s.texels.pixels[i][0];
+        const bool bent = x == 12.0f || x == 24.0f;
+        l->values[i] = x + (bent ? 4.0f : 0.0f); // spread 4, bend a half
     }
-    const uint32_t x = SIZE - 1; // odd: beyond it is another chart, or none
-    for (uint32_t y = 4; y < SIZE - 4; y++) {
-        const uint32_t texel = l->grid[y * SIZE + x];
-        alpi_stencil stencil;
-        l->borders = false;
-        assert_false(alpi_lattice_stencil(l, texel, &stencil));
-        l->borders = true;
-        const bool found = alpi_lattice_stencil(l, texel, &stencil);
-        assert_int_equal(found, y % 4 != 0); // pass 3 has none before it
-        for (uint32_t k = 0; found && k < stencil.count; k++) {
-            const uint16_t *p = s.texels.pixels[stencil.texels[k]];
-            assert_int_equal(p[0], x);
-            assert_true(alpi_lattice_pass(p) < alpi_lattice_pass(s.texels.pixels[texel]));
-        }
-        if (found) {
-            ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), (float)y, 1e-5);
-        }
-    }
-    // Inside a chart nothing changes.
-    for (uint32_t y = 8; y < 12; y++) {
-        for (uint32_t inner = 8; inner < 12; inner++) {
-            alpi_stencil with, without;
-            const uint32_t texel = l->grid[y * SIZE + inner];
-            l->borders = true;
-            const bool found = alpi_lattice_stencil(l, texel, &with);
-            l->borders = false;
-            assert_int_equal(found, alpi_lattice_stencil(l, texel, &without));
-            assert_true(!found || with.count == without.count);
-            assert_true(!found || with.weights[0] == without.weights[0]);
-        }
+    alpi_lattice_judge judge = {
+        .lattice = l, .order = &middle, .near = near, .wanted = wanted, .pass = 1};
+    static const struct {
+        float spread, bend, near_spread, near_bend;
+        bool far_is_smooth, near_is_smooth;
+    } cases[] = {{4.1f, 0.51f, 1.0f, 1.0f, true, true},   {3.9f, 0.51f, 1.0f, 1.0f, false, false},
+                 {4.1f, 0.49f, 1.0f, 1.0f, false, false}, {8.1f, 0.51f, 0.5f, 1.0f, true, true},
+                 {7.9f, 0.51f, 0.5f, 1.0f, true, false},  {4.1f, 1.01f, 1.0f, 0.5f, true, true},
+                 {4.1f, 0.99f, 1.0f, 0.5f, true, false}};
+    for (size_t i = 0; i < 2 * (sizeof cases / sizeof *cases); i++) {
+        memset(l->states, ALPI_TEXEL_TRACED, s.texels.count);
+        l->states[middle] = ALPI_TEXEL_OPEN;
+        wanted[middle] = 0;
+        near[middle] = i % 2 == 0 ? ALPI_FAR : ALPI_NEAR;
+        judge.spread = cases[i / 2].spread;
+        judge.bend = cases[i / 2].bend;
+        judge.near_spread = cases[i / 2].near_spread;
+        judge.near_bend = cases[i / 2].near_bend;
+        alpi_lattice_judge_range(&judge, 0, 1);
+        const bool smooth = i % 2 == 0 ? cases[i / 2].far_is_smooth : cases[i / 2].near_is_smooth;
+        assert_int_equal(wanted[middle], !smooth);
+        assert_int_equal(l->states[middle], smooth ? ALPI_TEXEL_INTERPOLATED : ALPI_TEXEL_OPEN);
     }
     tear_down(&s);
 }
@@ -266,6 +347,7 @@ int main(void)
         cmocka_unit_test(cubics_are_interpolated_exactly),
         cmocka_unit_test(straight_stencils_take_two_and_know_their_bend),
         cmocka_unit_test(at_a_border_stencils_go_along_it),
+        cmocka_unit_test(near_surfaces_the_judge_is_stricter),
         cmocka_unit_test(no_stencil_crosses_a_chart_or_takes_the_unknown),
         cmocka_unit_test(kinks_are_found_beside_traced_texels_only),
     };

@@ -252,6 +252,71 @@ static void blocks_hold_every_texel_once(void **state)
     }
 }
 
+/// Which blocks a square of the page may have: 4, 2 or 1 texels wide.
+static uint32_t side_of(const setting *s, const uint8_t *near, uint32_t texel, uint32_t spacing)
+{
+    const uint16_t *p = s->texels.pixels[texel];
+    uint32_t side = spacing;
+    for (uint32_t i = 0; i < spacing * spacing; i++) {
+        const uint32_t t = alpi_lattice_texel(&s->lattice, s->texels.pages[texel],
+                                              p[0] / spacing * spacing + i % spacing,
+                                              p[1] / spacing * spacing + i / spacing);
+        if (t != ALPI_NONE && s->texels.valid[t] != 0) {
+            return 1;
+        }
+        side = t != ALPI_NONE && near[t] != ALPI_FAR ? (spacing == 4 ? 2 : 1) : side;
+    }
+    return side;
+}
+
+/// Near another surface blocks are half as long, and texels where one of theirs lies in a solid.
+static void blocks_are_small_near_surfaces(void **state)
+{
+    (void)state;
+    static const uint32_t spacings[] = {4, 3};
+    for (int i = 0; i < 2; i++) {
+        setting s;
+        alpi_patches patches;
+        const uint32_t spacing = spacings[i];
+        open_setting(&s, make_ball(test_context(2), 24, 12), 96, 0.3f, spacing, 1);
+        uint8_t *near = calloc(s.texels.count, 1);
+        uint16_t *valid = calloc(s.texels.count, sizeof *valid);
+        assert_true(near != NULL && valid != NULL);
+        for (uint32_t t = 0; t < s.texels.count; t++) {
+            near[t] = t % 97 == 0 ? ALPI_NEAR : t % 89 == 0 ? ALPI_TOUCHING : ALPI_FAR;
+            valid[t] = t % 113 == 0 ? 0xff : 0;
+        }
+        s.texels.valid = valid;
+        ASSERT_OK(s.context,
+                  alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, s.texels.count,
+                                      &(alpi_block_rule){spacing, near}, &patches));
+        uint32_t seen[5] = {0}, most[5] = {0};
+        for (uint32_t b = 0; b < patches.block_count; b++) {
+            const uint32_t first = patches.block_texels[patches.block_first[b]];
+            const uint32_t side = side_of(&s, near, first, spacing);
+            const uint32_t members = patches.block_first[b + 1] - patches.block_first[b];
+            for (uint32_t k = patches.block_first[b]; k < patches.block_first[b + 1]; k++) {
+                const uint32_t t = patches.block_texels[k];
+                for (int d = 0; d < 2; d++) {
+                    const uint32_t start = s.texels.pixels[first][d] / spacing * spacing;
+                    assert_int_equal((s.texels.pixels[t][d] - start) / side,
+                                     (s.texels.pixels[first][d] - start) / side);
+                }
+            }
+            seen[side]++;
+            most[side] = members > most[side] ? members : most[side];
+        }
+        assert_true(seen[1] > 0 && seen[spacing] > 0 && (spacing == 3 || seen[2] > 0));
+        assert_true(most[1] == 1 && most[spacing] == spacing * spacing);
+        assert_true(spacing == 3 || most[2] == 4);
+        alpi_patches_destroy(&patches);
+        s.texels.valid = NULL;
+        free(near);
+        free(valid);
+        close_setting(&s);
+    }
+}
+
 /// Points of a block lie on its texels, as many as their share of the area.
 static void blocks_are_placed_by_area(void **state)
 {
@@ -422,6 +487,7 @@ int main(void)
         cmocka_unit_test(charts_that_share_a_texel),
         cmocka_unit_test(texels_without_light_have_stand_ins),
         cmocka_unit_test(blocks_hold_every_texel_once),
+        cmocka_unit_test(blocks_are_small_near_surfaces),
         cmocka_unit_test(blocks_are_placed_by_area),
         cmocka_unit_test(pictures_count_by_their_mean),
         cmocka_unit_test(uneven_light_reaches_farther),

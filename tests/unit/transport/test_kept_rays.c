@@ -166,6 +166,13 @@ static void rays_of_a_list_are_kept_by_it(void **state)
     kept.by_list = true;
     alpi_gather_job job = job_of(&s, list, LISTED);
     ASSERT_OK(s.context, alpi_kept_rays_trace(&job, NULL, &kept));
+    alpi_kept_rays all = {0};
+    keep_all(&s, &all);
+    for (uint32_t i = 0; i < LISTED; i++) {
+        assert_memory_equal(kept.cells + (size_t)i * kept.rays,
+                            all.cells + (size_t)list[i] * all.rays, kept.rays * sizeof *kept.cells);
+    }
+    alpi_kept_rays_destroy(&all);
     set_light(&s, 0.75f, 0.5f);
     job = job_of(&s, list, LISTED);
     ASSERT_OK(s.context, alpi_gather_irradiance(&job, NULL));
