@@ -76,22 +76,24 @@ enum {
     SPACING = 4                    // texels along a block
 };
 
-/// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: half as long
-/// there, in proportion to the length of its edges. Measured at three sizes of page: 2.8;
-/// teapot-room 2.6 and 2.7, windows 1.9, living_room 1.5, zdm2 1.2.
-static uint64_t count_blocks(const alp_atlas_info *atlas)
+/// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: single texels
+/// there, or squares of four, in proportion to the length of its edges. Measured at five sizes of
+/// page; of squares 2.8, teapot-room 2.6 and 2.7, windows 1.9, living_room 1.5, zdm2 1.2.
+static uint64_t count_blocks(const alp_atlas_info *atlas, bool fine)
 {
     const double texels = (double)atlas->texels, charts = fmax(atlas->charts, 1.0);
-    return (uint64_t)fmin(texels / (SPACING * SPACING) + 3.0 * sqrt(texels * charts), texels);
+    const double edges = sqrt(texels * charts) * (fine ? 8.0 : 3.0);
+    return (uint64_t)fmin(texels / (SPACING * SPACING) + edges, texels);
 }
 
 /// Blocks of charts of the mean size that are by themselves, most of them: squares of the page that
-/// a chart has a part in, and a quarter more where something is near.
-static uint64_t count_least_blocks(const alp_atlas_info *atlas)
+/// a chart has a part in, and as many again, or a quarter more, where something is near.
+static uint64_t count_least_blocks(const alp_atlas_info *atlas, bool fine)
 {
     const double charts = fmax(atlas->charts, 1.0);
     const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
-    return (uint64_t)fmin(1.25 * charts * edge * edge, (double)count_blocks(atlas));
+    const double blocks = charts * edge * edge * (fine ? 2.0 : 1.25);
+    return (uint64_t)fmin(blocks, (double)count_blocks(atlas, fine));
 }
 
 /// Bytes that are held while light is gathered, beside what is kept all the time.
@@ -139,7 +141,8 @@ static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options
     uint64_t of_blocks = 0;
     if (alpi_light_has_rounds(options) && options->only == NULL) {
         of_texel += SHOWN_BYTES_PER_TEXEL + (sides > 1 ? 0u : SHOWN_BLOCK_BYTES_PER_TEXEL);
-        of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas);
+        const bool fine = alpi_light_has_fine_blocks(&options->light);
+        of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas, fine);
     }
     return of_texel * atlas->texels + of_blocks;
 }
@@ -154,7 +157,8 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const uint64_t blocks = count_blocks(atlas);
+    const bool fine = alpi_light_has_fine_blocks(o);
+    const uint64_t blocks = count_blocks(atlas, fine);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
     const uint64_t places = find_places(atlas, scene);
     const uint64_t of_texel =
@@ -162,7 +166,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
     const uint64_t solution = of_texel * texels + places + of_blocks;
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
-    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
+    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +

@@ -162,14 +162,15 @@ static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
     s->count = left;
 }
 
-/// Side of the blocks of a square: half of it near another surface, a texel where a part of one
-/// lies in a solid, for its light is that of the other part.
+/// Side of the blocks of a square, by the rule. Of texels that lie in a solid in part the light is
+/// that of the other part.
 static uint32_t choose_side(const alpi_patches *p, const page_square *s, uint32_t spacing)
 {
     uint32_t side = spacing;
     for (uint32_t i = 0; i < s->count && p->near != NULL; i++) {
         const uint32_t t = s->texels[i];
-        if (p->texels->valid != NULL && p->texels->valid[t] != 0) {
+        if ((p->texels->valid != NULL && p->texels->valid[t] != 0) ||
+            (p->fine && p->near[t] == ALPI_TOUCHING)) {
             return 1;
         }
         side = p->near[t] == ALPI_FAR ? side : spacing % 2 == 0 ? spacing / 2 : 1;
@@ -413,6 +414,7 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                               .texels = lattice->texels,
                               .lattice = lattice,
                               .near = rule->near,
+                              .fine = rule->fine,
                               .two_sided = alpi_patches_are_two_sided(atlas->scene)};
     const alp_result result = create(patches, order, count, rule->spacing);
     patches->near = NULL; // borrowed for this call

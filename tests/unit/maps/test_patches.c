@@ -253,28 +253,32 @@ static void blocks_hold_every_texel_once(void **state)
 }
 
 /// Which blocks a square of the page may have: 4, 2 or 1 texels wide.
-static uint32_t side_of(const setting *s, const uint8_t *near, uint32_t texel, uint32_t spacing)
+static uint32_t side_of(const setting *s, const alpi_block_rule *rule, uint32_t texel)
 {
     const uint16_t *p = s->texels.pixels[texel];
+    const uint32_t spacing = rule->spacing;
     uint32_t side = spacing;
     for (uint32_t i = 0; i < spacing * spacing; i++) {
         const uint32_t t = alpi_lattice_texel(&s->lattice, s->texels.pages[texel],
                                               p[0] / spacing * spacing + i % spacing,
                                               p[1] / spacing * spacing + i / spacing);
-        if (t != ALPI_NONE && s->texels.valid[t] != 0) {
+        const uint8_t near = t != ALPI_NONE ? rule->near[t] : ALPI_FAR;
+        if ((t != ALPI_NONE && s->texels.valid[t] != 0) || (rule->fine && near == ALPI_TOUCHING)) {
             return 1;
         }
-        side = t != ALPI_NONE && near[t] != ALPI_FAR ? (spacing == 4 ? 2 : 1) : side;
+        side = near != ALPI_FAR ? (spacing == 4 ? 2 : 1) : side;
     }
     return side;
 }
 
-/// Near another surface blocks are half as long, and texels where one of theirs lies in a solid.
+/// Near another surface blocks are half as long, and texels where one of theirs lies in a solid,
+/// and, if they are to be fine, where a surface touches.
 static void blocks_are_small_near_surfaces(void **state)
 {
     (void)state;
-    static const uint32_t spacings[] = {4, 3};
-    for (int i = 0; i < 2; i++) {
+    static const uint32_t spacings[] = {4, 3, 4};
+    uint32_t singles[3] = {0};
+    for (int i = 0; i < 3; i++) {
         setting s;
         alpi_patches patches;
         const uint32_t spacing = spacings[i];
@@ -287,13 +291,13 @@ static void blocks_are_small_near_surfaces(void **state)
             valid[t] = t % 113 == 0 ? 0xff : 0;
         }
         s.texels.valid = valid;
-        ASSERT_OK(s.context,
-                  alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, s.texels.count,
-                                      &(alpi_block_rule){spacing, near}, &patches));
+        const alpi_block_rule rule = {spacing, near, i == 2};
+        ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order,
+                                                 s.texels.count, &rule, &patches));
         uint32_t seen[5] = {0}, most[5] = {0};
         for (uint32_t b = 0; b < patches.block_count; b++) {
             const uint32_t first = patches.block_texels[patches.block_first[b]];
-            const uint32_t side = side_of(&s, near, first, spacing);
+            const uint32_t side = side_of(&s, &rule, first);
             const uint32_t members = patches.block_first[b + 1] - patches.block_first[b];
             for (uint32_t k = patches.block_first[b]; k < patches.block_first[b + 1]; k++) {
                 const uint32_t t = patches.block_texels[k];
@@ -307,6 +311,7 @@ static void blocks_are_small_near_surfaces(void **state)
             most[side] = members > most[side] ? members : most[side];
         }
         assert_true(seen[1] > 0 && seen[spacing] > 0 && (spacing == 3 || seen[2] > 0));
+        singles[i] = seen[1];
         assert_true(most[1] == 1 && most[spacing] == spacing * spacing);
         assert_true(spacing == 3 || most[2] == 4);
         alpi_patches_destroy(&patches);
@@ -315,6 +320,7 @@ static void blocks_are_small_near_surfaces(void **state)
         free(valid);
         close_setting(&s);
     }
+    assert_true(singles[2] > singles[0]);
 }
 
 /// Points of a block lie on its texels, as many as their share of the area.
