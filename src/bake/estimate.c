@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { MOST_RAYS = 65536, MOST_KEPT = 1024 }; // of a texel; and in one round
+enum { MOST_RAYS = 65536, MOST_FIRST_RAYS = 1024 }; // of a texel; and for an error in one round
 // Measured on the truth table (docs/conventions.md, "Limits and estimates").
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
@@ -198,7 +198,8 @@ static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
     const double share = find_traced_share(g, LIT_EDGE_TEXELS);
     double rays = count_bounced(g) * share;
     if (layers > 0) { // those of a round are sent once more, and kept
-        w->bytes += to_count(g->texels * fmin(rays, MOST_KEPT * share) * sizeof(uint32_t));
+        const double kept = l->error > 0.0f ? fmin(rays, MOST_FIRST_RAYS * share) : rays;
+        w->bytes += to_count(g->texels * kept * sizeof(uint32_t));
         rays *= 2.0;
     }
     rays += l->bounces > 0 ? count_block_rays(g) : 0.0;

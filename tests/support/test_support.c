@@ -48,6 +48,23 @@ alp_context *test_context(uint32_t workers)
     return context;
 }
 
+alp_scene *test_load(alp_context *context, const char *name)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    return scene;
+}
+
+alp_bake_options test_light_options(uint32_t size)
+{
+    alp_bake_options options = alp_bake_options_default();
+    options.atlas.size = size;
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.maps = ALP_MAP_LIGHT;
+    options.light.samples = 65536;
+    return options;
+}
+
 static void *allocate_while_any_left(void *user, size_t size)
 {
     int *left = user;

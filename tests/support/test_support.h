@@ -30,6 +30,10 @@ void test_assert_ok(alp_context *context, alp_result result, const char *text, c
 
 /// A context with this many workers whose log messages test_log_contains can find.
 alp_context *test_context(uint32_t workers);
+/// The scene of a file or "builtin:", which must load.
+alp_scene *test_load(alp_context *context, const char *name);
+/// A bake of light alone on new charts, by as many rays as there may be.
+alp_bake_options test_light_options(uint32_t size);
 /// A silent context with one worker whose next `*left` allocations succeed and whose later ones
 /// fail;
 /// `*left` counts down and may be set again at any time. It begins with room enough.

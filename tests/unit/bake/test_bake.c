@@ -12,13 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 static alp_bake_options small_options(void)
 {
     alp_bake_options options = alp_bake_options_default();
@@ -45,7 +38,7 @@ static void a_baked_scene_reads_back(void **state)
     (void)state;
     alp_context *context = test_context(2);
     const char *folder = test_folder();
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options();
     options.output = test_path(folder, "out.glb");
     options.maps_folder = test_path(folder, "maps");
@@ -72,7 +65,7 @@ static void a_baked_scene_reads_back(void **state)
     alp_image_destroy(map);
 
     alp_scene *baked =
-        load(context, options.output); // the asset carries the same map and coordinates
+        test_load(context, options.output); // the asset carries the same map and coordinates
     assert_int_equal(baked->triangle_count, scene->triangle_count);
     const float *uvs = alp_atlas_corner_uvs(alp_lightmap_atlas(lightmap));
     for (uint32_t t = 0; t < baked->triangle_count; t += 7) {
@@ -104,7 +97,7 @@ static void workers_change_no_byte(void **state)
     size_t first_size = 0;
     for (int i = 0; i < 3; i++) {
         alp_context *context = test_context(workers[i]);
-        alp_scene *scene = load(context, "builtin:torus-plane");
+        alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = small_options();
         options.output = test_path(test_folder(), "out.glb");
         ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
@@ -142,7 +135,7 @@ static void cancelling_leaves_nothing(void **state)
     const char *const stages[] = {"atlas", "build", "occlusion", "write"};
     for (int i = 0; i < 4; i++) {
         alp_context *context = test_context(2);
-        alp_scene *scene = load(context, "builtin:sphere-plane");
+        alp_scene *scene = test_load(context, "builtin:sphere-plane");
         const char *folder = test_folder();
         stopper s = {stages[i], 0};
         alp_bake_options options = small_options();
@@ -162,7 +155,7 @@ static void nothing_is_overwritten_unasked(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = load(context, "builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     const char *folder = test_folder();
     alp_bake_options options = small_options();
     options.output = test_path(folder, "out.glb");
@@ -203,7 +196,7 @@ static void the_ends_of_ranges_are_sane(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     alp_bake_options options = small_options();
     options.atlas.size = 1; // one texel for six walls
     alp_lightmap *lightmap = NULL;
@@ -266,7 +259,7 @@ static void memory_is_known_beforehand(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     alp_bake_options options = small_options();
     options.atlas.size = 1024;
     options.occlusion.samples = 1;

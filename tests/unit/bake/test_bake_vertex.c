@@ -18,13 +18,6 @@ static alp_bake_options vertex_options(uint32_t samples)
     return options;
 }
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 // --- values --------------------------------------------------------------------------------------
 
 static bool is_same(const float a[3], const float b[3])
@@ -100,7 +93,7 @@ static void equal_vertices_have_equal_values(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:teapot-room");
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_bake_options options = vertex_options(16);
     alp_lightmap *lightmap = NULL;
     ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
@@ -136,7 +129,7 @@ static void workers_change_no_bit(void **state)
     float *first = NULL;
     for (int i = 0; i < 4; i++) {
         alp_context *context = test_context(workers[i]);
-        alp_scene *scene = load(context, "builtin:torus-plane");
+        alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = vertex_options(16);
         alp_lightmap *lightmap = NULL;
         ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
@@ -160,12 +153,12 @@ static void the_written_file_reads_back(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:teapot-room");
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_bake_options options = vertex_options(16);
     options.output = test_path(test_folder(), "out.glb");
     alp_lightmap *lightmap = NULL;
     ASSERT_OK(context, alp_bake(scene, &options, &lightmap, NULL));
-    alp_scene *baked = load(context, options.output);
+    alp_scene *baked = test_load(context, options.output);
     assert_int_equal(baked->triangle_count, scene->triangle_count);
     assert_non_null(baked->colors);
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
@@ -263,7 +256,7 @@ static void what_has_no_meaning_is_refused(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = vertex_options(4);
     options.maps_folder = test_path(test_folder(), "maps");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
@@ -299,7 +292,7 @@ static void chosen_occluders_alone_occlude(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = vertex_options(64);
     alp_bake_report report;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
@@ -328,7 +321,7 @@ static void every_allocation_may_fail(void **state)
     int left = 0;
     alp_context *context = test_context_failing(&left);
     left = 1 << 20;
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = vertex_options(4);
     options.overwrite = true;
     options.output = test_path(test_folder(), "out.glb");
@@ -360,7 +353,7 @@ static void cancelling_leaves_nothing(void **state)
     (void)state;
     char stages[4][16] = {"vertices", "build", "occlusion", "write"};
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:torus-plane");
+    alp_scene *scene = test_load(context, "builtin:torus-plane");
     for (int i = 0; i < 4; i++) {
         alp_bake_options options = vertex_options(64);
         options.output = test_path(test_folder(), "out.glb");

@@ -10,13 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static alp_scene *load(alp_context *context, const char *path)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
-    return scene;
-}
-
 static alp_bake_options blend_options(const char *output)
 {
     alp_bake_options options = alp_bake_options_default();
@@ -81,9 +74,9 @@ static void three_sets_come_back(void **state)
     alp_context *context = test_context(2);
     const char *folder = quad_folder();
     const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_lightmap *lightmap = bake(scene, once);
-    alp_scene *written = load(context, once);
+    alp_scene *written = test_load(context, once);
     assert_int_equal(alp_scene_get_surface(written, 0).uv_sets, 3);
     check_sets(written, lightmap, 0, 3, 0.0);
     assert_true(file_has(once, "\"alpenglow_blend\":{\"sets\":[\"TEXCOORD_0\",\"TEXCOORD_1\","
@@ -94,7 +87,7 @@ static void three_sets_come_back(void **state)
     // Once more: they take the place of those before.
     const char *again = test_path(test_folder(), "again.glb");
     lightmap = bake(written, again);
-    alp_scene *last = load(context, again);
+    alp_scene *last = test_load(context, again);
     assert_int_equal(alp_scene_get_surface(last, 0).uv_sets, 3);
     check_sets(last, lightmap, 0, 3, 0.0);
     check_blend(last, lightmap);
@@ -103,9 +96,9 @@ static void three_sets_come_back(void **state)
     // Of a file that does not say what is ours all stays, and one set is free still.
     quad_unmark(once);
     alp_scene_destroy(written);
-    written = load(context, once);
+    written = test_load(context, once);
     lightmap = bake(written, twice);
-    last = load(context, twice);
+    last = test_load(context, twice);
     check_sets(last, lightmap, 3, 3, 0.0); // two of them behind the sets
     assert_int_equal(alp_scene_get_surface(last, 0).uv_sets, 4);
     check_blend(last, lightmap);
@@ -127,14 +120,14 @@ static void a_map_of_one_set_ends_the_blend(void **state)
     alp_context *context = test_context(2);
     const char *folder = quad_folder();
     const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = blend_options(once);
     options.maps = ALP_MAP_AO | ALP_MAP_LIGHT;
     options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
     options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
     options.light.samples = 4;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
-    alp_scene *written = load(context, once);
+    alp_scene *written = test_load(context, once);
     alp_diagnosis *diagnosis = NULL;
     ASSERT_OK(context, alp_scene_diagnose(written, NULL, &diagnosis));
     for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
@@ -149,7 +142,7 @@ static void a_map_of_one_set_ends_the_blend(void **state)
     ASSERT_OK(context, alp_bake(written, &options, &lightmap, NULL));
     assert_int_equal(alp_atlas_get_info(lightmap->atlas).mode, ALP_ATLAS_CHARTS);
     assert_true(file_has(twice, "\"frame\":\"object\",\"maps\":[\"MOZ_lightmap\"]}"));
-    alp_scene *last = load(context, twice);
+    alp_scene *last = test_load(context, twice);
     check_blend(last, lightmap);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(last);
@@ -181,16 +174,16 @@ static void light_after_occlusion_keeps_both(void **state)
     const char *folder = quad_folder();
     const char *once = test_path(folder, "once.glb"), *twice = test_path(folder, "twice.glb");
     const char *thrice = test_path(test_folder(), "thrice.glb");
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_lightmap *lightmap = bake(scene, once);
-    alp_scene *written = load(context, once);
+    alp_scene *written = test_load(context, once);
     bake_light(written, ALP_ATLAS_BLEND, twice);
     assert_true(file_has(twice,
                          "\"sets\":[\"TEXCOORD_3\",\"_ALPENGLOW_UV_1\",\"_ALPENGLOW_UV_2\"],"
                          "\"weights\":\"n*n\",\"frame\":\"object\","
                          "\"maps\":[\"MOZ_lightmap\"],\"earlier\":[{\"sets\":[\"TEXCOORD_0\","
                          "\"TEXCOORD_1\",\"TEXCOORD_2\"],\"maps\":[\"occlusionTexture\"]}]}"));
-    alp_scene *both = load(context, twice);
+    alp_scene *both = test_load(context, twice);
     assert_true(both->materials[0].occlusion_texture.blended);
     check_blend(both, lightmap); // corners are where they were: their numbers differ alone
     bake_light(both, ALP_ATLAS_BLEND, thrice);
@@ -219,7 +212,7 @@ static void a_blend_of_other_sets_is_not_read(void **state)
     (void)state;
     alp_context *context = test_context(2);
     const char *output = test_path(test_folder(), "once.gltf");
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_lightmap *lightmap = bake(scene, output);
     size_t size;
     char *text = (char *)test_read_file(output, &size);
@@ -227,7 +220,7 @@ static void a_blend_of_other_sets_is_not_read(void **state)
     assert_non_null(sets);
     sets[strlen("\"sets\":[\"TEXCOORD_")] = '3';
     test_write_file(output, text, size);
-    alp_scene *written = load(context, output);
+    alp_scene *written = test_load(context, output);
     assert_true(written->materials[0].occlusion_texture.image != ALPI_NONE);
     assert_false(written->materials[0].occlusion_texture.blended);
     free(text);
@@ -245,11 +238,11 @@ static void collada_has_three_sets(void **state)
         skip();
     }
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, path);
+    alp_scene *scene = test_load(context, path);
     const char *output = test_path(test_folder(), "sphere.dae");
     const uint32_t first = alp_scene_get_surface(scene, 0).uv_sets;
     alp_lightmap *lightmap = bake(scene, output);
-    alp_scene *written = load(context, output);
+    alp_scene *written = test_load(context, output);
     assert_int_equal(alp_scene_get_surface(written, 0).uv_sets, first + 3);
     check_sets(written, lightmap, first, 3, 1e-6); // v is turned over: rounding
     for (uint32_t set = 0; set < first + 3; set++) {
@@ -267,7 +260,7 @@ static void what_has_one_set_is_refused(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = blend_options(test_path(test_folder(), "a.obj"));
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
     assert_non_null(strstr(alp_context_message(context), "three coordinate sets"));
@@ -286,7 +279,7 @@ static void light_and_occlusion_keep_their_sums(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_report reports[2];
     for (int i = 0; i < 2; i++) {
         alp_bake_options options = blend_options(NULL);

@@ -61,13 +61,6 @@ static const char *write_asset(alp_context *context)
     return path;
 }
 
-static alp_scene *load(alp_context *context, const char *path)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
-    return scene;
-}
-
 static const alpi_gltf_document *document_of(const alp_scene *scene)
 {
     return scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
@@ -99,7 +92,7 @@ static void instances_share_one_map(void **state)
     (void)state;
     alp_context *context = test_context(2);
     const char *path = write_asset(context);
-    alp_scene *scene = load(context, path);
+    alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
     options.ao_self = true;
     options.atlas.size = 128;
@@ -122,7 +115,7 @@ static void instances_share_one_map(void **state)
     ASSERT_NEAR(area, 18.0 * 18.0 + 6.0, 1e-3); // and no other
     quad_list(path, options.output);
 
-    alp_scene *baked = load(context, options.output);
+    alp_scene *baked = test_load(context, options.output);
     assert_int_equal(baked->triangle_count, scene->triangle_count);
     assert_int_equal(alpi_gltf_count(document_of(baked), "meshes"), 2);
     assert_int_equal(alpi_gltf_count(document_of(baked), "materials"), 1);
@@ -148,14 +141,14 @@ static void what_is_not_baked_stays_as_it_was(void **state)
     (void)state;
     alp_context *context = test_context(2);
     const char *path = write_asset(context);
-    alp_scene *scene = load(context, path);
+    alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
     options.only = "Kiste [14]";
     options.occluders = "Boden";
     options.output = baked_path(path);
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
     quad_list(path, options.output);
-    alp_scene *baked = load(context, options.output);
+    alp_scene *baked = test_load(context, options.output);
     const alpi_gltf_document *before = document_of(scene), *after = document_of(baked);
     assert_string_equal(text_at(baked, "meshes", 0), text_at(scene, "meshes", 0));
     assert_string_equal(text_at(baked, "meshes", 1), text_at(scene, "meshes", 1));
@@ -193,14 +186,14 @@ static void a_kept_set_is_judged_by_what_is_baked(void **state)
     // Baked with one map for all boxes, the set overlaps itself for a bake of all of them.
     alp_context *context = test_context(2);
     const char *path = write_asset(context);
-    alp_scene *scene = load(context, path);
+    alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
     options.ao_self = true;
     options.atlas.size = 128;
     options.output = baked_path(path);
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
     alp_scene_destroy(scene);
-    scene = load(context, options.output);
+    scene = test_load(context, options.output);
     scene->uvs[1] = scene->uvs[0]; // as if it were the second set
     for (uint32_t s = 0; s < scene->surface_count; s++) {
         scene->surfaces[s].uv_sets = 2;

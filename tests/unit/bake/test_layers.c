@@ -13,13 +13,6 @@
 
 enum { SIZE = 48 };
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 static alp_lamp lamp_at(float x, float y, float z, float candela, float red)
 {
     alp_lamp lamp = alp_lamp_default();
@@ -92,7 +85,8 @@ static void layers_add_up_to_the_whole(void **state)
     (void)state;
     enum { ADAPTIVE, EVERY_TEXEL, ROUNDS, HEMICUBES, DIRECT_ONLY, BOUNCED_ONLY, WAYS };
     alp_context *context = test_context(2), *alone = test_context(1);
-    alp_scene *scene = load(context, "builtin:cornell"), *same = load(alone, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell"),
+              *same = test_load(alone, "builtin:cornell");
     const alp_lamp lamps[] = {lamp_at(-0.2f, 0.1f, 0.2f, 0.4f, 0.5f)};
     for (int way = 0; way < WAYS; way++) {
         alp_bake_options o = layer_options(lamps, 1);
@@ -305,7 +299,7 @@ static void warnings_are_told_once(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alpi_light lamp = {.kind = ALPI_LIGHT_POINT, .intensity = -1.0f};
     test_lit_set_lamps(scene, &lamp, 1);
     const alp_image_info info = {8, 4, 3, ALP_COMPONENT_FLOAT};

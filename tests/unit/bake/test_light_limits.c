@@ -7,23 +7,6 @@
 
 enum { SIZE = 64 };
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
-static alp_bake_options light_options(uint32_t size)
-{
-    alp_bake_options options = alp_bake_options_default();
-    options.atlas.size = size;
-    options.atlas.mode = ALP_ATLAS_CHARTS;
-    options.maps = ALP_MAP_LIGHT;
-    options.light.samples = 65536;
-    return options;
-}
-
 /// A map of light that is whole: known, not negative, not black.
 static void check_map(const alp_lightmap *lightmap, const alp_bake_report *report)
 {
@@ -42,9 +25,9 @@ static void time_limit_ends_with_whole_rounds(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (int both = 0; both < 2; both++) {
-        alp_bake_options options = light_options(SIZE);
+        alp_bake_options options = test_light_options(SIZE);
         options.maps |= both ? ALP_MAP_AO : 0u;
         options.occlusion.samples = 65536;
         options.sampling.time_limit = 0.2;
@@ -69,8 +52,8 @@ static void no_time_is_no_light(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(512);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_bake_options options = test_light_options(512);
     options.sampling.time_limit = 1e-9;
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(context), "time limit"));
@@ -103,8 +86,8 @@ static void what_is_cancelled_may_be_kept(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(SIZE);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_bake_options options = test_light_options(SIZE);
     impatience i = {.left = 40}; // 20 times a second
     options.progress = lose_patience;
     options.progress_user = &i;
@@ -144,8 +127,8 @@ static void light_that_is_not_denoised_is_kept(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(SIZE);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_bake_options options = test_light_options(SIZE);
     options.light.samples = 128;
     options.sampling.keep_partial = true;
     options.sampling.accuracy = ALP_ADAPTIVE_OFF; // as what is to be denoised

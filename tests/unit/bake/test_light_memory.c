@@ -6,23 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
-static alp_bake_options light_options(uint32_t size)
-{
-    alp_bake_options options = alp_bake_options_default();
-    options.atlas.size = size;
-    options.atlas.mode = ALP_ATLAS_CHARTS;
-    options.maps = ALP_MAP_LIGHT;
-    options.light.samples = 65536;
-    return options;
-}
-
 static void memory_of_light_is_known_beforehand(void **state)
 {
     (void)state;
@@ -40,9 +23,9 @@ static void memory_of_light_is_known_beforehand(void **state)
                  {"builtin:cornell", 256, 0.2f, ALP_DIRECT_ON, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_context *context = test_context(2);
-        alp_scene *scene = load(context, cases[i].scene);
+        alp_scene *scene = test_load(context, cases[i].scene);
         const double loaded = (double)alp_context_peak_memory(context);
-        alp_bake_options options = light_options(cases[i].size);
+        alp_bake_options options = test_light_options(cases[i].size);
         options.light.samples = 32;
         options.light.error = cases[i].error;
         options.light.direct = cases[i].direct;
@@ -72,9 +55,9 @@ static void memory_limit_is_kept(void **state)
     int kept = 0, traced_again = 0, refused = 0;
     for (double limit = 6.0; limit > 1.0; limit *= 0.8) {
         alp_context *context = test_context(2);
-        alp_scene *scene = load(context, "builtin:cornell");
+        alp_scene *scene = test_load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);
-        alp_bake_options options = light_options(128);
+        alp_bake_options options = test_light_options(128);
         options.light.samples = 256;
         options.sampling.memory_limit = (uint64_t)(limit * 0x1p20);
         alp_bake_report report;
@@ -118,9 +101,9 @@ static void memory_limit_is_kept_by_layers(void **state)
     int refused = 0;
     for (double limit = 20.0; limit > 2.0; limit *= 0.7) {
         alp_context *context = test_context(2);
-        alp_scene *scene = load(context, "builtin:cornell");
+        alp_scene *scene = test_load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);
-        alp_bake_options options = light_options(128);
+        alp_bake_options options = test_light_options(128);
         options.light.samples = 512;
         options.light.layers = true;
         options.sampling.memory_limit = (uint64_t)(limit * 0x1p20);

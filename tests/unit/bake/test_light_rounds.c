@@ -4,32 +4,14 @@
 
 enum { SIZE = 64 };
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
-static alp_bake_options light_options(uint32_t size)
-{
-    alp_bake_options options = alp_bake_options_default();
-    options.atlas.size = size;
-    options.atlas.mode = ALP_ATLAS_CHARTS;
-    options.maps = ALP_MAP_LIGHT;
-    options.sampling.keep_partial = true;
-    return options;
-}
-
 /// Rounds that double until the samples are there have the same mean as one round of them.
 static void rounds_agree_with_one(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(SIZE);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_bake_options options = test_light_options(SIZE);
     options.light.samples = 256;
-    options.sampling.keep_partial = false;
     alp_bake_report once, rounds;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &once));
     options.sampling.keep_partial = true;
@@ -47,8 +29,9 @@ static void rounds_send_what_is_given(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
-    alp_bake_options options = light_options(40);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_bake_options options = test_light_options(40);
+    options.sampling.keep_partial = true;
     static const uint32_t given[] = {672, 1440, 1728, 2784};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
         alp_bake_report report;

@@ -9,13 +9,6 @@
 
 enum { SIZE = 64, ALL = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE };
 
-static alp_scene *load(alp_context *context, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 static alp_bake_options small_options(unsigned maps)
 {
     alp_bake_options options = alp_bake_options_default();
@@ -57,7 +50,7 @@ static void maps_are_written_and_handed_out(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const char *folder = test_folder();
     alp_bake_options options = small_options(ALL);
     options.maps_folder = folder;
@@ -120,7 +113,7 @@ static void memory_is_known_beforehand(void **state)
     const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_BENT, ALP_MAP_AO | ALP_MAP_OBSCURANCE, ALL};
     for (int i = 0; i < 3; i++) {
         alp_context *context = test_context(2);
-        alp_scene *scene = load(context, "builtin:furnace");
+        alp_scene *scene = test_load(context, "builtin:furnace");
         alp_bake_options options = small_options(maps[i]);
         options.atlas.size = 512;
         options.occlusion.samples = 1;
@@ -140,7 +133,7 @@ static void side_maps_leave_occlusion_as_it_is(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:torus-plane");
+    alp_scene *scene = test_load(context, "builtin:torus-plane");
     alp_lightmap *alone = NULL, *all = NULL;
     alp_bake_report reports[2];
     alp_bake_options options = small_options(ALP_MAP_AO);
@@ -163,7 +156,7 @@ static void objects_alone_see_no_other(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALL);
     options.ao_self = true;
     alp_lightmap *lightmap = NULL;
@@ -184,7 +177,7 @@ static void only_what_is_asked_for_is_written(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     const char *folder = test_folder();
     alp_bake_options options = small_options(ALP_MAP_BENT);
     options.maps_folder = folder;
@@ -204,7 +197,7 @@ static void a_map_cut_off_has_bent_normals_where_it_has_values(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = small_options(ALP_MAP_AO | ALP_MAP_BENT);
     options.sampling.time_limit = 0.02;
     options.occlusion.samples = 65536;
@@ -235,7 +228,7 @@ static void senseless_combinations_are_refused(void **state)
 {
     (void)state;
     alp_context *context = test_context(1);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(0);
     expect_refused(scene, &options);
     options.maps = 16;
@@ -277,7 +270,7 @@ static void the_sun_on_a_plane(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALP_MAP_LIGHT);
     options.maps_folder = test_folder();
     options.light.bounces = 0;
@@ -328,7 +321,7 @@ static void obscurance_can_be_cancelled(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    alp_scene *scene = load(context, "builtin:sphere-plane");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALL);
     options.occlusion.samples = 1024; // long enough to be asked
     options.progress = stop_at_obscurance;
@@ -343,7 +336,7 @@ static void every_allocation_may_fail(void **state)
     int left = 0;
     alp_context *context = test_context_failing(&left);
     left = 1 << 30;
-    alp_scene *scene = load(context, "builtin:cornell"); // few triangles, few charts
+    alp_scene *scene = test_load(context, "builtin:cornell"); // few triangles, few charts
     alp_bake_options options = small_options(ALL);
     options.atlas.size = 24;
     options.occlusion.samples = 4;
