@@ -92,6 +92,8 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, uint32_t rays, double *noise);
 
+/// Whether texels are interpolated, in rounds of all, and of direct light.
+bool alpi_light_is_adaptive(const alp_bake_options *options);
 /// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
 bool alpi_light_meets_solved(const alpi_radiosity_options *options);
 /// Error of a solution by one ray of each block, over the mean of the light: it falls with the root

@@ -71,7 +71,7 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
 /// Plans as for a round after one that found what the trial did. @param rays out: of a texel
 static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p, double *rays)
 {
-    const bool adaptive = alpi_light_round_is_adaptive(r);
+    const bool adaptive = alpi_light_is_adaptive(&r->job->options);
     uint32_t list[TRIAL_TEXELS];
     const uint32_t count = choose(r, list);
     r->sending = (adaptive ? SENDING_SHARE : 1.0) * r->task->count;

@@ -18,12 +18,6 @@ uint32_t alpi_light_round_most_rays(const alp_light_options *o)
                            : alpi_cosine_rays_samples(o->samples, ALPI_LIGHT_REPLICATES);
 }
 
-bool alpi_light_round_is_adaptive(const alpi_light_round_state *r)
-{
-    return r->fixed == NULL && !r->job->options.light.denoise &&
-           r->job->options.sampling.accuracy != ALP_ADAPTIVE_OFF;
-}
-
 // --- errors --------------------------------------------------------------------------------------
 
 /// Texels of which something is summed.

@@ -44,8 +44,6 @@ typedef struct alpi_light_round_state {
     bool cut_off;                       // by the clock, or by who watches
 } alpi_light_round_state;
 
-/// Whether texels are interpolated in rounds of all.
-bool alpi_light_round_is_adaptive(const alpi_light_round_state *round);
 /// The most rays of a texel.
 uint32_t alpi_light_round_most_rays(const alp_light_options *options);
 

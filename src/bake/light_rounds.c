@@ -77,7 +77,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
     alpi_bounced_options options = {
         .gather = gather,
         .near = job->validity.near,
-        .adaptive = all && alpi_light_round_is_adaptive(r),
+        .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
         .beside = beside,
@@ -318,7 +318,7 @@ static alp_result begin(alpi_light_round_state *r)
                                     .limit = rays,
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
-                                               (direct * fmax(r->task->count, 1.0))};
+                                               (direct * fmax(r->solution->direct_gathered, 1.0))};
     if (rounds) {
         ALP_TRY(start_direct(r));
     }

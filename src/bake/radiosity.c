@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/counted_emitters.h"
+#include "maps/direct_map.h"
 #include "maps/radiosity.h"
 #include "maps/solution.h"
 #include "transport/cosine_rays.h"
@@ -40,6 +41,12 @@ static uint32_t find_direct_samples(const alp_light_options *o)
     const double error = find_error(o);
     const double samples = error > 0.0 ? LEAST * pow(DIRECT_SHARE / error, 2.0) : LEAST;
     return (uint32_t)fmin(fmax(samples, LEAST), MOST);
+}
+
+bool alpi_light_is_adaptive(const alp_bake_options *o)
+{
+    return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
+           o->sampling.accuracy != ALP_ADAPTIVE_OFF;
 }
 
 bool alpi_light_has_fine_blocks(const alp_light_options *options)
@@ -207,6 +214,12 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
+/// Direct light is interpolated where bounced light may be, and to an error that is known.
+static double find_direct_error(const alpi_bake_job *job)
+{
+    return alpi_light_is_adaptive(&job->options) ? (double)job->options.light.error : 0.0;
+}
+
 static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g,
                                const alpi_lighting *direct)
 {
@@ -226,6 +239,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.bounces = o->light.bounces;
     options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
+    options.direct_error = find_direct_error(job);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
@@ -258,8 +272,10 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
     }
     alpi_direct_output output = {.values = r->direct, .directional = r->directional};
     const double began = alpi_seconds();
-    ALP_TRY(alpi_radiosity_direct(r, t->order, t->count, r->options.direct_samples, r->options.seed,
-                                  &t->progress, &output));
+    const alpi_direct_map_options options = {
+        .lattice = t->lattice, .near = job->validity.near, .error = find_direct_error(job)};
+    ALP_TRY(alpi_direct_map(r, &options, t->order, t->count, &t->progress, &output,
+                            &r->direct_gathered));
     r->direct_seconds = alpi_seconds() - began;
     r->rays += output.rays;
     return ALP_OK;

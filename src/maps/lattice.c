@@ -230,6 +230,20 @@ static float find_spread(const alpi_lattice *l, const alpi_stencil *s)
     return high - low;
 }
 
+/// In the middle of four; of the two along a border where the others are missing.
+static bool in_the_middle(const alpi_lattice *l, const centre *t, int h, alpi_stencil *s)
+{
+    const bool along_x = add_axis(l, t, h, 0, 0.5f, s);
+    const bool along_y = (along_x || l->along_borders) && add_axis(l, t, 0, h, 0.5f, s);
+    if (l->along_borders && along_x != along_y) {
+        for (uint32_t i = 0; i < s->count; i++) {
+            s->weights[i] *= 2.0f;
+        }
+        return true;
+    }
+    return along_x && along_y;
+}
+
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
 {
     const uint16_t *p = lattice->texels->pixels[texel];
@@ -245,18 +259,19 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
         if (!whole && pass == 4 && lattice->along_borders) {
             whole = add_axis(lattice, &c, across ? 0 : 2 * h, across ? 2 * h : 0, 1.0f, stencil);
         }
-    } else if (pass != 0) { // in the middle of four
-        const bool along_x = add_axis(lattice, &c, h, 0, 0.5f, stencil);
-        const bool along_y =
-            (along_x || lattice->along_borders) && add_axis(lattice, &c, 0, h, 0.5f, stencil);
-        whole = along_x && along_y;
-        if (lattice->along_borders && along_x != along_y) {
-            whole = true;
-            for (uint32_t i = 0; i < stencil->count; i++) {
-                stencil->weights[i] *= 2.0f;
-            }
-        }
+    } else if (pass != 0) {
+        whole = in_the_middle(lattice, &c, h, stencil);
     }
+    stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
+    return whole;
+}
+
+bool alpi_lattice_board_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
+{
+    const centre c = find_centre(lattice, texel);
+    stencil->count = 0;
+    stencil->bend = 0.0f;
+    const bool whole = in_the_middle(lattice, &c, 1, stencil);
     stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
     return whole;
 }
