@@ -145,7 +145,8 @@ typedef enum alp_emitters {
 /// lamps, and suns, one at a time). Blended and transmissive materials filter light on its way, see
 /// docs/conventions.md, "Sides".
 ///
-/// RAYS and HEMICUBE: radiosity. Direct light on every texel; its reflections are gathered by
+/// RAYS and HEMICUBE: radiosity. Direct light on every texel (RAYS for an error: on every second, and
+/// others where it is uneven); its reflections are gathered by
 /// blocks of 4 × 4 texels of one chart, pass after pass, until the bounces are done; then every
 /// texel gathers the last of them itself.
 /// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
