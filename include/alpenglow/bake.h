@@ -148,8 +148,8 @@ typedef enum alp_emitters {
 /// RAYS and HEMICUBE: radiosity. Direct light on every texel (RAYS for an error: on every second,
 /// and others where it is uneven); its reflections are gathered by blocks of 4 × 4 texels of one
 /// chart, pass after pass, until the bounces are done; then every texel gathers the last of them
-/// itself. Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the
-/// Interaction of
+/// itself.
+/// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
 /// Bias: within a block, light that has bounced is taken as even when it bounces again; docs/
