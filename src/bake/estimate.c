@@ -131,7 +131,7 @@ static double count_direct(const work_guess *g)
         mean = good ? samples : mean;
         *(good ? &high : &low) = 0.5 * (low + high);
     }
-    const bool between = alpi_light_is_adaptive(g->options) && g->options->light.error > 0.0f;
+    const bool between = alpi_light_direct_error(g->options) > 0.0;
     return mean - (between ? 1.0 - DIRECT_SHARE : 0.0) * ALPI_PILOT_DIRECT_SAMPLES;
 }
 

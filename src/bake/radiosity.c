@@ -49,6 +49,11 @@ bool alpi_light_is_adaptive(const alp_bake_options *o)
            o->sampling.accuracy != ALP_ADAPTIVE_OFF;
 }
 
+double alpi_light_direct_error(const alp_bake_options *o)
+{
+    return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;
+}
+
 bool alpi_light_has_fine_blocks(const alp_light_options *options)
 {
     return !(options->error >= 0.02f);
@@ -214,12 +219,6 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
     }
 }
 
-/// Direct light is interpolated where bounced light may be, and to an error that is known.
-static double find_direct_error(const alpi_bake_job *job)
-{
-    return alpi_light_is_adaptive(&job->options) ? (double)job->options.light.error : 0.0;
-}
-
 static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g,
                                const alpi_lighting *direct)
 {
@@ -239,7 +238,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.bounces = o->light.bounces;
     options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
-    options.direct_error = find_direct_error(job);
+    options.direct_error = alpi_light_direct_error(&job->options);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
@@ -272,8 +271,9 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
     }
     alpi_direct_output output = {.values = r->direct, .directional = r->directional};
     const double began = alpi_seconds();
-    const alpi_direct_map_options options = {
-        .lattice = t->lattice, .near = job->validity.near, .error = find_direct_error(job)};
+    const alpi_direct_map_options options = {.lattice = t->lattice,
+                                             .near = job->validity.near,
+                                             .error = alpi_light_direct_error(&job->options)};
     ALP_TRY(alpi_direct_map(r, &options, t->order, t->count, &t->progress, &output,
                             &r->direct_gathered));
     r->direct_seconds = alpi_seconds() - began;

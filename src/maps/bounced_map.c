@@ -43,11 +43,6 @@ static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
 
 // --- rays ----------------------------------------------------------------------------------------
 
-static float level_of(const alpi_reference_value *v)
-{
-    return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
-}
-
 static void scale_variance(const bounced_job *job, alpi_reference_value *v)
 {
     for (int k = 0; k < 3; k++) {
@@ -77,7 +72,7 @@ static alp_result trace_listed(bounced_job *job, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t t = job->list[i];
         job->lattice.states[t] = ALPI_TEXEL_TRACED;
-        job->lattice.values[t] = level_of(&g->values[t]);
+        job->lattice.values[t] = alpi_reference_level(&g->values[t]);
         scale_variance(job, &g->values[t]);
     }
     return ALP_OK;
@@ -265,7 +260,7 @@ static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sum
         const uint32_t t = job->options->order[i];
         const alpi_reference_value *v = &job->options->gather->values[t];
         if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
-            const double level = (double)level_of(v);
+            const double level = (double)alpi_reference_level(v);
             // Channels go up and down together.
             sums[0] +=
                 ((double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2]) / 3.0;

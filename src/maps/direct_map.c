@@ -37,11 +37,6 @@ static alp_result gather(direct_map *m, const uint32_t *list, uint32_t count)
                                  m->output);
 }
 
-static float level_of(const alpi_reference_value *v)
-{
-    return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
-}
-
 /// @param mean out: over the board
 static alp_result gather_board(direct_map *m, double *mean)
 {
@@ -56,7 +51,7 @@ static alp_result gather_board(direct_map *m, double *mean)
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t texel = m->some[i] - m->first;
         m->lattice.states[texel] = ALPI_TEXEL_TRACED;
-        m->lattice.values[texel] = level_of(&m->output->values[m->some[i]]);
+        m->lattice.values[texel] = alpi_reference_level(&m->output->values[m->some[i]]);
         sum += (double)m->lattice.values[texel];
     }
     *mean = sum / fmax(count, 1.0);

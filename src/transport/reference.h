@@ -51,6 +51,12 @@ typedef struct alpi_reference_value {
     float mean[3], variance[3];
 } alpi_reference_value;
 
+/// Mean of the channels.
+static inline float alpi_reference_level(const alpi_reference_value *v)
+{
+    return (v->mean[0] + v->mean[1] + v->mean[2]) * (1.0f / 3.0f);
+}
+
 /// Mean of replicates' means, and its variance by their spread.
 /// @param sums [replicates][3], each over `each` samples
 void alpi_reference_mean(const double (*sums)[3], uint32_t replicates, uint32_t each,
