@@ -1,24 +1,40 @@
 // SPDX-License-Identifier: MIT
-// A pool of pthreads that share one loop at a time through an atomic counter.
+// A pool of pthreads that share one loop at a time. Each begins with a part of its own of the ranges,
+// and takes those of others when it has none left: loops over the same items then mostly find on
+// their core what the loop before left there.
 #include "base/tasks.h"
 
 #include "base/memory.h"
 
 #include <pthread.h>
+#include <stdalign.h>
 #include <stdatomic.h>
 #include <time.h>
 
 static const double PROGRESS_INTERVAL = 0.05; // seconds between two calls of a progress callback
+// Seconds that a thread looks for the next loop, or for the end of this one, before it sleeps: to
+// be woken takes as long, and work comes in many short loops one after the other.
+static const double SPIN_LIMIT = 50e-6;
 
-/// One running loop. The body's failures are kept by range number, so that the one reported is the
-/// lowest whatever the order in which ranges ran.
+enum { PART_LIMIT = 64, CACHE_LINE = 64 };
+
+/// A part of a loop's ranges, those from `next` to `end` − 1 being left.
+typedef struct loop_part {
+    alignas(CACHE_LINE) _Atomic uint64_t next; // all workers step past the end: 32 bits could wrap
+    uint32_t end;
+} loop_part;
+
+/// One running loop. The body's failures are kept by range number, and ranges below one that failed
+/// still run, so that the failure reported is the lowest whatever the order in which ranges ran.
 typedef struct alpi_loop {
     alpi_task_fn *body;
     void *user;
     uint32_t count, grain;
-    _Atomic uint64_t next; // every worker steps past the end once: 32 bits could wrap
+    uint32_t part_count;
+    loop_part parts[PART_LIMIT];
+    _Atomic uint32_t limit; // items from here on are not worked on any more
     _Atomic uint32_t done;
-    _Atomic bool stop;
+    _Atomic bool stop;    // the user cancelled
     pthread_mutex_t lock; // guards the failure
     uint32_t failed_begin;
     alp_result failure;
@@ -31,10 +47,10 @@ struct alpi_pool {
     alp_context *context;
     pthread_mutex_t lock;
     pthread_cond_t wake, finished;
-    loop *current;       // NULL between loops
-    uint64_t generation; // counts loops, so that a worker joins each once
-    uint32_t busy;       // workers inside the current loop
-    bool quit;
+    loop *current;               // NULL between loops
+    _Atomic uint64_t generation; // counts loops, so that a worker joins each once
+    _Atomic uint32_t busy;       // workers inside the current loop
+    _Atomic bool quit;
     uint32_t thread_count;
     struct pool_thread {
         struct alpi_pool *pool;
@@ -80,9 +96,9 @@ static void loop_fail(loop *l, uint32_t begin, alp_result failure)
     if (l->failure == ALP_OK || begin < l->failed_begin) {
         l->failure = failure;
         l->failed_begin = begin;
+        atomic_store_explicit(&l->limit, begin, memory_order_relaxed);
     }
     pthread_mutex_unlock(&l->lock);
-    atomic_store_explicit(&l->stop, true, memory_order_relaxed);
 }
 
 /// On the calling thread only: tells the user, at most every PROGRESS_INTERVAL; nothing any more
@@ -107,6 +123,7 @@ static void loop_report(loop *l, bool always)
                            rate > 0.0 ? (total - done) / rate : -1.0};
     if (!p->callback(p->user, &report)) {
         loop_fail(l, UINT32_MAX, ALP_ERROR_CANCELLED);
+        atomic_store_explicit(&l->stop, true, memory_order_relaxed);
     }
 }
 
@@ -131,19 +148,69 @@ static void loop_run_range(loop *l, uint32_t begin, uint32_t end, uint32_t worke
     atomic_fetch_add_explicit(&l->done, end - begin, memory_order_relaxed);
 }
 
-static void loop_work(loop *l, uint32_t worker)
+/// Splits the ranges evenly, one part for each worker.
+static void loop_split(loop *l, uint32_t workers)
+{
+    const uint32_t ranges = (l->count - 1) / l->grain + 1;
+    l->part_count = workers < PART_LIMIT ? workers : PART_LIMIT;
+    for (uint32_t i = 0; i < l->part_count; i++) {
+        const uint64_t first = (uint64_t)ranges * i / l->part_count;
+        const uint64_t end = (uint64_t)ranges * (i + 1) / l->part_count * l->grain;
+        atomic_init(&l->parts[i].next, first * l->grain);
+        l->parts[i].end = end < l->count ? (uint32_t)end : l->count;
+    }
+}
+
+/// Works on what is left of a part.
+static void loop_work_on(loop *l, loop_part *part, uint32_t worker)
 {
     while (!atomic_load_explicit(&l->stop, memory_order_relaxed)) {
-        uint64_t next = atomic_fetch_add_explicit(&l->next, l->grain, memory_order_relaxed);
-        if (next >= l->count) {
+        uint64_t next = atomic_fetch_add_explicit(&part->next, l->grain, memory_order_relaxed);
+        if (next >= part->end || next >= atomic_load_explicit(&l->limit, memory_order_relaxed)) {
             break;
         }
         uint32_t begin = (uint32_t)next;
-        uint32_t end = l->count - begin < l->grain ? l->count : begin + l->grain;
+        uint32_t end = part->end - begin < l->grain ? part->end : begin + l->grain;
         loop_run_range(l, begin, end, worker);
         if (pthread_equal(pthread_self(), l->caller)) {
             loop_report(l, false);
         }
+    }
+}
+
+/// The worker's own part first, then what is left of the others.
+static void loop_work(loop *l, uint32_t worker)
+{
+    for (uint32_t i = 0; i < l->part_count; i++) {
+        loop_work_on(l, &l->parts[(worker + i) % l->part_count], worker);
+    }
+}
+
+static void pause_briefly(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+/// Waits awake for a loop that was not seen yet.
+static void look_for_loop(struct alpi_pool *pool, uint64_t seen)
+{
+    const double began = alpi_seconds();
+    while (atomic_load_explicit(&pool->generation, memory_order_relaxed) == seen &&
+           !atomic_load_explicit(&pool->quit, memory_order_relaxed) &&
+           alpi_seconds() - began < SPIN_LIMIT) {
+        pause_briefly();
+    }
+}
+
+/// Waits awake for the others to end.
+static void look_for_end(struct alpi_pool *pool)
+{
+    const double began = alpi_seconds();
+    while (atomic_load_explicit(&pool->busy, memory_order_relaxed) > 0 &&
+           alpi_seconds() - began < SPIN_LIMIT) {
+        pause_briefly();
     }
 }
 
@@ -152,13 +219,15 @@ static void *pool_thread_main(void *user)
     struct pool_thread *thread = user;
     struct alpi_pool *pool = thread->pool;
     uint64_t seen = 0;
-    pthread_mutex_lock(&pool->lock);
     for (;;) {
+        look_for_loop(pool, seen);
+        pthread_mutex_lock(&pool->lock);
         while (!pool->quit && (pool->current == NULL || pool->generation == seen)) {
             pthread_cond_wait(&pool->wake, &pool->lock);
         }
         if (pool->quit) {
-            break;
+            pthread_mutex_unlock(&pool->lock);
+            return NULL;
         }
         seen = pool->generation;
         loop *l = pool->current;
@@ -168,9 +237,8 @@ static void *pool_thread_main(void *user)
         pthread_mutex_lock(&pool->lock);
         pool->busy--;
         pthread_cond_signal(&pool->finished);
+        pthread_mutex_unlock(&pool->lock);
     }
-    pthread_mutex_unlock(&pool->lock);
-    return NULL;
 }
 
 struct alpi_pool *alpi_pool_create(alp_context *context, uint32_t worker_count)
@@ -229,6 +297,7 @@ static void pool_run(struct alpi_pool *pool, loop *l)
     pthread_cond_broadcast(&pool->wake);
     pthread_mutex_unlock(&pool->lock);
     loop_work(l, 0);
+    look_for_end(pool);
     pthread_mutex_lock(&pool->lock);
     pool->current = NULL; // a worker that wakes only now must not join
     while (pool->busy > 0) {
@@ -252,7 +321,8 @@ static void pool_run(struct alpi_pool *pool, loop *l)
 static void host_body(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     loop *l = user;
-    while (begin < end && !atomic_load_explicit(&l->stop, memory_order_relaxed)) {
+    while (begin < end && begin < atomic_load_explicit(&l->limit, memory_order_relaxed) &&
+           !atomic_load_explicit(&l->stop, memory_order_relaxed)) {
         uint32_t stop = end - begin < l->grain ? end : begin + l->grain;
         loop_run_range(l, begin, stop, worker);
         if (pthread_equal(pthread_self(), l->caller)) {
@@ -272,6 +342,8 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
               .user = user,
               .count = count,
               .grain = grain > 0 ? grain : 1,
+              .limit = UINT32_MAX,
+              .failed_begin = UINT32_MAX,
               .progress = progress,
               .caller = pthread_self(),
               .started = alpi_seconds()};
@@ -284,8 +356,10 @@ alp_result alpi_parallel_for(alp_context *context, uint32_t count, uint32_t grai
     if (options->parallel_for != NULL) {
         options->parallel_for(options->parallel_user, count, l.grain, host_body, &l);
     } else if (count > l.grain && (pool = alpi_context_pool(context)) != NULL) {
+        loop_split(&l, pool->thread_count + 1);
         pool_run(pool, &l);
     } else {
+        loop_split(&l, 1);
         loop_work(&l, 0);
     }
     if (l.failure == ALP_OK) {

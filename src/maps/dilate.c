@@ -53,22 +53,40 @@ static alp_result spread(wave *w, alp_context *context)
     return ALP_OK;
 }
 
+/// Marks what is covered, and lines up those of it that have an empty texel beside them: the others
+/// reach nothing.
+static alp_result start(wave *w, alp_context *context)
+{
+    const size_t width = w->width, count = width * w->height;
+    for (size_t i = 0; i < count; i++) {
+        w->filled[i] = w->page[4 * i + 3] > 0.0f;
+    }
+    for (size_t y = 0; y < w->height; y++) {
+        const uint8_t *row = w->filled + y * width;
+        const uint8_t *above = y > 0 ? row - width : row;
+        const uint8_t *below = y + 1 < w->height ? row + width : row;
+        for (size_t x = 0; x < width; x++) {
+            const bool left = x == 0 || row[x - 1] != 0, right = x + 1 == width || row[x + 1] != 0;
+            if (row[x] != 0 && !(left && right && above[x] != 0 && below[x] != 0)) {
+                w->queue[w->count++] = (uint32_t)(y * width + x);
+            }
+        }
+        ALP_TRY(alpi_tick(context, "dilation", 0, count));
+    }
+    return ALP_OK;
+}
+
 alp_result alpi_dilate(alp_context *context, float *page, uint32_t width, uint32_t height)
 {
     assert(width > 0 && height > 0);
-    size_t count = (size_t)width * height;
+    const size_t count = (size_t)width * height;
     wave w = {.page = page, .width = width, .height = height};
     w.filled = ALPI_NEW(context, uint8_t, count);
     w.queue = ALPI_NEW(context, uint32_t, count);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     if (w.filled != NULL && w.queue != NULL) {
-        for (size_t i = 0; i < count; i++) {
-            if (page[4 * i + 3] > 0.0f) {
-                w.filled[i] = 1;
-                w.queue[w.count++] = (uint32_t)i;
-            }
-        }
-        result = spread(&w, context);
+        result = start(&w, context);
+        result = result == ALP_OK ? spread(&w, context) : result;
     }
     alpi_release(context, w.filled);
     alpi_release(context, w.queue);

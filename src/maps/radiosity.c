@@ -10,6 +10,8 @@
 #include <string.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
+// What a trial leaves: it tells how many rays to send, to a power of two.
+static const double TRIAL_TOLERANCE = 0.01;
 
 typedef struct solver {
     alpi_radiosity *r;
@@ -365,19 +367,19 @@ static double left_over(double change, double former)
     return change * ratio / (1.0 - ratio);
 }
 
-static alp_result run_passes(solver *s)
+/// Until what is left is below the tolerance, or all bounces that are asked for are in.
+static alp_result run_passes(solver *s, double tolerance)
 {
     const alpi_radiosity_options *o = &s->r->options;
-    const bool converge = o->bounces > ALPI_RADIOSITY_PASS_LIMIT;
-    const uint32_t limit = converge ? ALPI_RADIOSITY_PASS_LIMIT : o->bounces;
+    const uint32_t limit =
+        o->bounces < ALPI_RADIOSITY_PASS_LIMIT ? o->bounces : ALPI_RADIOSITY_PASS_LIMIT;
     double change = 0.0, former = 0.0, sums[ALPI_SUM_LIMIT] = {0.0};
     ALP_TRY(alpi_parallel_sum(o->context, s->r->receiver_count, sum_first_light, s->r, &s->progress,
                               sums));
     s->first_light = sums[0];
     while (s->r->passes < limit) {
         ALP_TRY(pass(s, &change));
-        const bool settled =
-            converge && s->r->passes > 1 && left_over(change, former) < o->tolerance;
+        const bool settled = s->r->passes > 1 && left_over(change, former) < tolerance;
         if (change == 0.0 || settled) {
             break;
         }
@@ -436,7 +438,7 @@ static alp_result try_few(solver *s, bool *done)
     double sums[ALPI_SUM_LIMIT] = {0.0};
     r->options.gatherer = trial->gatherer;
     ALP_TRY(find_receivers(s));
-    ALP_TRY(run_passes(s));
+    ALP_TRY(run_passes(s, TRIAL_TOLERANCE));
     ALP_TRY(alpi_parallel_sum(r->options.context, r->patches.block_count, sum_trial, r,
                               &s->progress, sums));
     const double all = sums[1] + sums[2] + sums[3];
@@ -510,7 +512,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     }
     if (!done) {
         ALP_TRY(find_receivers(s));
-        ALP_TRY(run_passes(s));
+        ALP_TRY(run_passes(s, s->r->options.tolerance));
     }
     ALP_TRY(alpi_radiosity_find_energy(s->r, &s->progress));
     return run_layers(s);

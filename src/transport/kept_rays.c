@@ -6,7 +6,7 @@
 
 #include <assert.h>
 
-enum { RAYS_PER_RANGE = 4096 };
+enum { TRACED_PER_RANGE = 1024, ADDED_PER_RANGE = 4096 }; // rays
 enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
 
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
@@ -93,13 +93,14 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-/// Runs a body over the listed receivers.
-static alp_result run(kept_job *k, alpi_task_fn *body, const alpi_task_progress *progress)
+/// Runs a body over the listed receivers, so many rays at a time.
+static alp_result run(kept_job *k, uint32_t together, alpi_task_fn *body,
+                      const alpi_task_progress *progress)
 {
     const uint32_t rays = k->kept->rays;
     assert(!k->kept->by_list || k->job->count <= k->kept->receivers);
-    return alpi_parallel_for(k->job->context, k->job->count,
-                             rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1, body, k, progress);
+    return alpi_parallel_for(k->job->context, k->job->count, rays < together ? together / rays : 1,
+                             body, k, progress);
 }
 
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
@@ -110,7 +111,7 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)kept->rays;
     told.units_are_rays = true;
-    return run(&k, trace_range, &told);
+    return run(&k, TRACED_PER_RANGE, trace_range, &told);
 }
 
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -140,5 +141,5 @@ alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_ray
 {
     alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
-    return run(&k, gather_range, progress);
+    return run(&k, ADDED_PER_RANGE, gather_range, progress);
 }
