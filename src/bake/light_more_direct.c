@@ -20,7 +20,7 @@
 /// error that is wanted.
 static const double NOISY = 0.25;
 /// Texels of which the scale is found: so many are as good as all.
-enum { ASKED = 1 << 11 };
+enum { ASKED = 1 << 11, TEXELS_PER_RANGE = 1 << 10 };
 enum {
     LEAST = ALPI_DIRECT_REPLICATES, // samples: of class 0
     CLASSES = 13,                   // each has twice as many as the one before
@@ -198,7 +198,8 @@ static double foresee(const direct_deal *deal, const asked_needs *asked, double 
     *samples = 0.0;
     for (uint32_t i = 0; i < asked->count; i++) {
         const double had = asked->needs[i].had, more = samples_of(class_of(deal, &asked->needs[i]));
-        sum += asked->needs[i].variance * pow(had / (had + more), 2.0 * deal->direct->power);
+        const double left = more > 0.0 ? pow(had / (had + more), 2.0 * deal->direct->power) : 1.0;
+        sum += asked->needs[i].variance * left;
         *samples += asked->stands_for * more;
     }
     return sum * asked->stands_for / fmax(deal->direct->task->count, 1.0);
@@ -289,16 +290,25 @@ static alp_result gather(const direct_deal *deal, uint32_t count, uint32_t more)
     return ALP_OK;
 }
 
-static alp_result gather_classes(direct_deal *deal, bool *dealt)
+static alp_result find_classes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     enum { NONE = CLASSES };
-    double samples = 0.0;
-    const double began = alpi_seconds();
-    for (uint32_t i = 0; i < deal->count; i++) {
+    const direct_deal *deal = user;
+    (void)worker;
+    for (uint32_t i = begin; i < end; i++) {
         const texel_need n = find_need(deal, deal->list[i]);
         const int k = n.variance > 0.0 ? class_of(deal, &n) : -1;
         deal->marks[deal->list[i]] = (uint8_t)(k < 0 ? NONE : k);
     }
+    return ALP_OK;
+}
+
+static alp_result gather_classes(direct_deal *deal, bool *dealt)
+{
+    double samples = 0.0;
+    const double began = alpi_seconds();
+    ALP_TRY(alpi_parallel_for(deal->direct->job->context, deal->count, TEXELS_PER_RANGE,
+                              find_classes, deal, NULL));
     for (int k = 0; k < CLASSES; k++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < deal->count; i++) {

@@ -134,7 +134,7 @@ uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t t
         return most;
     }
     const uint32_t rays = alpi_light_least_block_rays((double)options->error, texels, light);
-    return rays > TRIAL_RAYS ? TRIAL_RAYS + (rays < most ? rays : most) : TRIAL_RAYS;
+    return rays < most ? rays : most;
 }
 
 /// How blocks gather, and, by hemicubes, how texels do.

@@ -302,10 +302,28 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
     return count;
 }
 
+/// Whether any of the four beside a texel is traced, of whatever chart.
+static bool is_beside_traced(const alpi_lattice *l, const centre *c)
+{
+    const ptrdiff_t width = (ptrdiff_t)l->width;
+    const uint32_t beside[4] = {c->x > 0 ? c->at[-1] : ALPI_NONE,
+                                c->x + 1 < (int)l->width ? c->at[1] : ALPI_NONE,
+                                c->y > 0 ? c->at[-width] : ALPI_NONE,
+                                c->y + 1 < (int)l->height ? c->at[width] : ALPI_NONE};
+    bool any = false;
+    for (int i = 0; i < 4; i++) {
+        any = any || (beside[i] != ALPI_NONE && l->states[beside[i]] == ALPI_TEXEL_TRACED);
+    }
+    return any;
+}
+
 float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
 {
     static const int around[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const centre c = find_centre(lattice, texel);
+    if (!is_beside_traced(lattice, &c)) {
+        return 0.0f;
+    }
     const float value = lattice->values[texel];
     float step = 0.0f, sum = 0.0f;
     uint32_t count = 0;

@@ -112,7 +112,8 @@ static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
     if (!s->r->kept && !p->two_sided && !s->from.sky && p->texels->valid == NULL) {
         return ALP_OK;
     }
-    s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
+    s->r->rays +=
+        (uint64_t)count * (job.gatherer->packet_count * ALPI_PACKET - s->kept.known);
     return s->r->kept ? alpi_kept_rays_trace(&job, &s->progress, &s->kept)
                       : alpi_gather_irradiance(&job, &s->progress);
 }
@@ -162,16 +163,20 @@ static uint32_t add_seen_backs(solver *s)
     return count;
 }
 
-/// Makes room for the rays of all who may gather, where they may be kept. Those of a trial go
-/// first: the limit is for either, not for both.
+/// Makes room for the rays of all who may gather, where they may be kept. Those of a trial are the
+/// first of them, where there is room for both while they move; else they go first.
 static alp_result reserve_rays(solver *s)
 {
-    alpi_kept_rays_destroy(&s->kept);
     alpi_radiosity *r = s->r;
     const alpi_radiosity_options *o = &r->options;
     const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
-    r->kept = alpi_gather_meets_cells(&s->from) &&
-              alpi_kept_rays_size(o->gatherer) * room <= o->kept_limit;
+    const uint64_t each = alpi_kept_rays_size(o->gatherer);
+    const uint64_t tried = s->kept.rays * sizeof *s->kept.cells;
+    if (tried > 0 && (each + tried) * room <= o->kept_limit) {
+        return alpi_kept_rays_extend(o->gatherer, &s->kept);
+    }
+    alpi_kept_rays_destroy(&s->kept);
+    r->kept = alpi_gather_meets_cells(&s->from) && each * room <= o->kept_limit;
     return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
 }
 
@@ -198,6 +203,7 @@ static alp_result find_receivers(solver *s)
     const alpi_patches *p = &r->patches;
     ALP_TRY(reserve_rays(s));
     ALP_TRY(look_around(s, r->receivers, r->receiver_count));
+    s->kept.known = 0; // of those that are seen only now
     for (uint32_t count = add_seen_backs(s); count > 0; count = add_seen_backs(s)) {
         ALP_TRY(light_backs(s, s->new_receivers, count));
         ALP_TRY(look_around(s, s->new_receivers, count));

@@ -5,6 +5,7 @@
 #include "base/tasks.h"
 
 #include <assert.h>
+#include <string.h>
 
 enum { TRACED_PER_RANGE = 1024, ADDED_PER_RANGE = 4096 }; // rays
 enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
@@ -22,7 +23,29 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
     if (cells == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    *kept = (alpi_kept_rays){context, count, rays, cells, kept->by_list};
+    *kept = (alpi_kept_rays){.context = context,
+                             .receivers = count,
+                             .rays = rays,
+                             .cells = cells,
+                             .by_list = kept->by_list};
+    return ALP_OK;
+}
+
+alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept)
+{
+    const uint32_t before = kept->rays, rays = gatherer->packet_count * ALPI_PACKET;
+    assert(gatherer->replicates == 1 && gatherer->weights == NULL && rays >= before);
+    uint32_t *cells =
+        alpi_reallocate(kept->context, kept->cells, kept->receivers, rays * sizeof *cells);
+    if (cells == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (size_t i = kept->receivers; i-- > 0;) { // the last first: none is written over
+        memmove(cells + i * rays, cells + i * before, before * sizeof *cells);
+    }
+    kept->cells = cells;
+    kept->rays = rays;
+    kept->known = before;
     return ALP_OK;
 }
 
@@ -51,19 +74,28 @@ static uint32_t *rays_of(const kept_job *k, uint32_t i)
     return k->kept->cells + row * k->kept->rays;
 }
 
+/// Mean over all rays of a receiver, of that over those that are known and the sum that the others
+/// are to it.
+static void join(const kept_job *k, float *mean, double sum)
+{
+    const double share = (double)k->kept->known / k->kept->rays;
+    *mean = (float)(share * (double)*mean + sum);
+}
+
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const kept_job *k = user;
     const alpi_gather_job *job = k->job;
     const alpi_gatherer *g = job->gatherer;
+    const uint32_t known = k->kept->known / ALPI_PACKET;
     alpi_gather_packet packets[ALPI_GATHER_BATCH];
     vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
         uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
-        for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
+        for (uint32_t first = known; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
             g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
@@ -84,10 +116,10 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
             }
         }
         for (int c = 0; c < 3 && job->skies != NULL; c++) {
-            job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
+            join(k, &job->skies[receiver][c], ALPI_PI * sums.sky[c]);
         }
         for (int c = 0; c < 2 && job->lost != NULL; c++) {
-            job->lost[receiver][c] = (float)sums.lost[c];
+            join(k, &job->lost[receiver][c], sums.lost[c]);
         }
     }
     return ALP_OK;
@@ -109,7 +141,7 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
     alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    told.units_per_item = (double)kept->rays;
+    told.units_per_item = (double)(kept->rays - kept->known);
     told.units_are_rays = true;
     return run(&k, TRACED_PER_RANGE, trace_range, &told);
 }
