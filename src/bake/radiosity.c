@@ -43,6 +43,15 @@ static uint32_t find_direct_samples(const alp_light_options *o)
     return (uint32_t)fmin(fmax(samples, LEAST), MOST);
 }
 
+/// What is left out of all light where passes end is a bias, and mostly in a few places: of light
+/// that a sphere throws onto a plane, .06 % of the whole left out made .4 % of error.
+static double find_tolerance(const alp_light_options *o)
+{
+    static const double SHARE = 0.01, LEAST = 1e-4, MOST = 5e-4;
+    const double error = find_error(o);
+    return error > 0.0 ? fmin(SHARE * error, MOST) : LEAST;
+}
+
 bool alpi_light_is_adaptive(const alp_bake_options *o)
 {
     return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
@@ -54,9 +63,9 @@ double alpi_light_direct_error(const alp_bake_options *o)
     return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;
 }
 
-bool alpi_light_has_fine_blocks(const alp_light_options *options)
+bool alpi_light_is_rough(const alp_light_options *options)
 {
-    return !(options->error >= 0.02f);
+    return options->error >= 0.02f;
 }
 
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
@@ -70,8 +79,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         return ALPI_RADIOSITY_BLOCK_RAYS;
     }
     const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
-    const double size =
-        alpi_light_has_fine_blocks(options) ? TEXELS_PER_FINE_BLOCK : TEXELS_PER_BLOCK;
+    const double size = alpi_light_is_rough(options) ? TEXELS_PER_BLOCK : TEXELS_PER_FINE_BLOCK;
     const double each = fmax(all * size / fmax((double)texels, 1.0), about);
     uint32_t rays = FEWEST_RAYS;
     while (rays * sqrt(2.0) < each && rays < MOST_RAYS) { // the nearest power of two
@@ -229,13 +237,14 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.tracer = t->tracer;
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
-    options.blocks.fine = alpi_light_has_fine_blocks(&o->light);
+    options.blocks.fine = !alpi_light_is_rough(&o->light);
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
     options.counted = g->counts ? &g->texels : NULL;
     options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
+    options.tolerance = find_tolerance(&o->light);
     options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
     options.direct_error = alpi_light_direct_error(&job->options);

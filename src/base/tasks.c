@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A pool of pthreads that share one loop at a time. Each begins with a part of its own of the ranges,
-// and takes those of others when it has none left: loops over the same items then mostly find on
-// their core what the loop before left there.
+// A pool of pthreads that share one loop at a time. Each begins with a part of its own of the
+// ranges, and takes those of others when it has none left: loops over the same items then mostly
+// find on their core what the loop before left there.
 #include "base/tasks.h"
 
 #include "base/memory.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Parallel loops over a pool of pthreads. Ranges are handed out one at a time (dynamic), as a static
-// split of tiles over two threads was measured to gain nothing; but each worker has a part of them
-// that it takes first. No OpenMP and no C11 threads: both fail under gcc's thread sanitizer.
+// Parallel loops over a pool of pthreads. Ranges are handed out one at a time (dynamic), as a
+// static split of tiles over two threads was measured to gain nothing; but each worker has a part
+// of them that it takes first. No OpenMP and no C11 threads: both fail under gcc's thread
+// sanitizer.
 #ifndef ALPI_BASE_TASKS_H
 #define ALPI_BASE_TASKS_H
 

@@ -15,6 +15,8 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
+/// Of the bend over eight texels, which hides more: docs/radiosity.md, "Every eighth texel".
+static const float WIDE_BEND_LIMIT = 0.5f;
 /// Share of the spread near another surface: docs/radiosity.md, "Borders and corners".
 static const float NEAR_SPREAD = 0.3f;
 
@@ -206,6 +208,12 @@ static float noise_at(const void *user, float level)
     return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
 }
 
+/// Whether the pass interpolates over eight texels.
+static bool is_wide(const bounced_job *job)
+{
+    return alpi_lattice_reach(&job->lattice, job->pass) >= ALPI_LATTICE_SPACING;
+}
+
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -215,7 +223,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
                                       .near = job->options->near,
                                       .wanted = job->wanted,
                                       .spread = SPREAD_LIMIT,
-                                      .bend = BEND_LIMIT,
+                                      .bend = is_wide(job) ? WIDE_BEND_LIMIT : BEND_LIMIT,
                                       .kink = KINK_LIMIT,
                                       .noise = noise_at,
                                       .near_spread = NEAR_SPREAD,
@@ -336,7 +344,7 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
         const uint32_t t = job->options->order[i];
         alpi_stencil stencil;
         if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-            alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
+            alpi_lattice_pass(l, l->texels->pixels[t]) == job->pass &&
             alpi_lattice_stencil(l, t, &stencil)) {
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
             alpi_bounced_interpolate(job->options->gather, t, &stencil);
@@ -361,14 +369,14 @@ static alp_result run_lattice(bounced_job *job)
     if (!job->options->adaptive) {
         return ALP_OK;
     }
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
+    for (uint32_t pass = 1; pass < alpi_lattice_pass_count(&job->lattice); pass++) {
         ALP_TRY(judge(job, pass, false, &last));
     }
     last = 1;
     for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
         ALP_TRY(judge(job, 0, true, &last));
     }
-    for (job->pass = 1; job->pass < ALPI_LATTICE_PASSES; job->pass++) {
+    for (job->pass = 1; job->pass < alpi_lattice_pass_count(&job->lattice); job->pass++) {
         ALP_TRY(for_texels(job, interpolate_range));
     }
     return ALP_OK;
@@ -477,6 +485,7 @@ alpi_lattice alpi_bounced_lattice(const alpi_bounced_options *options, const alp
     own.values = values;
     own.straight = options->straight;
     own.along_borders = true;
+    own.wide = options->wide;
     return own;
 }
 

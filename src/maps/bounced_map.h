@@ -28,7 +28,7 @@ typedef struct alpi_bounced_options {
     uint32_t count;
     const uint8_t *near;         // [texels] alpi_nearness, or NULL
     bool adaptive;               // false: all texels are traced
-    bool straight;               // alpi_lattice
+    bool straight, wide;         // alpi_lattice
     alpi_held_out *held_out;     // NULL: one map alone; else in and out
     const alpi_gatherer *beside; // like that of `gather`, of other random numbers: of texels that
                                  // are held out, as some may be traced now, and, where replicates

@@ -132,16 +132,31 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 
 // --- passes --------------------------------------------------------------------------------------
 
-uint32_t alpi_lattice_pass(const uint16_t pixel[2])
+/// The pass of a lattice of every 4th texel.
+static uint32_t narrow_pass(uint32_t x, uint32_t y)
 {
     static const uint8_t passes[ALPI_LATTICE_SPACING][ALPI_LATTICE_SPACING] = {
         {0, 3, 1, 3}, {3, 5, 4, 5}, {1, 4, 2, 4}, {3, 5, 4, 5}};
-    return passes[pixel[1] % ALPI_LATTICE_SPACING][pixel[0] % ALPI_LATTICE_SPACING];
+    return passes[y % ALPI_LATTICE_SPACING][x % ALPI_LATTICE_SPACING];
 }
 
-uint32_t alpi_lattice_reach(uint32_t pass)
+uint32_t alpi_lattice_pass(const alpi_lattice *lattice, const uint16_t pixel[2])
 {
-    return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
+    const uint32_t pass = narrow_pass(pixel[0], pixel[1]);
+    if (!lattice->wide) {
+        return pass;
+    }
+    return pass > 0 ? pass + ALPI_LATTICE_WIDE_PASSES
+                    : (uint32_t)pixel[0] / ALPI_LATTICE_SPACING % 2 +
+                          (uint32_t)pixel[1] / ALPI_LATTICE_SPACING % 2;
+}
+
+uint32_t alpi_lattice_reach(const alpi_lattice *lattice, uint32_t pass)
+{
+    const uint32_t first = lattice->wide ? ALPI_LATTICE_WIDE_PASSES : 0;
+    return pass <= first       ? ALPI_LATTICE_SPACING >> (lattice->wide ? 0 : 1)
+           : pass <= first + 2 ? ALPI_LATTICE_SPACING / 2
+                               : ALPI_LATTICE_SPACING / 4;
 }
 
 /// A texel that looks at those around it.
@@ -244,22 +259,33 @@ static bool in_the_middle(const alpi_lattice *l, const centre *t, int h, alpi_st
     return along_x && along_y;
 }
 
+/// How the texels of a pass lie to those they are interpolated from.
+typedef enum pass_kind { PASS_LATTICE, PASS_HALFWAY, PASS_MIDDLE } pass_kind;
+
+static pass_kind kind_of(const alpi_lattice *l, uint32_t pass)
+{
+    static const pass_kind kinds[] = {PASS_HALFWAY, PASS_MIDDLE,  PASS_HALFWAY, PASS_MIDDLE,
+                                      PASS_HALFWAY, PASS_HALFWAY, PASS_MIDDLE};
+    return pass == 0 ? PASS_LATTICE : kinds[pass + (l->wide ? 0 : ALPI_LATTICE_WIDE_PASSES) - 1];
+}
+
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
 {
     const uint16_t *p = lattice->texels->pixels[texel];
-    const uint32_t pass = alpi_lattice_pass(p);
-    const int h = (int)alpi_lattice_reach(pass);
+    const uint32_t pass = alpi_lattice_pass(lattice, p);
+    const pass_kind kind = kind_of(lattice, pass);
+    const int h = (int)alpi_lattice_reach(lattice, pass);
     stencil->count = 0;
     stencil->bend = 0.0f;
     bool whole = false;
     const centre c = find_centre(lattice, texel);
-    if (pass == 1 || pass == 3 || pass == 4) { // halfway between two
+    if (kind == PASS_HALFWAY) {
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
         whole = add_axis(lattice, &c, across ? h : 0, across ? 0 : h, 1.0f, stencil);
-        if (!whole && pass == 4 && lattice->along_borders) {
+        if (!whole && pass + 2 == alpi_lattice_pass_count(lattice) && lattice->along_borders) {
             whole = add_axis(lattice, &c, across ? 0 : 2 * h, across ? 2 * h : 0, 1.0f, stencil);
         }
-    } else if (pass != 0) {
+    } else if (kind == PASS_MIDDLE) {
         whole = in_the_middle(lattice, &c, h, stencil);
     }
     stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
@@ -306,10 +332,9 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
 static bool is_beside_traced(const alpi_lattice *l, const centre *c)
 {
     const ptrdiff_t width = (ptrdiff_t)l->width;
-    const uint32_t beside[4] = {c->x > 0 ? c->at[-1] : ALPI_NONE,
-                                c->x + 1 < (int)l->width ? c->at[1] : ALPI_NONE,
-                                c->y > 0 ? c->at[-width] : ALPI_NONE,
-                                c->y + 1 < (int)l->height ? c->at[width] : ALPI_NONE};
+    const uint32_t beside[4] = {
+        c->x > 0 ? c->at[-1] : ALPI_NONE, c->x + 1 < (int)l->width ? c->at[1] : ALPI_NONE,
+        c->y > 0 ? c->at[-width] : ALPI_NONE, c->y + 1 < (int)l->height ? c->at[width] : ALPI_NONE};
     bool any = false;
     for (int i = 0; i < 4; i++) {
         any = any || (beside[i] != ALPI_NONE && l->states[beside[i]] == ALPI_TEXEL_TRACED);
@@ -351,7 +376,7 @@ float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
 
 bool alpi_lattice_is_coarse(const uint16_t pixel[2])
 {
-    return alpi_lattice_pass(pixel) <= ALPI_LATTICE_COARSE;
+    return pixel[0] % 2 == 0 && pixel[1] % 2 == 0;
 }
 
 static float noise_about(const alpi_lattice_judge *j, float level)
@@ -380,7 +405,7 @@ void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, u
         if (judge->flood) {
             judge->wanted[t] =
                 alpi_lattice_kink(l, t) > judge->kink * noise_about(judge, l->values[t]);
-        } else if (alpi_lattice_pass(l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
+        } else if (alpi_lattice_pass(l, l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
             continue;
         } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(judge, t, &stencil)) {
             l->states[t] = ALPI_TEXEL_INTERPOLATED;

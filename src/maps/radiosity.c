@@ -11,7 +11,7 @@
 
 enum { TEXELS_PER_RANGE = 4096 };
 // What a trial leaves: it tells how many rays to send, to a power of two.
-static const double TRIAL_TOLERANCE = 0.01;
+static const double TRIAL_TOLERANCE = 2e-3;
 
 typedef struct solver {
     alpi_radiosity *r;
@@ -22,6 +22,7 @@ typedef struct solver {
     uint32_t *new_receivers;             // [sides × blocks]
     alpi_reference_value *layer_bounced; // [sides × blocks] with layers
     double first_light;                  // that no pass changes: W, over the receivers and channels
+    double change, former;               // mean change over mean light of the last two passes
     alpi_task_progress progress;
 } solver;
 
@@ -112,8 +113,7 @@ static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
     if (!s->r->kept && !p->two_sided && !s->from.sky && p->texels->valid == NULL) {
         return ALP_OK;
     }
-    s->r->rays +=
-        (uint64_t)count * (job.gatherer->packet_count * ALPI_PACKET - s->kept.known);
+    s->r->rays += (uint64_t)count * (job.gatherer->packet_count * ALPI_PACKET - s->kept.known);
     return s->r->kept ? alpi_kept_rays_trace(&job, &s->progress, &s->kept)
                       : alpi_gather_irradiance(&job, &s->progress);
 }
@@ -346,8 +346,7 @@ static void sum_changes(const void *user, uint32_t begin, uint32_t end, double s
     }
 }
 
-/// One pass. @param change out: mean change over mean light
-static alp_result pass(solver *s, double *change)
+static alp_result pass(solver *s)
 {
     alpi_radiosity *r = s->r;
     double sums[ALPI_SUM_LIMIT] = {0.0};
@@ -357,9 +356,10 @@ static alp_result pass(solver *s, double *change)
     ALP_TRY(alpi_parallel_sum(r->options.context, r->receiver_count, sum_changes, r, &s->progress,
                               sums));
     const double light = s->first_light + sums[1];
-    *change = light > 0.0 ? sums[0] / light : 0.0;
+    s->former = s->change;
+    s->change = light > 0.0 ? sums[0] / light : 0.0;
     if (r->passes < ALPI_RADIOSITY_CHANGES) {
-        r->changes[r->passes] = (float)*change;
+        r->changes[r->passes] = (float)s->change;
     }
     r->passes++;
     return ALP_OK;
@@ -367,29 +367,28 @@ static alp_result pass(solver *s, double *change)
 
 /// What all later passes would add, over all light, if each adds in proportion to the one before as
 /// the last two did.
-static double left_over(double change, double former)
+static double left_over(const solver *s)
 {
-    const double ratio = former > 0.0 ? fmin(change / former, 0.999) : 0.999;
-    return change * ratio / (1.0 - ratio);
+    if (s->r->passes < 2) {
+        return s->r->passes > 0 && s->change == 0.0 ? 0.0 : HUGE_VAL;
+    }
+    const double ratio = s->former > 0.0 ? fmin(s->change / s->former, 0.999) : 0.999;
+    return s->change * ratio / (1.0 - ratio);
 }
 
-/// Until what is left is below the tolerance, or all bounces that are asked for are in.
+/// Until what is left is no more than the tolerance, or all bounces that are asked for are in. Goes
+/// on where it ended.
 static alp_result run_passes(solver *s, double tolerance)
 {
     const alpi_radiosity_options *o = &s->r->options;
     const uint32_t limit =
         o->bounces < ALPI_RADIOSITY_PASS_LIMIT ? o->bounces : ALPI_RADIOSITY_PASS_LIMIT;
-    double change = 0.0, former = 0.0, sums[ALPI_SUM_LIMIT] = {0.0};
+    double sums[ALPI_SUM_LIMIT] = {0.0};
     ALP_TRY(alpi_parallel_sum(o->context, s->r->receiver_count, sum_first_light, s->r, &s->progress,
                               sums));
     s->first_light = sums[0];
-    while (s->r->passes < limit) {
-        ALP_TRY(pass(s, &change));
-        const bool settled = s->r->passes > 1 && left_over(change, former) < tolerance;
-        if (change == 0.0 || settled) {
-            break;
-        }
-        former = change;
+    while (s->r->passes < limit && left_over(s) > tolerance) {
+        ALP_TRY(pass(s));
     }
     return ALP_OK;
 }
@@ -518,8 +517,8 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     }
     if (!done) {
         ALP_TRY(find_receivers(s));
-        ALP_TRY(run_passes(s, s->r->options.tolerance));
     }
+    ALP_TRY(run_passes(s, s->r->options.tolerance));
     ALP_TRY(alpi_radiosity_find_energy(s->r, &s->progress));
     return run_layers(s);
 }

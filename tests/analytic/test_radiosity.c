@@ -87,6 +87,29 @@ static void furnaces_after_every_bounce(void **state)
     }
 }
 
+/// Each bounce leaves ρ^(n+1) / (1 − ρ^(n+1)) of all light so far to those after it: passes end
+/// where that is below the tolerance, or with the bounces that are asked for.
+static void passes_end_at_the_tolerance(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t bounces;
+        double tolerance;
+        uint32_t passes;
+    } cases[] = {{UINT32_MAX, 1.0 / 80, 6}, {40, 1.0 / 80, 6}, {4, 1.0 / 80, 4},
+                 {40, 1.0 / 170, 7},        {40, 0.5, 2},      {10, 0.0, 10}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        test_radiant r;
+        test_radiant_options o = test_radiant_default();
+        o.size = 32;
+        o.bounces = cases[i].bounces;
+        o.tolerance = cases[i].tolerance;
+        test_radiant_open(make_cube(0.5, 1.0 / ALPI_PI, 0.5, 1.0 / ALPI_PI), &o, &r);
+        assert_int_equal(r.solution.passes, cases[i].passes);
+        test_radiant_close(&r);
+    }
+}
+
 // --- patches -------------------------------------------------------------------------------------
 
 /// One texel to each square of a metre, which is one patch: 65,536 rays from all over it.
@@ -268,6 +291,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnaces_after_every_bounce),
+        cmocka_unit_test(passes_end_at_the_tolerance),
         cmocka_unit_test(a_cube_of_six_patches),
         cmocka_unit_test(two_plates),
         cmocka_unit_test(a_cube_of_texels),

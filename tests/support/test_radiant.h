@@ -16,6 +16,7 @@ typedef struct test_radiant_options {
     double texels_per_metre;              // this is not 0
     float max_angle;                      // of a chart
     uint32_t bounces, spacing;
+    double tolerance;  // of what passes leave
     uint32_t rays;     // of a block
     uint32_t hemicube; // pixels along an edge, in place of rays; 0: rays
     uint32_t direct_samples;
@@ -24,8 +25,8 @@ typedef struct test_radiant_options {
     alpi_radiosity_trial trial;
 } test_radiant_options;
 
-/// A page of 64, a chart to each plane; all bounces; blocks of 4 with 64 rays, all kept; 256
-/// samples of each light; seed 1.
+/// A page of 64, a chart to each plane; all bounces, to 1e-5; blocks of 4 with 64 rays, all kept;
+/// 256 samples of each light; seed 1.
 test_radiant_options test_radiant_default(void);
 
 /// Stays where it was opened: parts of it point at others.
