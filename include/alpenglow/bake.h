@@ -147,8 +147,9 @@ typedef enum alp_emitters {
 ///
 /// RAYS and HEMICUBE: radiosity. Direct light on every texel (RAYS for an error: on every second,
 /// and others where it is uneven); its reflections are gathered by blocks of 4 × 4 texels of one
-/// chart, pass after pass, until the bounces are done; then every texel gathers the last of them
-/// itself.
+/// chart, pass after pass, until the bounces are done or the others would bring less than a
+/// hundredth of the error (of .16 / √samples without one, of 5 % at most); then every texel gathers
+/// the last of them itself.
 /// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
@@ -165,7 +166,7 @@ typedef struct alp_light_options {
     alp_lighting_options lighting; ///< beside the lights and emissive materials of the scene
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
-    uint32_t bounces;  ///< 0 = direct light alone; default ALP_BOUNCES_CONVERGE
+    uint32_t bounces;  ///< at most; 0 = direct light alone; default ALP_BOUNCES_CONVERGE
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map, with the
     /// 99th percentile of its texels' at most four times as much. Rounds of more and more samples
     /// until both are stated, the last of them for the texels that err most. 0 (default): `samples`

@@ -35,6 +35,11 @@ typedef struct bounced_job {
     uint64_t gathered, expected; // texels, those held out too
 } bounced_job;
 
+static uint32_t most_held_out(const bounced_job *job)
+{
+    return job->options->wide ? ALPI_HELD_OUT / 2 : ALPI_HELD_OUT;
+}
+
 static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
 {
     alpi_task_progress told = job->progress;
@@ -408,7 +413,7 @@ static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, 
         return gather_beside(job, held->count, job->options->beside, held->values);
     }
     const uint32_t count =
-        choose(job, ALPI_TEXEL_INTERPOLATED, interpolated, ALPI_HELD_OUT, STREAM_HELD_OUT);
+        choose(job, ALPI_TEXEL_INTERPOLATED, interpolated, most_held_out(job), STREAM_HELD_OUT);
     alpi_reference_value *found = ALPI_NEW(context, alpi_reference_value, count);
     if (found == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -494,10 +499,8 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
                             alpi_bounced_report *report)
 {
     const bool first = report->traced == 0 || !options->adaptive;
-    bounced_job job = {.options = options,
-                       .report = report,
-                       .factor = 1.0f,
-                       .expected = (first ? options->count : report->traced) + ALPI_HELD_OUT};
+    bounced_job job = {.options = options, .report = report, .factor = 1.0f};
+    job.expected = (first ? options->count : report->traced) + most_held_out(&job);
     *report = (alpi_bounced_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice = alpi_bounced_lattice(options, lattice, states, options->levels);

@@ -14,7 +14,8 @@
 #include "transport/gather.h"
 
 /// Texels that several maps of the same light hold out: those, evenly and at random, that the first
-/// of them interpolates, with rays of their own in each.
+/// of them interpolates, with rays of their own in each. Of wide lattices half as many, whose
+/// traced texels are fewer and whose errors are larger.
 enum { ALPI_HELD_OUT = 1024, ALPI_BOUNCED_PROBES = 512 };
 typedef struct alpi_held_out {
     uint32_t count; // 0: none yet

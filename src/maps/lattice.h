@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The adaptive lattice: every 4th texel is traced, or every 8th, those between are interpolated
-// where the traced ones agree, and traced where they do not. Based on: H. Elias. Radiosity (the
-// adaptive light map: spacing 4, passes of two types, half the spacing). What such a lattice
-// misses, small details, the flood of its judge finds.
+// The adaptive lattice: every 4th or 8th texel is traced, those between are interpolated where the
+// traced ones agree, and traced where they do not.
+// Based on: H. Elias. Radiosity (the adaptive light map: spacing 4, passes of two types, half the
+// spacing). What such a lattice misses, small details, the flood of its judge finds.
 #ifndef ALPI_MAPS_LATTICE_H
 #define ALPI_MAPS_LATTICE_H
 
