@@ -156,10 +156,9 @@ static const option rows[] = {
      .maximum = 1000,
      .choices = "converge",
      .initial = "converge",
-     .help =
-         "How often light is reflected on its way. 0: direct light alone. converge: as long as "
-         "it brings anything. Passes of light end sooner where what is left would be less than a "
-         "hundredth of the error."},
+     .help = "How often light is reflected on its way. 0: direct light alone. converge: as long as "
+             "it brings anything. For an --error passes of light end sooner where those left would "
+             "bring less than a hundredth of it."},
     {.id = OPTION_SKY,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,

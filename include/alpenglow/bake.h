@@ -148,8 +148,8 @@ typedef enum alp_emitters {
 /// RAYS and HEMICUBE: radiosity. Direct light on every texel (RAYS for an error: on every second,
 /// and others where it is uneven); its reflections are gathered by blocks of 4 × 4 texels of one
 /// chart, pass after pass, until the bounces are done or the others would bring less than a
-/// hundredth of the error (of .16 / √samples without one, of 5 % at most); then every texel gathers
-/// the last of them itself.
+/// hundredth of the error (5e-5 to 5e-4 of all light; by `samples` and a number of bounces they are
+/// done); then every texel gathers the last of them itself.
 /// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.

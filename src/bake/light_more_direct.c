@@ -20,7 +20,8 @@
 /// error that is wanted.
 static const double NOISY = 0.25;
 /// Texels of which the scale is found: so many are as good as all.
-enum { ASKED = 1 << 11, TEXELS_PER_RANGE = 1 << 10 };
+enum { ASKED = 1 << 11 };
+enum { TEXELS_PER_RANGE = 1 << 10 };
 enum {
     LEAST = ALPI_DIRECT_REPLICATES, // samples: of class 0
     CLASSES = 13,                   // each has twice as many as the one before

@@ -168,7 +168,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t solution = of_texel * texels + places + of_blocks;
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
-             alpi_light_block_rays(o, texels) * sizeof(uint32_t);
+             alpi_light_kept_block_rays(o, texels) * sizeof(uint32_t);
     const uint64_t board = alpi_light_direct_error(options) > 0.0 ? BOARD_BYTES : 0u;
     m.solve = solution + (VALUE_BYTES * sides + board) * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +

@@ -33,8 +33,8 @@ typedef struct alpi_loop {
     uint32_t part_count;
     loop_part parts[PART_LIMIT];
     _Atomic uint32_t limit; // items from here on are not worked on any more
-    _Atomic uint32_t done;
-    _Atomic bool stop;    // the user cancelled
+    _Atomic bool stop;      // the user cancelled
+    alignas(CACHE_LINE) _Atomic uint32_t done;
     pthread_mutex_t lock; // guards the failure
     uint32_t failed_begin;
     alp_result failure;
@@ -144,6 +144,9 @@ static void loop_run_range(loop *l, uint32_t begin, uint32_t end, uint32_t worke
     alp_result result = l->body(l->user, begin, end, worker);
     if (result != ALP_OK) {
         loop_fail(l, begin, result);
+    }
+    if (result == ALP_ERROR_CANCELLED) {
+        atomic_store_explicit(&l->stop, true, memory_order_relaxed);
     }
     atomic_fetch_add_explicit(&l->done, end - begin, memory_order_relaxed);
 }

@@ -8,7 +8,8 @@
 
 #include "base/context.h"
 
-/// Body of a loop: works on [begin, end), a range of at most `grain`; a failure stops the loop.
+/// Body of a loop: works on [begin, end), a range of at most `grain`; after a failure no range
+/// above it is begun.
 typedef alp_result alpi_task_fn(void *user, uint32_t begin, uint32_t end, uint32_t worker);
 
 /// What to tell the user while a loop runs. All may be NULL / 0.

@@ -18,6 +18,7 @@ typedef struct wave {
     uint8_t *filled;
     uint32_t *queue; // texels in the order in which they were reached
     size_t count;
+    size_t inner; // covered texels that reach nothing, and are not in it
 } wave;
 
 static void reach(wave *w, size_t from, size_t to)
@@ -33,7 +34,7 @@ static alp_result spread(wave *w, alp_context *context)
 {
     for (size_t i = 0; i < w->count; i++) {
         if (i % TICK_INTERVAL == 0) {
-            ALP_TRY(alpi_tick(context, "dilation", i, (uint64_t)w->width * w->height));
+            ALP_TRY(alpi_tick(context, "dilation", w->inner + i, (uint64_t)w->width * w->height));
         }
         size_t at = w->queue[i];
         uint32_t x = (uint32_t)(at % w->width), y = (uint32_t)(at / w->width);
@@ -67,7 +68,12 @@ static alp_result start(wave *w, alp_context *context)
         const uint8_t *below = y + 1 < w->height ? row + width : row;
         for (size_t x = 0; x < width; x++) {
             const bool left = x == 0 || row[x - 1] != 0, right = x + 1 == width || row[x + 1] != 0;
-            if (row[x] != 0 && !(left && right && above[x] != 0 && below[x] != 0)) {
+            if (row[x] == 0) {
+                continue;
+            }
+            if (left && right && above[x] != 0 && below[x] != 0) {
+                w->inner++;
+            } else {
                 w->queue[w->count++] = (uint32_t)(y * width + x);
             }
         }

@@ -6,12 +6,15 @@
 #include "maps/direct_map.h"
 #include "transport/kept_rays.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
 // What a trial leaves: it tells how many rays to send, to a power of two.
 static const double TRIAL_TOLERANCE = 2e-3;
+// Changes of single numbers of 24 bits: what is smaller is rounding.
+static const double LEAST_CHANGE = 1e-7;
 
 typedef struct solver {
     alpi_radiosity *r;
@@ -26,10 +29,15 @@ typedef struct solver {
     alpi_task_progress progress;
 } solver;
 
+double alpi_radiosity_tolerance(uint32_t bounces)
+{
+    return bounces > ALPI_RADIOSITY_PASS_LIMIT ? 5e-4 : 0.0;
+}
+
 alpi_radiosity_options alpi_radiosity_options_default(void)
 {
     return (alpi_radiosity_options){.bounces = UINT32_MAX,
-                                    .tolerance = 5e-4,
+                                    .tolerance = alpi_radiosity_tolerance(UINT32_MAX),
                                     .blocks = {.spacing = 4},
                                     .direct_samples = 16,
                                     .kept_limit = 1ull << 30};
@@ -369,8 +377,11 @@ static alp_result pass(solver *s)
 /// the last two did.
 static double left_over(const solver *s)
 {
+    if (s->r->passes > 0 && s->change <= LEAST_CHANGE) {
+        return 0.0;
+    }
     if (s->r->passes < 2) {
-        return s->r->passes > 0 && s->change == 0.0 ? 0.0 : HUGE_VAL;
+        return HUGE_VAL;
     }
     const double ratio = s->former > 0.0 ? fmin(s->change / s->former, 0.999) : 0.999;
     return s->change * ratio / (1.0 - ratio);
@@ -455,6 +466,7 @@ static alp_result try_few(solver *s, bool *done)
     const alpi_gatherer *chosen = trial->choose(trial->user, &found);
     *done = chosen == NULL;
     if (chosen != NULL) {
+        assert(chosen->aim == trial->gatherer->aim && chosen->seed == trial->gatherer->seed);
         r->options.gatherer = chosen;
         r->passes = 0;
         s->from = alpi_radiosity_scene(r);

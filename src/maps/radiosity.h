@@ -29,7 +29,8 @@ typedef struct alpi_trial_light {
 /// A solution by few rays before that by all, which may do, or tell how many it takes.
 typedef struct alpi_radiosity_trial {
     const alpi_gatherer *gatherer; // NULL: there is no trial
-    /// @return the gatherer that solves; NULL: what the trial found is the solution
+    /// @return the gatherer that solves, whose first packets are all of the trial's; NULL: what the
+    /// trial found is the solution
     const alpi_gatherer *(*choose)(void *user, const alpi_trial_light *found);
     void *user;
 } alpi_radiosity_trial;
@@ -47,8 +48,8 @@ typedef struct alpi_radiosity_options {
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     alpi_radiosity_trial trial;    // whose choice takes the gatherer's place
-    uint32_t bounces;              // ≥ 1; above PASS_LIMIT: until nothing is left
-    double tolerance; // then: light that is not yet gathered, over all, that is called nothing
+    uint32_t bounces;              // ≥ 1, at most; above PASS_LIMIT: as many as it takes
+    double tolerance; // passes end where those that are left would bring less, over all light
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     double direct_error; // relative error of the map that direct light may be interpolated within;
@@ -64,6 +65,8 @@ typedef struct alpi_radiosity_options {
 /// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
 /// filter, gatherer and seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
+/// Of a solution for no error in particular: of a number of bounces none is left out.
+double alpi_radiosity_tolerance(uint32_t bounces);
 enum { ALPI_RADIOSITY_BLOCK_RAYS = 64 }; // of cosine rays that gather for blocks
 
 /// Where the light goes: fluxes in W, means of the three channels, area integrals over the patches

@@ -63,6 +63,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.kept_limit = o->kept_limit > 0 ? o->kept_limit : options.kept_limit;
     options.direct_samples = o->direct_samples > 0 ? o->direct_samples : options.direct_samples;
     options.bounces = o->bounces;
+    options.tolerance = o->tolerance;
     options.backs = true;
     options.seed = o->seed;
     return alpi_radiosity_solve(&options, &s->lattice, s->atlas, s->order, s->count, progress,

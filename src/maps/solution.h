@@ -16,7 +16,8 @@ typedef struct alpi_solution_options {
     const alpi_lighting *lighting; // all borrowed until the solution is destroyed
     alp_atlas_options atlas;       // its progress is ignored
     bool one_sided;                // rays pass single-sided materials from behind
-    uint32_t bounces;              // ≥ 1; above ALPI_RADIOSITY_PASS_LIMIT: until nothing is left
+    uint32_t bounces;              // as of alpi_radiosity_options
+    double tolerance;              // the same
     uint32_t block_rays;           // cosine rays of a block; 0: four times the least
     uint32_t direct_samples;       // of each light at each texel; 0: as of
                                    // alpi_radiosity_options_default

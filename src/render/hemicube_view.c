@@ -40,14 +40,15 @@ static alp_result solve(const alpi_hemicube_view *view, const alpi_lighting *lig
                         alpi_solution **solution)
 {
     const alp_render_options *o = view->options;
-    const alpi_solution_options options = {
-        .scene = view->scene,
-        .tracer = view->tracer,
-        .lighting = lighting,
-        .atlas = o->atlas,
-        .one_sided = o->occlusion.one_sided,
-        .bounces = o->bounces == ALP_BOUNCES_CONVERGE ? o->bounces : o->bounces + 1,
-        .seed = o->occlusion.seed};
+    const uint32_t bounces = o->bounces == ALP_BOUNCES_CONVERGE ? o->bounces : o->bounces + 1;
+    const alpi_solution_options options = {.scene = view->scene,
+                                           .tracer = view->tracer,
+                                           .lighting = lighting,
+                                           .atlas = o->atlas,
+                                           .one_sided = o->occlusion.one_sided,
+                                           .bounces = bounces,
+                                           .tolerance = alpi_radiosity_tolerance(bounces),
+                                           .seed = o->occlusion.seed};
     return alpi_solution_create(&options, o->progress, o->progress_user, solution);
 }
 

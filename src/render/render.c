@@ -346,6 +346,7 @@ static alp_result prepare_solution(render_job *job)
                                            .atlas = o->atlas,
                                            .one_sided = o->occlusion.one_sided,
                                            .bounces = o->bounces,
+                                           .tolerance = alpi_radiosity_tolerance(o->bounces),
                                            .seed = o->occlusion.seed};
     ALP_TRY(alpi_solution_create(&options, o->progress, o->progress_user, &job->solution));
     job->known = alpi_solution_light(job->solution);

@@ -369,7 +369,8 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     const uint32_t blocks = job.count / ALPI_PACKET + (job.count % ALPI_PACKET != 0);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = fmax(alpi_direct_most_rays(direct, receivers->extended, job.count), 1.0);
-    const uint32_t grain = (uint32_t)fmax(2048.0 / told.units_per_item, 1.0); // some milliseconds
+    const uint32_t grain =
+        (uint32_t)fmax(2048.0 / told.units_per_item, 1.0); // about one millisecond
     alp_result result = alpi_direct_halves_create(direct, job.count, &job.halves);
     if (result == ALP_OK) {
         result =

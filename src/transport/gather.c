@@ -450,7 +450,7 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
 
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress)
 {
-    enum { RAYS_PER_RANGE = 1024 }; // some tenths of a millisecond
+    enum { RAYS_PER_RANGE = 1024 }; // about a tenth of a millisecond
     alpi_gather_job own = *job;
     const uint32_t rays = job->gatherer->packet_count * ALPI_PACKET;
     alpi_gather_check(job->gatherer);

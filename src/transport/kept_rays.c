@@ -34,7 +34,7 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
 alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept)
 {
     const uint32_t before = kept->rays, rays = gatherer->packet_count * ALPI_PACKET;
-    assert(gatherer->replicates == 1 && gatherer->weights == NULL && rays >= before);
+    assert(rays >= before);
     uint32_t *cells =
         alpi_reallocate(kept->context, kept->cells, kept->receivers, rays * sizeof *cells);
     if (cells == NULL) {
@@ -74,12 +74,22 @@ static uint32_t *rays_of(const kept_job *k, uint32_t i)
     return k->kept->cells + row * k->kept->rays;
 }
 
-/// Mean over all rays of a receiver, of that over those that are known and the sum that the others
-/// are to it.
-static void join(const kept_job *k, float *mean, double sum)
+/// Packets of a batch. What those met that are known stands in their cells; where they go is asked
+/// again only for what the sky brings.
+static void trace_batch(const kept_job *k, uint32_t receiver, uint32_t first, uint32_t count,
+                        alpi_gather_packet *packets, uint32_t (*cells)[ALPI_PACKET])
 {
-    const double share = (double)k->kept->known / k->kept->rays;
-    *mean = (float)(share * (double)*mean + sum);
+    const alpi_gather_job *job = k->job;
+    const alpi_gatherer *g = job->gatherer;
+    const uint32_t known = k->kept->known / ALPI_PACKET, before = known > first ? known - first : 0;
+    const uint32_t met = before < count ? before : count, aimed = job->from->sky ? 0 : met;
+    if (aimed < count) {
+        g->aim(g->user, job->receivers, receiver, first + aimed, count - aimed, packets + aimed,
+               NULL);
+    }
+    if (met < count) {
+        alpi_gather_cells(job->from, packets + met, count - met, g->coherent, cells + met);
+    }
 }
 
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -88,18 +98,16 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     const kept_job *k = user;
     const alpi_gather_job *job = k->job;
     const alpi_gatherer *g = job->gatherer;
-    const uint32_t known = k->kept->known / ALPI_PACKET;
     alpi_gather_packet packets[ALPI_GATHER_BATCH];
     vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
         uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
         alpi_gather_sums sums = {.lost = {0.0}};
-        for (uint32_t first = known; first < g->packet_count; first += ALPI_GATHER_BATCH) {
+        for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
-            g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
-            alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
+            trace_batch(k, receiver, first, count, packets, &cells[first]);
             if (job->from->sky) {
                 alpi_gather_find_skies(job->from, packets, count,
                                        (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
@@ -116,10 +124,10 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
             }
         }
         for (int c = 0; c < 3 && job->skies != NULL; c++) {
-            join(k, &job->skies[receiver][c], ALPI_PI * sums.sky[c]);
+            job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
         }
         for (int c = 0; c < 2 && job->lost != NULL; c++) {
-            join(k, &job->lost[receiver][c], sums.lost[c]);
+            job->lost[receiver][c] = (float)sums.lost[c];
         }
     }
     return ALP_OK;

@@ -25,13 +25,13 @@ uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer);
 alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
                                   uint32_t count, alpi_kept_rays *kept);
 /// Makes room for more rays of the same receivers, whose first are those that are there: `known`.
-/// The gatherer has one replicate, no weights, and begins as the one before did.
+/// The gatherer's first packets are all of the one before.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept);
 void alpi_kept_rays_destroy(alpi_kept_rays *kept);
 
-/// Traces the rays of the listed receivers that are not known, and writes to job->skies what those
-/// that meet nothing bring, and job->lost; known rays are in these as they stand there. Needs
+/// Traces the rays of the listed receivers that are not known, and writes to job->skies what all of
+/// those that meet nothing bring, and job->lost: the same bits as if none were known. Needs
 /// alpi_gather_meets_cells.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,

@@ -23,7 +23,7 @@ static alp_result mark(void *user, uint32_t begin, uint32_t end, uint32_t worker
 static void every_item_runs_once(void **state)
 {
     (void)state;
-    const uint32_t workers[] = {1, 2, 7, 32};
+    const uint32_t workers[] = {1, 2, 7, 32, 70}; // and more than there are parts of a loop
     for (size_t w = 0; w < sizeof workers / sizeof *workers; w++) {
         alp_context *context = test_context(workers[w]);
         for (int repeat = 0; repeat < 20; repeat++) {
@@ -57,6 +57,58 @@ static void a_failure_ends_the_loop(void **state)
             alpi_parallel_for(context, ITEMS, 1, fail_at_500_and_900, context, NULL);
         assert_int_equal(result, ALP_ERROR_LIMIT);
         assert_string_equal(alp_context_message(context), "item 500");
+        alp_context_destroy(context);
+    }
+}
+
+typedef struct run_items {
+    unsigned char seen[ITEMS];
+    uint32_t failing;
+} run_items;
+
+static alp_result fail_at_one(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    run_items *run = user;
+    mark(run->seen, begin, end, worker);
+    return begin <= run->failing && run->failing < end ? ALP_ERROR_IO : ALP_OK;
+}
+
+/// All that is below a range that failed runs, whoever has it to do: one of it may fail too.
+static void what_is_below_a_failure_still_runs(void **state)
+{
+    (void)state;
+    enum { GRAIN = 10 };
+    for (uint32_t workers = 1; workers <= 4; workers++) {
+        alp_context *context = test_context(workers);
+        for (uint32_t failing = 0; failing < ITEMS; failing += 1250) {
+            static run_items run;
+            run = (run_items){.failing = failing};
+            assert_int_equal(alpi_parallel_for(context, ITEMS, GRAIN, fail_at_one, &run, NULL),
+                             ALP_ERROR_IO);
+            for (uint32_t i = 0; i < ITEMS; i++) {
+                assert_true(run.seen[i] == 1 || (run.seen[i] == 0 && i >= failing));
+            }
+        }
+        alp_context_destroy(context);
+    }
+}
+
+static alp_result count_items(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    atomic_fetch_add((_Atomic uint64_t *)user, end - begin);
+    return ALP_OK;
+}
+
+static void as_many_items_as_there_are_numbers(void **state)
+{
+    (void)state;
+    for (uint32_t workers = 1; workers <= 3; workers++) {
+        _Atomic uint64_t count = 0;
+        alp_context *context = test_context(workers);
+        ASSERT_OK(context,
+                  alpi_parallel_for(context, UINT32_MAX, 3u << 28, count_items, &count, NULL));
+        assert_true(count == UINT32_MAX);
         alp_context_destroy(context);
     }
 }
@@ -230,6 +282,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_item_runs_once),
         cmocka_unit_test(a_failure_ends_the_loop),
+        cmocka_unit_test(what_is_below_a_failure_still_runs),
+        cmocka_unit_test(as_many_items_as_there_are_numbers),
         cmocka_unit_test(the_lowest_failure_is_the_one_told),
         cmocka_unit_test(serial_work_can_be_cancelled),
         cmocka_unit_test(progress_can_cancel),
