@@ -49,12 +49,13 @@ static alp_scene *make_room(void)
     return scene;
 }
 
-static alp_lighting_options even_sky(void)
+static alp_lighting_options two_skies(void)
 {
     alp_lighting_options o = alp_lighting_options_default();
     o.sky.kind = ALP_SKY_HEMISPHERE;
     for (int k = 0; k < 3; k++) {
-        o.sky.up[k] = o.sky.down[k] = 1.0f;
+        o.sky.up[k] = 1.0f;
+        o.sky.down[k] = 0.25f;
     }
     return o;
 }
@@ -101,7 +102,7 @@ static void assert_same_light(const test_radiant *a, const test_radiant *b)
 /// @param kept whether rays are kept
 static void try_room(bool kept)
 {
-    const alp_lighting_options sky = even_sky();
+    const alp_lighting_options sky = two_skies();
     alpi_cosine_rays few, many;
     const alpi_gatherer trial = gatherer_of(&few, FEW), more = gatherer_of(&many, MANY);
     for (int enough = 0; enough < 2; enough++) {
