@@ -19,7 +19,7 @@ static const double TEXELS_PER_CHART = 1500.0;
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0;
 static const double EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0; // × √texels: of occlusion, of light
-static const double ROUGH_EDGE_TEXELS = 20.0;                   // of light whose lattice is wide
+static const double WIDE_EDGE_TEXELS = 20.0;                    // of light whose lattice is wide
 static const double BOUNCED_OVER_PATHS = 0.46; // error of 64 rays of a texel, over that of paths
 static const double BOUNCED_POWER = 1.38;      // of what is asked less, that rays grow with
 static const double DIRECT_SHARE = 0.65;   // of texels that gather direct light, by direct_map.c
@@ -199,8 +199,8 @@ static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
     const double direct = l->bounces == 0                     ? l->samples
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
-    const bool wide = alpi_light_is_rough(l);
-    const double share = find_traced_share(g, wide, wide ? ROUGH_EDGE_TEXELS : LIT_EDGE_TEXELS);
+    const bool wide = alpi_light_has_wide_lattice(l);
+    const double share = find_traced_share(g, wide, wide ? WIDE_EDGE_TEXELS : LIT_EDGE_TEXELS);
     double rays = count_bounced(g) * share;
     if (layers > 0) { // those of a round are sent once more, and kept
         const double kept = l->error > 0.0f ? fmin(rays, MOST_FIRST_RAYS * share) : rays;

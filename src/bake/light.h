@@ -53,11 +53,14 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Whether an error of 2 % or more is wanted. For less, blocks are single texels where another
-/// surface touches, which strips of sun narrower than a texel need (docs/radiosity.md, "Borders and
-/// corners"), and the lattice begins with every fourth texel, not every eighth ("Every eighth
-/// texel").
-bool alpi_light_is_rough(const alp_light_options *options);
+/// Whether blocks are texels where another surface touches: not for an error of 2 % and more, which
+/// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
+/// and corners").
+bool alpi_light_has_fine_blocks(const alp_light_options *options);
+/// Whether the lattice begins with every eighth texel, not every fourth: for an error of 3 % and
+/// more
+/// ("Every eighth texel").
+bool alpi_light_has_wide_lattice(const alp_light_options *options);
 /// Rays that a block gathers by at most, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Rays of a block that there is memory for at once where all are kept: a trial's beside the most.

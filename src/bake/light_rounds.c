@@ -79,7 +79,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         .near = job->validity.near,
         .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
-        .wide = alpi_light_is_rough(&job->options.light),
+        .wide = alpi_light_has_wide_lattice(&job->options.light),
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
         .beside = beside,
         .joined = r->fixed == NULL,

@@ -142,7 +142,7 @@ static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options
     uint64_t of_blocks = 0;
     if (alpi_light_has_rounds(options) && options->only == NULL) {
         of_texel += SHOWN_BYTES_PER_TEXEL + (sides > 1 ? 0u : SHOWN_BLOCK_BYTES_PER_TEXEL);
-        const bool fine = !alpi_light_is_rough(&options->light);
+        const bool fine = alpi_light_has_fine_blocks(&options->light);
         of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas, fine);
     }
     return of_texel * atlas->texels + of_blocks;
@@ -158,7 +158,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const bool fine = !alpi_light_is_rough(o);
+    const bool fine = alpi_light_has_fine_blocks(o);
     const uint64_t blocks = count_blocks(atlas, fine);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
     const uint64_t places = find_places(atlas, scene);

@@ -66,9 +66,14 @@ double alpi_light_direct_error(const alp_bake_options *o)
     return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;
 }
 
-bool alpi_light_is_rough(const alp_light_options *options)
+bool alpi_light_has_fine_blocks(const alp_light_options *options)
 {
-    return options->error >= 0.02f;
+    return !(options->error >= 0.02f);
+}
+
+bool alpi_light_has_wide_lattice(const alp_light_options *options)
+{
+    return options->error >= 0.03f;
 }
 
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
@@ -82,7 +87,8 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         return ALPI_RADIOSITY_BLOCK_RAYS;
     }
     const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
-    const double size = alpi_light_is_rough(options) ? TEXELS_PER_BLOCK : TEXELS_PER_FINE_BLOCK;
+    const double size =
+        alpi_light_has_fine_blocks(options) ? TEXELS_PER_FINE_BLOCK : TEXELS_PER_BLOCK;
     const double each = fmax(all * size / fmax((double)texels, 1.0), about);
     uint32_t rays = FEWEST_RAYS;
     while (rays * sqrt(2.0) < each && rays < MOST_RAYS) { // the nearest power of two
@@ -246,7 +252,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.tracer = t->tracer;
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
-    options.blocks.fine = !alpi_light_is_rough(&o->light);
+    options.blocks.fine = alpi_light_has_fine_blocks(&o->light);
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
     options.counted = g->counts ? &g->texels : NULL;

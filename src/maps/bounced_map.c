@@ -15,8 +15,8 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-/// Of the bend over eight texels, which hides more: docs/radiosity.md, "Every eighth texel".
-static const float WIDE_BEND_LIMIT = 0.5f;
+/// Over eight texels, which hide more: docs/radiosity.md, "Every eighth texel".
+static const float WIDE_BEND_LIMIT = 0.5f, WIDE_SPREAD_LIMIT = 3.0f;
 /// Share of the spread near another surface: docs/radiosity.md, "Borders and corners".
 static const float NEAR_SPREAD = 0.3f;
 
@@ -227,7 +227,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
                                       .order = job->options->order,
                                       .near = job->options->near,
                                       .wanted = job->wanted,
-                                      .spread = SPREAD_LIMIT,
+                                      .spread = is_wide(job) ? WIDE_SPREAD_LIMIT : SPREAD_LIMIT,
                                       .bend = is_wide(job) ? WIDE_BEND_LIMIT : BEND_LIMIT,
                                       .kink = KINK_LIMIT,
                                       .noise = noise_at,
