@@ -27,14 +27,14 @@ typedef struct loop_part {
 /// One running loop. The body's failures are kept by range number, and ranges below one that failed
 /// still run, so that the failure reported is the lowest whatever the order in which ranges ran.
 typedef struct alpi_loop {
+    loop_part parts[PART_LIMIT];
     alpi_task_fn *body;
     void *user;
     uint32_t count, grain;
     uint32_t part_count;
-    loop_part parts[PART_LIMIT];
     _Atomic uint32_t limit; // items from here on are not worked on any more
     _Atomic bool stop;      // the user cancelled
-    alignas(CACHE_LINE) _Atomic uint32_t done;
+    _Atomic uint32_t done;
     pthread_mutex_t lock; // guards the failure
     uint32_t failed_begin;
     alp_result failure;

@@ -93,11 +93,10 @@ static void passes_end_at_the_tolerance(void **state)
 {
     (void)state;
     static const struct {
-        uint32_t bounces;
         double tolerance;
-        uint32_t passes;
-    } cases[] = {{UINT32_MAX, 1.0 / 80, 6}, {40, 1.0 / 80, 6}, {4, 1.0 / 80, 4},
-                 {40, 1.0 / 170, 7},        {40, 0.5, 2},      {10, 0.0, 10}};
+        uint32_t bounces, passes;
+    } cases[] = {{1.0 / 80, UINT32_MAX, 6}, {1.0 / 80, 40, 6}, {1.0 / 80, 4, 4},
+                 {1.0 / 170, 40, 7},        {0.5, 40, 2},      {0.0, 10, 10}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         test_radiant r;
         test_radiant_options o = test_radiant_default();
