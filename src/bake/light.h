@@ -58,8 +58,7 @@ bool alpi_light_has_rounds(const alp_bake_options *options);
 /// and corners").
 bool alpi_light_has_fine_blocks(const alp_light_options *options);
 /// Whether the lattice begins with every eighth texel, not every fourth: for an error of 3 % and
-/// more
-/// ("Every eighth texel").
+/// more (docs/radiosity.md, "Every eighth texel").
 bool alpi_light_has_wide_lattice(const alp_light_options *options);
 /// Rays that a block gathers by at most, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
