@@ -39,6 +39,7 @@ check_packages="
     libclang-rt-14-dev  -
     clang-format        clang-format
     clang-tidy          clang-tidy
+    lld                 ld.lld
     cppcheck            cppcheck
     ca-certificates     -
     nodejs              node

@@ -11,12 +11,6 @@ enum { SOME = 23 };
 
 /// Reading and writing, where the kinds differ, lie in these many first and last allocations.
 enum { FIRST = 200, LAST = 150 };
-#ifndef TWO_WORKERS_ONLY
-#define TWO_WORKERS_ONLY 0
-#endif
-#ifndef MIDDLE_STEP // sanitizers are slow: a fifth of what lies between does for them
-#define MIDDLE_STEP 1
-#endif
 
 static long count_allocations(const test_small_bake *bake, uint32_t workers)
 {
@@ -55,9 +49,8 @@ static void fail_each(int kind, uint32_t workers, long step)
     test_small_bake bake = test_small_bake_open(kind);
     const long total = count_allocations(&bake, workers);
     long tried = 0, harmless = 0;
-    for (long i = 0; i < total; i += i < FIRST || i >= total - LAST ? step
-                                     : step == 1                    ? MIDDLE_STEP
-                                                                    : step) {
+    for (long i = 0; i < total;
+         i += i < FIRST || i >= total - LAST || step > 1 ? step : TEST_STEP) {
         harmless += fail_one(&bake, i, workers);
         tried++;
     }
@@ -146,7 +139,7 @@ static void report(void **state)
     const char *path = test_path(test_folder(), "page.html");
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     long failing = 0;
-    for (; result != ALP_OK; failing++) {
+    for (; result != ALP_OK; failing += TEST_STEP) {
         test_memory memory = {.failing = -1};
         alp_context *context = test_memory_context(&memory, 1);
         alp_bake_options options = alp_bake_options_default();
@@ -166,18 +159,16 @@ static void report(void **state)
         alp_context_destroy(context);
         assert_int_equal(atomic_load(&memory.live), 0);
     }
-    print_message("report: %ld allocations failed in turn\n", failing - 1);
+    print_message("report: of %ld allocations each %dth failed\n", failing - 1, TEST_STEP);
     assert_in_range(failing, 10, 1000);
 }
 
 int main(void)
 {
-    const struct CMUnitTest threaded[] = {cmocka_unit_test(two_workers)};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gltf),          cmocka_unit_test(collada),     cmocka_unit_test(obj),
         cmocka_unit_test(other_outputs), cmocka_unit_test(two_workers), cmocka_unit_test(estimates),
         cmocka_unit_test(report),
     };
-    return TWO_WORKERS_ONLY ? cmocka_run_group_tests(threaded, NULL, NULL)
-                            : cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

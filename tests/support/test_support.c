@@ -65,20 +65,47 @@ alp_bake_options test_light_options(uint32_t size)
     return options;
 }
 
+/// TEST_CASES in the environment, a pattern of * and ?, leaves the other cases out.
+__attribute__((constructor)) static void choose_cases(void)
+{
+    const char *cases = getenv("TEST_CASES");
+    if (cases != NULL) {
+        cmocka_set_test_filter(cases);
+    }
+}
+
+static long blocks_not_released;
+
 static void *allocate_while_any_left(void *user, size_t size)
 {
     int *left = user;
-    return (*left)-- > 0 ? malloc(size) : NULL;
+    void *pointer = (*left)-- > 0 ? malloc(size) : NULL;
+    blocks_not_released += pointer != NULL;
+    return pointer;
 }
 
 static void release_any(void *user, void *pointer)
 {
     (void)user;
+    blocks_not_released -= pointer != NULL;
     free(pointer);
+}
+
+static void ask_for_blocks_back(void)
+{
+    if (blocks_not_released != 0) {
+        fprintf(stderr, "%ld blocks of failing contexts were not released\n", blocks_not_released);
+        _exit(1);
+    }
 }
 
 alp_context *test_context_failing(int *left)
 {
+    static bool asked;
+    if (!asked) {
+        asked = true;
+        assert_int_equal(atexit(ask_for_blocks_back), 0);
+    }
     *left = 1 << 30;
     alp_context_options options = alp_context_options_default();
     options.allocate = allocate_while_any_left;

@@ -16,6 +16,9 @@
 
 #include <alpenglow/alpenglow.h>
 
+/// TEST_STEP: loops that try each of many like cases go on by so many: by 1, and under sanitizers,
+/// which are slow, by 5.
+
 /// Fails the test with the numbers unless |actual − expected| ≤ tolerance (NaN fails).
 #define ASSERT_NEAR(actual, expected, tolerance)                                                   \
     test_assert_near((double)(actual), (double)(expected), (double)(tolerance), #actual, __FILE__, \
@@ -35,8 +38,8 @@ alp_scene *test_load(alp_context *context, const char *name);
 /// A bake of light alone on new charts, by as many rays as there may be.
 alp_bake_options test_light_options(uint32_t size);
 /// A silent context with one worker whose next `*left` allocations succeed and whose later ones
-/// fail;
-/// `*left` counts down and may be set again at any time. It begins with room enough.
+/// fail; `*left` counts down and may be set again at any time. It begins with room enough. A
+/// program that ends with memory of such contexts not released fails.
 alp_context *test_context_failing(int *left);
 /// Forgets logged messages.
 void test_log_clear(void);

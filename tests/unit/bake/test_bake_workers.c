@@ -147,8 +147,8 @@ static uint32_t check_same(const alp_lightmap *a, const alp_lightmap *b, uint32_
 static void workers_change_no_bit(void **state)
 {
     (void)state;
-    enum { WAYS = 3 };
-    static const uint32_t workers[WAYS] = {1, 2, 7};
+    enum { WAYS = TEST_STEP > 1 ? 2 : 3 };
+    static const uint32_t workers[] = {2, 7, 1};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         alp_context *contexts[WAYS];
         alp_scene *scenes[WAYS];
