@@ -270,8 +270,10 @@ static alp_result add_triangle(const raster *r, bench *b, uint32_t triangle, uin
 static alp_result prepare_bench(const raster *r, bench *b)
 {
     const size_t count = (size_t)r->band_rows * r->atlas->info.width;
-    if (b->cells == NULL) {
+    if (b->columns == NULL) {
         ALPI_TRY_NEW(r->atlas->context, b->columns, r->band_rows);
+    }
+    if (b->cells == NULL) {
         ALPI_TRY_NEW(r->atlas->context, b->cells, count);
         for (size_t i = 0; i < count; i++) {
             b->cells[i] = EMPTY_CELL;
@@ -298,6 +300,28 @@ static void clear_cells(const raster *r, const bench *b)
     }
 }
 
+static alp_result draw_band(const raster *r, bench *b, uint32_t index)
+{
+    const uint32_t first_row = index % r->bands_per_page * r->band_rows;
+    const uint32_t left = r->atlas->info.height - first_row;
+    const uint32_t end_row = first_row + (left < r->band_rows ? left : r->band_rows);
+    for (uint64_t k = r->band_first[index]; k < r->band_first[index + 1]; k++) {
+        ALP_TRY(add_triangle(r, b, r->band_triangles[k], first_row, end_row));
+    }
+    const alpi_band band = {.page = r->first_page + index / r->bands_per_page,
+                            .index = index,
+                            .first_row = first_row,
+                            .end_row = end_row,
+                            .width = r->atlas->info.width,
+                            .covered = b->covered,
+                            .piece_count = (uint32_t)b->piece_count,
+                            .columns = (const uint32_t(*)[2])b->columns,
+                            .cells = b->cells,
+                            .pieces = b->pieces};
+    return r->finish(r->user, &band);
+}
+
+/// A worker may go on with bands below one that failed, so a failure leaves its bench clean too.
 static alp_result run_band(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     const raster *r = user;
@@ -306,25 +330,10 @@ static alp_result run_band(void *user, uint32_t begin, uint32_t end, uint32_t wo
         if (r->band_first[i] == r->band_first[i + 1]) {
             continue;
         }
-        const uint32_t first_row = i % r->bands_per_page * r->band_rows;
-        const uint32_t left = r->atlas->info.height - first_row;
-        const uint32_t end_row = first_row + (left < r->band_rows ? left : r->band_rows);
         ALP_TRY(prepare_bench(r, b));
-        for (uint64_t k = r->band_first[i]; k < r->band_first[i + 1]; k++) {
-            ALP_TRY(add_triangle(r, b, r->band_triangles[k], first_row, end_row));
-        }
-        const alpi_band band = {.page = r->first_page + i / r->bands_per_page,
-                                .index = i,
-                                .first_row = first_row,
-                                .end_row = end_row,
-                                .width = r->atlas->info.width,
-                                .covered = b->covered,
-                                .piece_count = (uint32_t)b->piece_count,
-                                .columns = (const uint32_t(*)[2])b->columns,
-                                .cells = b->cells,
-                                .pieces = b->pieces};
-        ALP_TRY(r->finish(r->user, &band));
+        const alp_result result = draw_band(r, b, i);
         clear_cells(r, b);
+        ALP_TRY(result);
     }
     return ALP_OK;
 }

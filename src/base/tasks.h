@@ -8,8 +8,9 @@
 
 #include "base/context.h"
 
-/// Body of a loop: works on [begin, end), a range of at most `grain`; after a failure no range
-/// above it is begun.
+/// Body of a loop: works on [begin, end), a range of at most `grain`. After a failure no range
+/// above it is begun, but those below it are, by the worker that failed too: what a worker keeps
+/// from range to range must bear that.
 typedef alp_result alpi_task_fn(void *user, uint32_t begin, uint32_t end, uint32_t worker);
 
 /// What to tell the user while a loop runs. All may be NULL / 0.

@@ -32,6 +32,16 @@ static void release_counted(void *user, void *pointer)
     free(pointer);
 }
 
+static void run_backwards(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
+                          void *body_user)
+{
+    (void)user;
+    for (uint32_t ranges = (count + grain - 1) / grain; ranges > 0; ranges--) {
+        const uint32_t begin = (ranges - 1) * grain;
+        body(body_user, begin, count - begin < grain ? count : begin + grain, 0);
+    }
+}
+
 alp_context *test_memory_context(test_memory *memory, uint32_t workers)
 {
     alp_context_options options = alp_context_options_default();
@@ -39,6 +49,7 @@ alp_context *test_memory_context(test_memory *memory, uint32_t workers)
     options.release = release_counted;
     options.allocator_user = memory;
     options.worker_count = workers;
+    options.parallel_for = memory->backwards ? run_backwards : NULL;
     const long failing = memory->failing;
     memory->failing = -1;
     alp_context *context = NULL;

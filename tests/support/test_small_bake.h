@@ -12,6 +12,8 @@
 typedef struct test_memory {
     atomic_long count, live; // asked for so far; not given back yet
     long failing;            // the number of the one that fails, from 0; −1: none
+    bool backwards;          // loops run by a host that takes the last range first: after a failure
+                             // all those below it follow
 } test_memory;
 
 /// A silent context whose memory is counted there.
