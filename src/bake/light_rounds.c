@@ -31,8 +31,9 @@ enum {
 };
 // Of the time that is left, what a round may take: how long it takes is a guess.
 static const double TIME_SHARE = 0.9;
-// Of the fall that noise alone would have, in its logarithm: what an error must fall by at least.
-static const double LEAST_FALL = 0.4;
+// What an error must fall by at least in a round of rays: of the fall that is usual, in its
+// logarithm. Of a fall by less than a tenth nobody can tell.
+static const double LEAST_FALL = 0.4, CLEAR_FALL = 0.9;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
 {
@@ -227,14 +228,18 @@ static alp_result measure(alpi_light_round_state *r)
     return alpi_light_round_measure(r, r->task->order, r->task->count);
 }
 
-/// Where rays of a round bring the error down by much less than their number says, what is left is
-/// not their noise: interpolation misses it, and the lattices of later rounds are finer.
+/// Where rays of a round bring the error down by much less than their number usually does, what is
+/// left is not their noise: interpolation misses it, and the lattices of later rounds are finer.
+/// Not where a number of rays is given: they are to be those of as many texels as before.
 /// @param error of bounced light, and @param rays before the round
 static void look_at_fall(alpi_light_round_state *r, double error, double rays)
 {
-    const double noise_alone = pow(rays / r->rays, r->rays_power);
-    const bool falls = r->bounced_error < error * pow(noise_alone, LEAST_FALL);
-    r->strict = r->strict || !falls;
+    const double usual = pow(rays / r->rays, r->rays_power);
+    const bool may_be_strict = r->job->options.light.error > 0.0f && !r->strict;
+    if (may_be_strict && usual < CLEAR_FALL && r->bounced_error > error * pow(usual, LEAST_FALL)) {
+        r->strict = true;
+        r->sending = fmin(2.0 * r->sending, r->task->count); // a guess, for the clock
+    }
 }
 
 /// One more round of what is too noisy.

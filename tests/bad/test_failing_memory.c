@@ -143,11 +143,11 @@ static void estimates(void **state)
     alp_result result;
     const long total = estimate_without(-1, &result);
     assert_int_equal(result, ALP_OK);
-    for (long i = 0; i < total; i++) {
+    for (long i = 0; i < total; i += TEST_STEP) {
         (void)estimate_without(i, &result);
         assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
     }
-    print_message("estimate: %ld allocations failed in turn\n", total);
+    print_message("estimate: %ld allocations, one in %d failed\n", total, TEST_STEP);
 }
 
 /// The page of a report, after a bake that went well.
@@ -177,7 +177,7 @@ static void report(void **state)
         alp_context_destroy(context);
         assert_int_equal(atomic_load(&memory.live), 0);
     }
-    print_message("report: %ld allocations, one in %d failed\n", failing - 1, TEST_STEP);
+    print_message("report: %ld allocations, one in %d failed\n", failing - TEST_STEP, TEST_STEP);
     assert_in_range(failing, 10, 1000);
 }
 

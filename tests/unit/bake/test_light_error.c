@@ -183,7 +183,7 @@ static void rounds_state_what_interpolation_misses(void **state)
     printf("accuracy: error of light in rounds, Cornell box, 64x64: stated %.2f %%, true %.2f %%, "
            "of it bias %.2f %%\n",
            100.0 * j.stated, 100.0 * real, 100.0 * j.bias);
-    assert_true(j.bias > 0.4 * j.spread); // it must be there to be seen, though lattices get finer
+    assert_true(j.bias > 0.6 * j.spread);
     ASSERT_NEAR(j.stated / real, 1.0, 0.15); // four maps of 1,024 texels held out: 0.04 each
     release(&truth);
     alp_scene_destroy(scene);
