@@ -16,10 +16,8 @@ enum {
 };
 /// Error of a map by as many rays, over that of texels that all have their own: the mean over it is
 /// that of interpolated ones for the most part. Measured on the Cornell box, a sphere on a plane,
-/// living_room, teapot-room: .78 to .86. A little more, as a round that follows costs more than the
-/// rays that spare it: at 256² for 1 % .85 left 12 of 16 seeds of the Cornell box and 4 of 8 of the
-/// teapot room with one round, .9 13 and 6, by as many rays in all.
-static const double MAP_SHARE = 0.9;
+/// living_room, teapot-room: .78 to .86.
+static const double MAP_SHARE = 0.85;
 static const double SENDING_SHARE = 0.15; // of texels that send rays, as a guess
 
 /// Some texels, one at random of each run of them that are as long. @return how many

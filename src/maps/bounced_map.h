@@ -27,12 +27,11 @@ typedef struct alpi_bounced_options {
     const alpi_gather_job *gather; // its list and count are not read; its gatherer knows its error
     const uint32_t *order;         // [count] texels, neighbours together
     uint32_t count;
-    const uint8_t *near;     // [texels] alpi_nearness, or NULL
-    bool adaptive;           // false: all texels are traced
-    bool straight, wide;     // alpi_lattice
-    bool strict;             // less of bend and spread is let pass, as what interpolation misses
-                             // is more than the noise of the rays
-    alpi_held_out *held_out; // NULL: one map alone; else in and out
+    const uint8_t *near;         // [texels] alpi_nearness, or NULL
+    bool adaptive;               // false: all texels are traced
+    bool straight, wide;         // alpi_lattice
+    bool strict;                 // it is finer, as interpolation misses more than rays' noise
+    alpi_held_out *held_out;     // NULL: one map alone; else in and out
     const alpi_gatherer *beside; // like that of `gather`, of other random numbers: of texels that
                                  // are held out, as some may be traced now, and, where replicates
                                  // are joined, of probes, which tell what their spread is worth

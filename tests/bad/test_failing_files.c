@@ -179,7 +179,7 @@ static void failing_writes(void **unused)
         for (int has_old = 0; has_old < 2; has_old++) {
             test_small_bake_clear(&bake);
             long calls = 0;
-            const int step = has_old ? TEST_STEP : 1; // calls for new files are the fewer
+            const int step = has_old ? TEST_STEP : 1; // most are calls for new files too
             for (long i = 0; i == 0 || i < calls; i += step) {
                 void (*const prepare)(const test_small_bake *) =
                     has_old ? test_small_bake_reset : test_small_bake_clear;
