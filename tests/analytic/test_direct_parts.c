@@ -354,7 +354,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_add_up),           cmocka_unit_test(a_part_is_a_light_alone),
-        cmocka_unit_test(ten_thousand_lights),    cmocka_unit_test(agrees_with_the_reference),
+        TEST_OF_FIGURES(ten_thousand_lights),     cmocka_unit_test(agrees_with_the_reference),
         cmocka_unit_test(standard_error_is_true),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

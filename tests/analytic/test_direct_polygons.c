@@ -441,7 +441,7 @@ int main(void)
         cmocka_unit_test(all_of_it),
         cmocka_unit_test(nothing_of_it),
         cmocka_unit_test(on_it),
-        cmocka_unit_test(a_penumbra),
+        TEST_OF_FIGURES(a_penumbra),
         cmocka_unit_test(neighbours_find),
         cmocka_unit_test(a_half_first),
         cmocka_unit_test(a_half_of_patches),

@@ -316,7 +316,7 @@ int main(void)
         cmocka_unit_test(a_strong_and_a_weak_lamp),
         cmocka_unit_test(a_texture_is_as_its_sum),
         cmocka_unit_test(a_spark_is_found_and_darkness_left_out),
-        cmocka_unit_test(ten_thousand_are_as_one),
+        TEST_OF_FIGURES(ten_thousand_are_as_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -207,7 +207,7 @@ static void instances_that_share_coordinates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(albedo_of_one_and_more),
+        TEST_OF_FIGURES(albedo_of_one_and_more),
         cmocka_unit_test(no_light_at_all),
         cmocka_unit_test(rooms_inside_out),
         cmocka_unit_test(lamps_in_walls),

@@ -171,7 +171,7 @@ static void under_a_lamp_of_the_sky(void **state)
     o.light.lighting.sky.image = picture;
     const uint32_t count = bake_strip(scene, &o, found);
     o.light.gather = ALP_GATHER_PATHS;
-    o.light.samples = 4096;
+    o.light.samples = 1024;
     assert_int_equal(bake_strip(scene, &o, truth), count);
     double mean = 0.0, exact = 0.0;
     for (uint32_t i = 0; i < count; i++) {

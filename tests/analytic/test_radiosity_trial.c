@@ -209,7 +209,7 @@ static void trials_tell_how_much_bounced(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solutions_after_a_trial_are_those_without),
+        TEST_OF_FIGURES(solutions_after_a_trial_are_those_without),
         cmocka_unit_test(a_trial_keeps_to_the_limit),
         cmocka_unit_test(trials_tell_how_much_bounced),
     };

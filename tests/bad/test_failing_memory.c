@@ -154,10 +154,11 @@ static void estimates(void **state)
 static void report(void **state)
 {
     (void)state;
+    enum { STEP = TEST_STEP > 1 ? TEST_STEP : 3 }; // each failure takes a bake
     const char *path = test_path(test_folder(), "page.html");
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     long failing = 0;
-    for (; result != ALP_OK; failing += TEST_STEP) {
+    for (; result != ALP_OK; failing += STEP) {
         test_memory memory = {.failing = -1};
         alp_context *context = test_memory_context(&memory, 1);
         alp_bake_options options = alp_bake_options_default();
@@ -177,7 +178,7 @@ static void report(void **state)
         alp_context_destroy(context);
         assert_int_equal(atomic_load(&memory.live), 0);
     }
-    print_message("report: %ld allocations, one in %d failed\n", failing - TEST_STEP, TEST_STEP);
+    print_message("report: %ld allocations, one in %d failed\n", failing - STEP, STEP);
     assert_in_range(failing, 10, 1000);
 }
 

@@ -225,10 +225,14 @@ static void inputs_and_attributes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bindings),           cmocka_unit_test(warnings),
-        cmocka_unit_test(shared_array),       cmocka_unit_test(no_mesh),
-        cmocka_unit_test(parts_times_places), cmocka_unit_test(doubling),
-        cmocka_unit_test(long_controller),    cmocka_unit_test(inputs_and_attributes),
+        TEST_OF_FIGURES(bindings),
+        cmocka_unit_test(warnings),
+        TEST_OF_FIGURES(shared_array),
+        cmocka_unit_test(no_mesh),
+        cmocka_unit_test(parts_times_places),
+        cmocka_unit_test(doubling),
+        cmocka_unit_test(long_controller),
+        cmocka_unit_test(inputs_and_attributes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,7 +94,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_open_comment),
         cmocka_unit_test(a_library_of_many_names),
-        cmocka_unit_test(a_skin_for_all),
+        TEST_OF_FIGURES(a_skin_for_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

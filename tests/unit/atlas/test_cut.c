@@ -303,7 +303,7 @@ int main(void)
         cmocka_unit_test(a_square_fills_its_pages), cmocka_unit_test(halves_of_squares_fill_pages),
         cmocka_unit_test(parts_keep_gaps),          cmocka_unit_test(parts_are_connected),
         cmocka_unit_test(workers_change_nothing),   cmocka_unit_test(a_square_round_a_triangle),
-        cmocka_unit_test(what_is_possible_is_told),
+        TEST_OF_FIGURES(what_is_possible_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -440,7 +440,7 @@ int main(void)
         cmocka_unit_test(turning_helps),
         cmocka_unit_test(groups_stay_together),
         cmocka_unit_test(groups_that_fit_no_page_are_parted),
-        cmocka_unit_test(work_is_linear),
+        TEST_OF_FIGURES(work_is_linear),
         cmocka_unit_test(sides_at_their_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

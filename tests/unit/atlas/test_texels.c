@@ -298,7 +298,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(areas_add_up),
         cmocka_unit_test(normals_that_point_inside_are_not_used),
-        cmocka_unit_test(utilisation_counts_charts_and_padding),
+        TEST_OF_FIGURES(utilisation_counts_charts_and_padding),
         cmocka_unit_test(a_center_is_the_receiver),
         cmocka_unit_test(thin_triangles_have_texels),
         cmocka_unit_test(a_side_on_a_border_does_not_leak),

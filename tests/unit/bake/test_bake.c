@@ -92,10 +92,11 @@ static void a_baked_scene_reads_back(void **state)
 static void workers_change_no_byte(void **state)
 {
     (void)state;
-    const uint32_t workers[] = {1, 2, 7};
+    enum { WAYS = TEST_STEP > 1 ? 2 : 3 };
+    const uint32_t workers[] = {2, 7, 1};
     unsigned char *first = NULL;
     size_t first_size = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < WAYS; i++) {
         alp_context *context = test_context(workers[i]);
         alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = small_options();
@@ -314,7 +315,7 @@ int main(void)
         cmocka_unit_test(nothing_is_overwritten_unasked),
         cmocka_unit_test(the_ends_of_ranges_are_sane),
         cmocka_unit_test(what_cannot_be_baked_says_so),
-        cmocka_unit_test(memory_is_known_beforehand),
+        TEST_OF_FIGURES(memory_is_known_beforehand),
         cmocka_unit_test(rays_clear_their_own_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -496,7 +496,7 @@ int main(void)
         cmocka_unit_test(sheets_between_light_and_dark),
         cmocka_unit_test(objects_of_another_unit),
         cmocka_unit_test(scenes_of_one_triangle),
-        cmocka_unit_test(soups_take_no_square_of_time),
+        TEST_OF_FIGURES(soups_take_no_square_of_time),
         cmocka_unit_test(any_number_of_workers_finds_the_same),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -200,8 +200,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_show_their_faults),
-        cmocka_unit_test(the_scene_shows_turned_normals),
-        cmocka_unit_test(spots_are_shown_from_nearby),
+        TEST_OF_FIGURES(the_scene_shows_turned_normals),
+        TEST_OF_FIGURES(spots_are_shown_from_nearby),
         cmocka_unit_test(spots_of_sets_are_ringed),
         cmocka_unit_test(what_is_not_there_is_not_drawn),
         cmocka_unit_test(every_allocation_may_fail),

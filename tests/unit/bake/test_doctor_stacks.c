@@ -152,7 +152,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stacks_take_no_square_of_time),
-        cmocka_unit_test(many_overlaps_are_told_in_part),
+        TEST_OF_FIGURES(many_overlaps_are_told_in_part),
         cmocka_unit_test(the_hidden_do_not_use_up_the_looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

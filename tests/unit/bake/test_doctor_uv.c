@@ -331,7 +331,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_judged),
-        cmocka_unit_test(space_between_islands),
+        TEST_OF_FIGURES(space_between_islands),
         cmocka_unit_test(space_between_any_islands),
         cmocka_unit_test(islands_that_are_stretched),
         cmocka_unit_test(islands_below_a_texel),

@@ -329,7 +329,7 @@ static void warnings_are_told_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_add_up_to_the_whole),
+        TEST_OF_FIGURES(layers_add_up_to_the_whole),
         cmocka_unit_test(a_layer_is_its_light_alone),
         cmocka_unit_test(names_are_fit_for_files),
         cmocka_unit_test(the_last_of_many_is_all_others),

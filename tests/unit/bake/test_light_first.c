@@ -143,8 +143,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_make_replicates),
         cmocka_unit_test(few_rays_do_for_a_large_error),
-        cmocka_unit_test(the_first_round_is_the_last),
-        cmocka_unit_test(rounds_follow_for_a_small_error),
+        TEST_OF_FIGURES(the_first_round_is_the_last),
+        TEST_OF_FIGURES(rounds_follow_for_a_small_error),
         cmocka_unit_test(it_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

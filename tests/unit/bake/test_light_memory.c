@@ -99,7 +99,7 @@ static void memory_limit_is_kept_by_layers(void **state)
     (void)state;
     uint64_t fewest = UINT64_MAX, most = 0; // rays: where all are kept, and where none are
     int refused = 0;
-    for (double limit = 20.0; limit > 2.0; limit *= 0.7) {
+    for (double limit = 20.0; limit > 2.0; limit *= 0.6) {
         alp_context *context = test_context(2);
         alp_scene *scene = test_load(context, "builtin:cornell");
         const double loaded = (double)alp_context_peak_memory(context);

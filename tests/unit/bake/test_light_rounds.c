@@ -48,7 +48,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rounds_agree_with_one),
-        cmocka_unit_test(rounds_send_what_is_given),
+        TEST_OF_FIGURES(rounds_send_what_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

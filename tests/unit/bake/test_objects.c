@@ -541,7 +541,7 @@ int main(void)
         cmocka_unit_test(an_object_alone_is_what_it_is_without_neighbours),
         cmocka_unit_test(wrong_choices_are_refused),
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(many_objects_are_one_stage),
+        TEST_OF_FIGURES(many_objects_are_one_stage),
         cmocka_unit_test(an_object_takes_no_memory_of_the_page),
         cmocka_unit_test(what_is_cut_off_is_unknown),
         cmocka_unit_test(the_stated_error_is_of_what_was_sampled),

@@ -358,7 +358,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_are_written_and_handed_out),
         cmocka_unit_test(channels_are_x_y_z),
-        cmocka_unit_test(memory_is_known_beforehand),
+        TEST_OF_FIGURES(memory_is_known_beforehand),
         cmocka_unit_test(side_maps_leave_occlusion_as_it_is),
         cmocka_unit_test(objects_alone_see_no_other),
         cmocka_unit_test(only_what_is_asked_for_is_written),

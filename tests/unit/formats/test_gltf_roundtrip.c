@@ -288,7 +288,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_page),
-        cmocka_unit_test(two_pages_each_triangle_alone),
+        TEST_OF_FIGURES(two_pages_each_triangle_alone),
         cmocka_unit_test(the_other_container),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

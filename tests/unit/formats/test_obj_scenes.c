@@ -147,7 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangle_counts),
-        cmocka_unit_test(same_occlusion),
+        TEST_OF_FIGURES(same_occlusion),
         cmocka_unit_test(files_of_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

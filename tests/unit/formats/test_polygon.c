@@ -334,7 +334,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_shapes),   cmocka_unit_test(any_plane),
-        cmocka_unit_test(random_stars),   cmocka_unit_test(large_faces),
+        cmocka_unit_test(random_stars),   TEST_OF_FIGURES(large_faces),
         cmocka_unit_test(hostile_faces),  cmocka_unit_test(broken_faces),
         cmocka_unit_test(failing_memory),
     };

@@ -182,7 +182,7 @@ static void cubic_weights_that_turn_a_direction_over_are_dropped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interpolated_ones_are_as_good_as_traced_ones),
+        TEST_OF_FIGURES(interpolated_ones_are_as_good_as_traced_ones),
         cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
         cmocka_unit_test(cubic_weights_that_turn_a_direction_over_are_dropped),
     };

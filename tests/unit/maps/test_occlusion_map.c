@@ -372,10 +372,10 @@ static void percentiles_are_those_of_a_sort(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interpolation_saves_rays_and_no_truth),
+        TEST_OF_FIGURES(interpolation_saves_rays_and_no_truth),
         cmocka_unit_test(interpolated_texels_hold_the_value_of_their_stencil),
         cmocka_unit_test(any_number_of_workers_gives_the_same_map),
-        cmocka_unit_test(rounds_stop_at_the_wanted_error),
+        TEST_OF_FIGURES(rounds_stop_at_the_wanted_error),
         cmocka_unit_test(the_last_round_uses_all_samples),
         cmocka_unit_test(what_is_cut_off_keeps_what_it_has),
         cmocka_unit_test(percentiles_are_those_of_a_sort),

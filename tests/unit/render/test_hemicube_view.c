@@ -248,7 +248,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weights_and_products),
-        cmocka_unit_test(the_front_face_sees_what_a_camera_sees),
+        TEST_OF_FIGURES(the_front_face_sees_what_a_camera_sees),
         cmocka_unit_test(emitters_and_skies_are_seen),
         cmocka_unit_test(any_number_of_workers),
         cmocka_unit_test(what_is_no_hemicube_is_refused),
