@@ -544,7 +544,7 @@ static void every_allocation_may_fail(void **state)
         alp_result result = alp_atlas_create(scene, &options, &atlas);
         result = result == ALP_OK ? alpi_texels_create(atlas, &texels) : result;
         result = result == ALP_OK ? alpi_texels_create(atlas, &again) : result;
-        // cppcheck-suppress redundantAssignment ; the allocator reads it
+        // the allocator reads it
         left = 1 << 30;
         done = result == ALP_OK;
         assert_true(done || result == ALP_ERROR_OUT_OF_MEMORY);

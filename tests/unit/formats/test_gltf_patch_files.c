@@ -241,7 +241,7 @@ static void every_allocation_may_fail(void **state)
         for (long i = 0; result != ALP_OK; i++) {
             allocator.left = i;
             result = alpi_scene_write_patched(scene, &bake.patch, path, false);
-            // cppcheck-suppress redundantAssignment ; the allocator reads it
+            // the allocator reads it
             allocator.left = -1;
             if (result != ALP_OK) {
                 assert_int_equal(result, ALP_ERROR_OUT_OF_MEMORY);
