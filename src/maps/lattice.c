@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    TEXELS_PER_TICK = 1 << 16,
+    TEXELS_PER_RANGE = 1 << 12,
     TILE_WIDTH = 16,
     TILE_HEIGHT = 8,
     BLOCK_WIDTH = 4,
@@ -30,16 +30,13 @@ uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int
     return l->grid[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
 }
 
-static alp_result fill_grid(alpi_lattice *l)
+static alp_result fill_grid(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    const size_t pixels = (size_t)l->page_count * l->width * l->height;
-    memset(l->grid, 0xff, pixels * sizeof *l->grid);
-    for (uint32_t t = 0; t < l->texels->count; t++) {
+    (void)worker;
+    const alpi_lattice *l = user;
+    for (uint32_t t = begin; t < end; t++) {
         const uint16_t *p = l->texels->pixels[t];
         l->grid[alpi_lattice_pixel(l, l->texels->pages[t], p[0], p[1])] = t;
-        if (t % TEXELS_PER_TICK == TEXELS_PER_TICK - 1) {
-            ALP_TRY(alpi_tick(l->context, "build", 0, 1));
-        }
     }
     return ALP_OK;
 }
@@ -73,26 +70,71 @@ static void sort_by_chart(const alpi_lattice *l, uint32_t first, uint32_t end)
     }
 }
 
-/// Tiles of 16 × 8 texels, in them chart by chart, blocks of 4 × 2: eight texels in a row of the
-/// order are one block of the page, and eight of every fourth texel are one tile.
-static alp_result fill_order(alpi_lattice *l)
+/// Rows of tiles, of all pages one after the other.
+typedef struct tile_rows {
+    const alpi_lattice *lattice;
+    uint32_t rows;   // of each page
+    uint32_t *first; // [pages × rows + 1] where the texels of each begin in the order
+} tile_rows;
+
+static alp_result count_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
-    uint32_t count = 0;
-    for (uint32_t page = 0; page < l->page_count; page++) {
-        for (uint32_t ty = 0; ty < l->height; ty += TILE_HEIGHT) {
-            for (uint32_t tx = 0; tx < l->width; tx += TILE_WIDTH) {
-                const uint32_t first = count;
-                for (uint32_t y = ty; y < ty + TILE_HEIGHT; y += BLOCK_HEIGHT) {
-                    for (uint32_t x = tx; x < tx + TILE_WIDTH; x += BLOCK_WIDTH) {
-                        append_block(l, page, x, y, &count);
-                    }
+    (void)worker;
+    const tile_rows *job = user;
+    const alpi_lattice *l = job->lattice;
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t y0 = r % job->rows * TILE_HEIGHT, left = l->height - y0;
+        const uint32_t *texels = &l->grid[alpi_lattice_pixel(l, r / job->rows, 0, y0)];
+        const size_t pixels = (size_t)l->width * (left < TILE_HEIGHT ? left : TILE_HEIGHT);
+        uint32_t count = 0;
+        for (size_t i = 0; i < pixels; i++) {
+            count += texels[i] != ALPI_NONE ? 1 : 0;
+        }
+        job->first[r + 1] = count;
+    }
+    return ALP_OK;
+}
+
+static alp_result order_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const tile_rows *job = user;
+    const alpi_lattice *l = job->lattice;
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t page = r / job->rows, ty = r % job->rows * TILE_HEIGHT;
+        uint32_t count = job->first[r];
+        for (uint32_t tx = 0; tx < l->width; tx += TILE_WIDTH) {
+            const uint32_t first = count;
+            for (uint32_t y = ty; y < ty + TILE_HEIGHT; y += BLOCK_HEIGHT) {
+                for (uint32_t x = tx; x < tx + TILE_WIDTH; x += BLOCK_WIDTH) {
+                    append_block(l, page, x, y, &count);
                 }
-                sort_by_chart(l, first, count);
             }
-            ALP_TRY(alpi_tick(l->context, "build", 0, 1));
+            sort_by_chart(l, first, count);
         }
     }
     return ALP_OK;
+}
+
+/// Tiles of 16 × 8 texels, in them chart by chart, blocks of 4 × 2: eight texels in a row of the
+/// order are one block of the page, and eight of every fourth texel are one tile.
+static alp_result fill_order(const alpi_lattice *l)
+{
+    enum { ROWS_PER_RANGE = 4 };
+    const alpi_task_progress told = {.stage = "build"};
+    tile_rows job = {.lattice = l, .rows = (l->height + TILE_HEIGHT - 1) / TILE_HEIGHT};
+    const uint32_t count = l->page_count * job.rows;
+    ALPI_TRY_NEW(l->context, job.first, (size_t)count + 1);
+    alp_result result =
+        alpi_parallel_for(l->context, count, ROWS_PER_RANGE, count_rows, &job, &told);
+    for (uint32_t r = 0; r < count; r++) {
+        job.first[r + 1] += job.first[r];
+    }
+    if (result == ALP_OK) {
+        result = alpi_parallel_for(l->context, count, ROWS_PER_RANGE, order_rows, &job, &told);
+    }
+    alpi_release(l->context, job.first);
+    return result;
 }
 
 static alp_result create(alpi_lattice *l)
@@ -102,7 +144,9 @@ static alp_result create(alpi_lattice *l)
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    ALP_TRY(fill_grid(l));
+    const alpi_task_progress told = {.stage = "build"};
+    memset(l->grid, 0xff, pixels * sizeof *l->grid);
+    ALP_TRY(alpi_parallel_for(l->context, l->texels->count, TEXELS_PER_RANGE, fill_grid, l, &told));
     return fill_order(l);
 }
 

@@ -40,27 +40,39 @@ static uint32_t find_near(const alpi_patches *p, uint32_t page, int64_t x, int64
     return best;
 }
 
-/// A texel of each chart, and what is found at each pixel: its texel, or the nearest with light of
-/// its own.
-static void find_places(alpi_patches *p)
+/// What is found at the pixel of each texel: it, if it has light of its own.
+static alp_result find_own_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const alpi_patches *p = user;
+    for (uint32_t t = begin; t < end; t++) {
+        const bool lit = p->blocks[t] != ALPI_NONE;
+        *place_of(p, t) = (alpi_patch_place){p->texels->charts[t], lit ? t : ALPI_NONE};
+    }
+    return ALP_OK;
+}
+
+/// A texel of each chart, and what is found at those without light of their own: the nearest that
+/// has.
+static void find_other_places(const alpi_patches *p)
 {
     enum { RINGS = 3 };
     const alpi_texels *texels = p->texels;
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint32_t chart = texels->charts[t];
-        const bool lit = p->blocks[t] != ALPI_NONE;
-        *place_of(p, t) = (alpi_patch_place){chart, lit ? t : ALPI_NONE};
-        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE && lit) {
+        if (chart != ALPI_NONE && p->chart_texels[chart] == ALPI_NONE &&
+            p->blocks[t] != ALPI_NONE) {
             p->chart_texels[chart] = t;
         }
     }
     for (uint32_t t = 0; t < texels->count; t++) {
         const uint16_t *pixel = texels->pixels[t];
         const uint32_t chart = texels->charts[t];
-        alpi_patch_place *place = place_of(p, t);
-        if (p->blocks[t] == ALPI_NONE) {
-            place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
+        if (p->blocks[t] != ALPI_NONE) {
+            continue;
         }
+        alpi_patch_place *place = place_of(p, t);
+        place->texel = find_near(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
         if (place->texel == ALPI_NONE && chart != ALPI_NONE) {
             place->texel = p->chart_texels[chart];
         }
@@ -88,11 +100,13 @@ static alp_result find_triangles(void *user, uint32_t begin, uint32_t end, uint3
 
 alp_result alpi_patch_places_create(alpi_patches *patches)
 {
-    enum { TRIANGLES_PER_RANGE = 4096 };
+    enum { TRIANGLES_PER_RANGE = 4096, TEXELS_PER_RANGE = 4096 };
     const alpi_task_progress told = {.stage = "light"};
     const uint32_t triangles = patches->scene->triangle_count; // faces begin with those
     ALPI_TRY_NEW(patches->context, patches->triangles, triangles);
-    find_places(patches);
+    ALP_TRY(alpi_parallel_for(patches->context, patches->texels->count, TEXELS_PER_RANGE,
+                              find_own_places, patches, &told));
+    find_other_places(patches);
     return alpi_parallel_for(patches->context, triangles, TRIANGLES_PER_RANGE, find_triangles,
                              patches, &told);
 }

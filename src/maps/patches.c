@@ -114,6 +114,15 @@ static alp_result find_materials(void *user, uint32_t begin, uint32_t end, uint3
 }
 
 // --- blocks --------------------------------------------------------------------------------------
+//
+// Rows of squares make their blocks side by side: where the texels of each begin is counted first,
+// and blocks, which are no more than texels, begin there too until it is known how many there are.
+
+/// A row of squares of a page, and what is made of it.
+typedef struct square_row {
+    uint32_t first, placed;  // texels before those of this row, and before the next one to place
+    uint32_t blocks, before; // made in this row, and in those before
+} square_row;
 
 /// Texels of one square of the page, with light of their own, chart by chart.
 typedef struct page_square {
@@ -136,10 +145,10 @@ static void list_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint3
 }
 
 /// Takes the texels of the first one's chart out of a square and makes a block of them.
-static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
+static void take_block(const alpi_patches *p, page_square *s, square_row *row)
 {
-    const uint32_t chart = p->texels->charts[s->texels[0]], first = *placed;
-    uint32_t left = 0;
+    const uint32_t chart = p->texels->charts[s->texels[0]], first = row->placed;
+    uint32_t placed = first, left = 0;
     double area = 0.0;
     for (uint32_t i = 0; i < s->count; i++) {
         const uint32_t t = s->texels[i];
@@ -148,17 +157,19 @@ static void take_block(alpi_patches *p, page_square *s, uint32_t *placed)
             continue;
         }
         area += (double)alpi_texels_area(p->texels, t);
-        p->blocks[t] = p->block_count;
-        p->block_ends[*placed] = (float)area;
-        p->block_texels[(*placed)++] = t;
+        p->blocks[t] = row->blocks;
+        p->block_ends[placed] = (float)area;
+        p->block_texels[placed++] = t;
     }
-    for (uint32_t i = first; i < *placed; i++) {
+    for (uint32_t i = first; i < placed; i++) {
         p->block_ends[i] = area > 0.0 ? (float)((double)p->block_ends[i] / area)
-                                      : (float)(i - first + 1) / (float)(*placed - first);
+                                      : (float)(i - first + 1) / (float)(placed - first);
     }
-    p->block_ends[*placed - 1] = 1.0f;
-    p->block_areas[p->block_count] = area;
-    p->block_first[++p->block_count] = *placed;
+    p->block_ends[placed - 1] = 1.0f;
+    p->block_areas[row->first + row->blocks] = area;
+    p->block_first[row->first + row->blocks] = first;
+    row->blocks++;
+    row->placed = placed;
     s->count = left;
 }
 
@@ -179,38 +190,118 @@ static uint32_t choose_side(const alpi_patches *p, const page_square *s, uint32_
 }
 
 /// Blocks of one square of the page, or of its parts, where light changes fast.
-static void split_square(alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0, uint32_t spacing,
-                         uint32_t *placed)
+static void split_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
+                         uint32_t spacing, square_row *row)
 {
     page_square s;
     list_square(p, page, x0, y0, spacing, &s);
     const uint32_t part = choose_side(p, &s, spacing);
     while (part == spacing && s.count > 0) {
-        take_block(p, &s, placed);
+        take_block(p, &s, row);
     }
     for (uint32_t y = y0; y < y0 + spacing && part < spacing; y += part) {
         for (uint32_t x = x0; x < x0 + spacing; x += part) {
             list_square(p, page, x, y, part, &s);
             while (s.count > 0) {
-                take_block(p, &s, placed);
+                take_block(p, &s, row);
             }
         }
     }
 }
 
-static alp_result make_blocks(alpi_patches *p, uint32_t spacing)
+typedef struct block_job {
+    const alpi_patches *patches;
+    uint32_t spacing, rows; // of squares, of each page
+    square_row *all;        // [pages × rows]
+} block_job;
+
+/// Texels with light of their own in each row.
+static alp_result count_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
+    (void)worker;
+    const block_job *job = user;
+    const alpi_patches *p = job->patches;
     const alpi_lattice *l = p->lattice;
-    uint32_t placed = 0;
-    for (uint32_t page = 0; page < l->page_count; page++) {
-        for (uint32_t y = 0; y < l->height; y += spacing) {
-            for (uint32_t x = 0; x < l->width; x += spacing) {
-                split_square(p, page, x, y, spacing, &placed);
-            }
-            ALP_TRY(alpi_tick(p->context, "light", 0, 1));
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t page = r / job->rows, y0 = r % job->rows * job->spacing;
+        const uint32_t rows = l->height - y0 < job->spacing ? l->height - y0 : job->spacing;
+        const uint32_t *texels = &l->grid[alpi_lattice_pixel(l, page, 0, y0)];
+        uint32_t count = 0;
+        for (size_t i = 0; i < (size_t)l->width * rows; i++) {
+            count += texels[i] != ALPI_NONE && p->blocks[texels[i]] != ALPI_NONE ? 1 : 0;
+        }
+        job->all[r].placed = count;
+    }
+    return ALP_OK;
+}
+
+static alp_result split_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const block_job *job = user;
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t page = r / job->rows, y0 = r % job->rows * job->spacing;
+        for (uint32_t x = 0; x < job->patches->lattice->width; x += job->spacing) {
+            split_square(job->patches, page, x, y0, job->spacing, &job->all[r]);
         }
     }
     return ALP_OK;
+}
+
+/// Tells the texels of each row the numbers that its blocks have among all.
+static alp_result number_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const block_job *job = user;
+    const alpi_patches *p = job->patches;
+    for (uint32_t r = begin; r < end; r++) {
+        const square_row *row = &job->all[r];
+        for (uint32_t i = row->first; i < row->placed; i++) {
+            p->blocks[p->block_texels[i]] += row->before;
+        }
+    }
+    return ALP_OK;
+}
+
+/// Moves the blocks of each row behind those of the rows before.
+static void join_rows(alpi_patches *p, uint32_t count, square_row *rows)
+{
+    for (uint32_t r = 0; r < count; r++) {
+        const uint32_t first = rows[r].first, blocks = rows[r].blocks, to = p->block_count;
+        memmove(p->block_first + to, p->block_first + first, blocks * sizeof *p->block_first);
+        memmove(p->block_areas + to, p->block_areas + first, blocks * sizeof *p->block_areas);
+        rows[r].before = to;
+        p->block_count += blocks;
+    }
+    p->block_first[p->block_count] = count > 0 ? rows[count - 1].placed : 0;
+}
+
+static alp_result make_blocks(alpi_patches *p, uint32_t spacing)
+{
+    enum { ROWS_PER_RANGE = 4 };
+    const uint32_t rows = (p->lattice->height + spacing - 1) / spacing;
+    const uint32_t count = p->lattice->page_count * rows;
+    const alpi_task_progress told = {.stage = "light"};
+    block_job job = {p, spacing, rows, ALPI_NEW(p->context, square_row, count)};
+    if (job.all == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result =
+        alpi_parallel_for(p->context, count, ROWS_PER_RANGE, count_rows, &job, &told);
+    for (uint32_t r = 0, first = 0; r < count && result == ALP_OK; r++) {
+        const uint32_t texels = job.all[r].placed;
+        job.all[r] = (square_row){.first = first, .placed = first};
+        first += texels;
+    }
+    if (result == ALP_OK) {
+        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, split_rows, &job, &told);
+    }
+    if (result == ALP_OK) {
+        join_rows(p, count, job.all);
+        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, number_rows, &job, &told);
+    }
+    alpi_release(p->context, job.all);
+    return result;
 }
 
 /// The member of a block that holds u of its area.
