@@ -121,17 +121,16 @@ static alp_result order_rows(void *user, uint32_t begin, uint32_t end, uint32_t 
 static alp_result fill_order(const alpi_lattice *l)
 {
     enum { ROWS_PER_RANGE = 4 };
-    const alpi_task_progress told = {.stage = "build"};
     tile_rows job = {.lattice = l, .rows = (l->height + TILE_HEIGHT - 1) / TILE_HEIGHT};
     const uint32_t count = l->page_count * job.rows;
     ALPI_TRY_NEW(l->context, job.first, (size_t)count + 1);
     alp_result result =
-        alpi_parallel_for(l->context, count, ROWS_PER_RANGE, count_rows, &job, &told);
+        alpi_parallel_for(l->context, count, ROWS_PER_RANGE, count_rows, &job, NULL);
     for (uint32_t r = 0; r < count; r++) {
         job.first[r + 1] += job.first[r];
     }
     if (result == ALP_OK) {
-        result = alpi_parallel_for(l->context, count, ROWS_PER_RANGE, order_rows, &job, &told);
+        result = alpi_parallel_for(l->context, count, ROWS_PER_RANGE, order_rows, &job, NULL);
     }
     alpi_release(l->context, job.first);
     return result;
@@ -144,10 +143,11 @@ static alp_result create(alpi_lattice *l)
     ALPI_TRY_NEW(l->context, l->order, l->texels->count);
     ALPI_TRY_NEW(l->context, l->states, l->texels->count);
     ALPI_TRY_NEW(l->context, l->values, l->texels->count);
-    const alpi_task_progress told = {.stage = "build"};
     memset(l->grid, 0xff, pixels * sizeof *l->grid);
-    ALP_TRY(alpi_parallel_for(l->context, l->texels->count, TEXELS_PER_RANGE, fill_grid, l, &told));
-    return fill_order(l);
+    ALP_TRY(alpi_parallel_for(l->context, l->texels->count, TEXELS_PER_RANGE, fill_grid, l, NULL));
+    ALP_TRY(alpi_tick(l->context, "build", 0, 1));
+    ALP_TRY(fill_order(l));
+    return alpi_tick(l->context, "build", 0, 1);
 }
 
 alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,

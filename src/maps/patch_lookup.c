@@ -105,8 +105,9 @@ alp_result alpi_patch_places_create(alpi_patches *patches)
     const uint32_t triangles = patches->scene->triangle_count; // faces begin with those
     ALPI_TRY_NEW(patches->context, patches->triangles, triangles);
     ALP_TRY(alpi_parallel_for(patches->context, patches->texels->count, TEXELS_PER_RANGE,
-                              find_own_places, patches, &told));
+                              find_own_places, patches, NULL));
     find_other_places(patches);
+    ALP_TRY(alpi_tick(patches->context, "light", 0, 1));
     return alpi_parallel_for(patches->context, triangles, TRIANGLES_PER_RANGE, find_triangles,
                              patches, &told);
 }

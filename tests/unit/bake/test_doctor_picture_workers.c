@@ -38,7 +38,7 @@ static void any_number_of_workers_draws_the_same(void **state)
 {
     (void)state;
     enum { PICTURES = TEST_STEP > 1 ? 1 : 2 };
-    static const uint32_t pictures[2] = {2, 0}; // of the second set, and of the scene
+    static const uint32_t pictures[2] = {0, 2}; // of the scene, and of the second set
     alp_image *images[2][PICTURES];
     alp_context *contexts[2];
     for (int i = 0; i < 2; i++) {

@@ -121,7 +121,7 @@ static void the_scene_shows_turned_normals(void **state)
 static void spots_are_shown_from_nearby(void **state)
 {
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = TEST_STEP > 1 ? 1 : 0; i < 2; i++) {
         alp_context *context = test_context(1);
         alp_scene *scene = make(context, APART, i == 0 ? UP : DOWN);
         alp_diagnosis *d = diagnose(context, scene);
@@ -201,7 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_show_their_faults),
         TEST_OF_FIGURES(the_scene_shows_turned_normals),
-        TEST_OF_FIGURES(spots_are_shown_from_nearby),
+        cmocka_unit_test(spots_are_shown_from_nearby),
         cmocka_unit_test(spots_of_sets_are_ringed),
         cmocka_unit_test(what_is_not_there_is_not_drawn),
         cmocka_unit_test(every_allocation_may_fail),

@@ -380,6 +380,28 @@ static void kinks_are_found_beside_traced_texels_only(void **state)
     tear_down(&s);
 }
 
+static bool refuse(void *user, const alp_progress *progress)
+{
+    assert_string_equal(progress->stage, "build");
+    ++*(int *)user;
+    return false;
+}
+
+static void it_can_be_cancelled(void **state)
+{
+    (void)state;
+    lattice_setup s;
+    set_up(&s);
+    int asked = 0;
+    alpi_lattice other;
+    const alpi_watch before =
+        alpi_set_watch(s.context, (alpi_watch){.callback = refuse, .user = &asked});
+    assert_int_equal(alpi_lattice_create(s.atlas, &s.texels, &other), ALP_ERROR_CANCELLED);
+    (void)alpi_set_watch(s.context, before);
+    assert_int_equal(asked, 1);
+    tear_down(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -390,6 +412,7 @@ int main(void)
         cmocka_unit_test(near_surfaces_the_judge_is_stricter),
         cmocka_unit_test(no_stencil_crosses_a_chart_or_takes_the_unknown),
         cmocka_unit_test(kinks_are_found_beside_traced_texels_only),
+        cmocka_unit_test(it_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

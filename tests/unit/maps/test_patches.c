@@ -222,7 +222,7 @@ static void blocks_hold_every_texel_once(void **state)
         setting s;
         double area = 0.0;
         uint32_t members = 0;
-        open_setting(&s, make_ball(test_context(2), 24, 12), 96, 0.3f, spacings[i], 5);
+        open_setting(&s, make_ball(test_context(2), 24, 12), 97, 0.3f, spacings[i], 5);
         const alpi_patches *p = &s.patches;
         for (uint32_t b = 0; b < p->block_count; b++) {
             const uint32_t first = p->block_texels[p->block_first[b]];
@@ -246,6 +246,7 @@ static void blocks_hold_every_texel_once(void **state)
             area += sum;
         }
         assert_int_equal(members, s.texels.count - (s.texels.count + 4) / 5);
+        assert_int_equal(p->block_first[p->block_count], members);
         assert_true(spacings[i] > 1 || p->block_count == members);
         assert_true(area > 0.0);
         close_setting(&s);
@@ -485,6 +486,42 @@ static void backs_are_other_cells(void **state)
     close_setting(&s);
 }
 
+/// Pages whose rows are no multiple of anything, each row of blocks, tile of texels and place made
+/// by who comes first.
+static void workers_change_no_block(void **state)
+{
+    (void)state;
+    static const uint32_t workers[2] = {1, 7};
+    setting s[2];
+    alp_atlas_options a = alp_atlas_options_default();
+    a.size = 67;
+    a.texels_per_metre = 14.0;
+    a.max_angle = 0.3f;
+    for (int i = 0; i < 2; i++) {
+        open_on(&s[i], make_ball(test_context(workers[i]), 24, 12), &a, 4, 5);
+    }
+    const alpi_patches *p = &s[0].patches, *q = &s[1].patches;
+    const uint32_t count = s[0].texels.count, blocks = p->block_count;
+    assert_true(alp_atlas_get_info(s[0].atlas).pages >= 2);
+    assert_int_equal(s[1].texels.count, count);
+    assert_int_equal(q->block_count, blocks);
+    assert_memory_equal(s[0].lattice.order, s[1].lattice.order, count * sizeof(uint32_t));
+    assert_memory_equal(p->blocks, q->blocks, count * sizeof(uint32_t));
+    assert_memory_equal(p->block_first, q->block_first, (blocks + 1) * sizeof(uint32_t));
+    assert_memory_equal(p->block_areas, q->block_areas, blocks * sizeof(double));
+    const uint32_t members = p->block_first[blocks];
+    assert_memory_equal(p->block_texels, q->block_texels, members * sizeof(uint32_t));
+    assert_int_equal(members, count - (count + 4) / 5);
+    uint8_t *ordered = calloc(count, 1);
+    assert_non_null(ordered);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_int_equal(ordered[s[0].lattice.order[i]]++, 0);
+    }
+    free(ordered);
+    close_setting(&s[0]);
+    close_setting(&s[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -493,6 +530,7 @@ int main(void)
         cmocka_unit_test(charts_that_share_a_texel),
         cmocka_unit_test(texels_without_light_have_stand_ins),
         cmocka_unit_test(blocks_hold_every_texel_once),
+        cmocka_unit_test(workers_change_no_block),
         cmocka_unit_test(blocks_are_small_near_surfaces),
         cmocka_unit_test(blocks_are_placed_by_area),
         cmocka_unit_test(pictures_count_by_their_mean),
