@@ -491,10 +491,11 @@ static void backs_are_other_cells(void **state)
 static void workers_change_no_block(void **state)
 {
     (void)state;
+    enum { SIZE = 67 };
     static const uint32_t workers[2] = {1, 7};
     setting s[2];
     alp_atlas_options a = alp_atlas_options_default();
-    a.size = 67;
+    a.size = SIZE;
     a.texels_per_metre = 14.0;
     a.max_angle = 0.3f;
     for (int i = 0; i < 2; i++) {
@@ -511,6 +512,8 @@ static void workers_change_no_block(void **state)
     assert_memory_equal(p->block_areas, q->block_areas, blocks * sizeof(double));
     const uint32_t members = p->block_first[blocks];
     assert_memory_equal(p->block_texels, q->block_texels, members * sizeof(uint32_t));
+    const size_t pixels = (size_t)SIZE * SIZE * alp_atlas_get_info(s[0].atlas).pages;
+    assert_memory_equal(p->places, q->places, pixels * sizeof *p->places);
     assert_int_equal(members, count - (count + 4) / 5);
     uint8_t *ordered = calloc(count, 1);
     assert_non_null(ordered);
