@@ -9,6 +9,7 @@
 #include <alpenglow/atlas.h>
 
 struct alpi_texels;
+struct alpi_face_shape;
 
 struct alp_atlas {
     const alp_scene *scene;
@@ -96,7 +97,9 @@ typedef struct alpi_texels {
     float *piece_ends; // [piece_first[count]] share of the texel's area up to the end of the piece:
                        // ascending, the last is 1
 
-    const alp_atlas *atlas; // must outlive the texels
+    struct alpi_face_shape *shapes; // [faces] or NULL: what places in a face share, where there are
+                                    // so many texels that it pays to keep it
+    const alp_atlas *atlas;         // must outlive the texels
 } alpi_texels;
 
 /// What a texel counts in sums over the surface, m²: overlapping charts have each place up to three

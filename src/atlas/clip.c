@@ -129,18 +129,23 @@ void alpi_page_triangle_cut(const alpi_page_triangle *t, uint32_t x, uint32_t y,
     }
 }
 
-alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *t, double x, double y)
+alpi_page_map alpi_page_triangle_map(const alpi_page_triangle *t)
 {
     const double scale = 0.5 / t->area;
     const double e1[2] = {scale * (t->p[1][0] - t->p[0][0]), scale * (t->p[1][1] - t->p[0][1])};
     const double e2[2] = {scale * (t->p[2][0] - t->p[0][0]), scale * (t->p[2][1] - t->p[0][1])};
-    alpi_facet_patch map; // chosen, not indexed: a store that its load must wait for
+    alpi_page_map map; // chosen, not indexed: a store that its load must wait for
     map.by_x[0] = t->turned ? -e1[1] : e2[1];
     map.by_y[0] = t->turned ? e1[0] : -e2[0];
     map.by_x[1] = t->turned ? e2[1] : -e1[1];
     map.by_y[1] = t->turned ? -e2[0] : e1[0];
-    for (int k = 0; k < 2; k++) {
-        map.at[k] = (x - t->p[0][0]) * map.by_x[k] + (y - t->p[0][1]) * map.by_y[k];
-    }
+    map.corner[0] = t->p[0][0];
+    map.corner[1] = t->p[0][1];
     return map;
+}
+
+alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *t, double x, double y)
+{
+    const alpi_page_map map = alpi_page_triangle_map(t);
+    return alpi_page_map_from(&map, x, y);
 }

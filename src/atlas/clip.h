@@ -58,8 +58,32 @@ void alpi_polygon_of_triangle(const alpi_page_triangle *triangle, alpi_polygon *
 void alpi_page_triangle_cut(const alpi_page_triangle *triangle, uint32_t x, uint32_t y,
                             alpi_polygon *shape);
 
-/// Barycentrics of a triangle's corners 1 and 2 as functions of the page, (x, y) in texels from an
-/// origin of the caller's.
+/// Barycentrics of a triangle's corners 1 and 2 as functions of the page.
+typedef struct alpi_page_map {
+    double corner[2]; // texels: where both are 0
+    double by_x[2], by_y[2];
+} alpi_page_map;
+alpi_page_map alpi_page_triangle_map(const alpi_page_triangle *triangle);
+/// The same from (x, y) in texels on.
+static inline alpi_facet_patch alpi_page_map_from(const alpi_page_map *map, double x, double y)
+{
+    alpi_facet_patch p;
+    for (int k = 0; k < 2; k++) {
+        p.at[k] = (x - map->corner[0]) * map->by_x[k] + (y - map->corner[1]) * map->by_y[k];
+        p.by_x[k] = map->by_x[k];
+        p.by_y[k] = map->by_y[k];
+    }
+    return p;
+}
+/// Both in one step.
 alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *triangle, double x, double y);
+
+/// What the places of texels share that lie wholly in a face.
+typedef struct alpi_face_shape {
+    alpi_page_map map;
+    alpi_facet facet; // with its lift
+} alpi_face_shape;
+/// Makes the shapes of all faces where texels are many to a face; else there are none.
+alp_result alpi_face_shapes_make(alpi_texels *texels);
 
 #endif

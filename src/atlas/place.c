@@ -6,6 +6,9 @@
 // neighbours in the square stay neighbours in a piece, and strata stay strata.
 #include "atlas/clip.h"
 
+#include "base/memory.h"
+#include "base/tasks.h"
+
 #include <math.h>
 
 enum { BATCH = 64, STRATA = 16 };
@@ -170,7 +173,63 @@ static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2],
     }
 }
 
+// --- kept shapes ---------------------------------------------------------------------------------
+
+static alp_result make_shapes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const alpi_texels *texels = user;
+    const alp_atlas *atlas = texels->atlas;
+    for (uint32_t f = begin; f < end; f++) {
+        alpi_page_triangle page;
+        if (atlas->triangle_charts[f] != ALPI_NONE && alpi_page_triangle_load(atlas, f, &page)) {
+            texels->shapes[f].map = alpi_page_triangle_map(&page);
+            alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, f), true,
+                            &texels->shapes[f].facet);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_face_shapes_make(alpi_texels *texels)
+{
+    enum { TEXELS_PER_FACE = 16, FACES_PER_RANGE = 256 }; // 16 bytes a texel at most
+    alp_context *context = texels->atlas->context;
+    const uint32_t faces = alpi_atlas_face_count(texels->atlas);
+    if (faces > texels->count / TEXELS_PER_FACE) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(context, texels->shapes, faces);
+    return alpi_parallel_for(context, faces, FACES_PER_RANGE, make_shapes, texels, NULL);
+}
+
 // --- texels --------------------------------------------------------------------------------------
+
+/// The facet that a texel's representative point is of, and a whole texel all.
+/// @param own where it is made if none is kept   @return it
+static const alpi_facet *find_facet(const alpi_texels *texels, uint32_t texel, alpi_facet *own)
+{
+    const bool lift = (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0;
+    const alpi_facet *kept =
+        texels->shapes != NULL ? &texels->shapes[texels->faces[texel]].facet : NULL;
+    if (kept != NULL && (lift || !kept->lifted)) {
+        return kept;
+    }
+    alpi_facet_load(texels->atlas->scene, texels->triangles[texel], lift, own);
+    return own;
+}
+
+/// Barycentrics of a whole texel's triangle, from the texel's corner on.
+static alpi_facet_patch find_map(const alpi_texels *texels, uint32_t texel)
+{
+    const uint16_t *pixel = texels->pixels[texel];
+    if (texels->shapes != NULL) {
+        return alpi_page_map_from(&texels->shapes[texels->faces[texel]].map, pixel[0], pixel[1]);
+    }
+    alpi_page_triangle page;
+    alpi_page_triangle_load(texels->atlas, texels->faces[texel], &page);
+    return alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
+}
 
 /// @param lows NULL, or out: the positions before any lift
 static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t count,
@@ -184,14 +243,9 @@ static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t c
         }
         return;
     }
-    const uint16_t *pixel = texels->pixels[texel];
-    alpi_page_triangle page;
-    alpi_facet facet;
-    alpi_page_triangle_load(texels->atlas, texels->faces[texel], &page);
-    const alpi_facet_patch map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
-    alpi_facet_load(texels->atlas->scene, texels->triangles[texel],
-                    (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
-    alpi_facet_points(&facet, &map, count, square, points, lows);
+    alpi_facet own;
+    const alpi_facet_patch map = find_map(texels, texel);
+    alpi_facet_points(find_facet(texels, texel, &own), &map, count, square, points, lows);
 }
 
 static void place(const void *user, uint32_t texel, uint32_t count, const float (*square)[2],
@@ -233,10 +287,7 @@ void alpi_texels_spot(const alpi_texels *texels, uint32_t texel, const float squ
         *spot = (alpi_texel_spot){triangle, (float)b[0], (float)b[1]};
         return;
     }
-    alpi_page_triangle page;
-    alpi_page_triangle_load(texels->atlas, texels->faces[texel], &page);
-    const alpi_facet_patch map =
-        alpi_page_triangle_patch(&page, texels->pixels[texel][0], texels->pixels[texel][1]);
+    const alpi_facet_patch map = find_map(texels, texel);
     for (int k = 0; k < 2; k++) {
         b[k] = map.at[k] + (double)square[0] * map.by_x[k] + (double)square[1] * map.by_y[k];
     }
@@ -271,10 +322,8 @@ bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
 
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point)
 {
-    alpi_facet facet;
-    alpi_facet_load(texels->atlas->scene, texels->triangles[texel],
-                    (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &facet);
+    alpi_facet own;
     const double b[2] = {(double)texels->barycentrics[texel][0],
                          (double)texels->barycentrics[texel][1]};
-    alpi_facet_point(&facet, b, point, NULL);
+    alpi_facet_point(find_facet(texels, texel, &own), b, point, NULL);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The covered texels of an atlas as arrays: joined from what the bands of its pages hold.
 #include "atlas/blend.h"
+#include "atlas/clip.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"
@@ -178,6 +179,9 @@ alp_result alpi_texels_create(const alp_atlas *atlas, alpi_texels *texels)
     if (result == ALP_OK) {
         result = find_triangles(atlas, texels);
     }
+    if (result == ALP_OK) {
+        result = alpi_face_shapes_make(texels);
+    }
     if (result != ALP_OK) {
         alpi_texels_destroy(atlas->context, texels);
     }
@@ -204,5 +208,6 @@ void alpi_texels_destroy(alp_context *context, alpi_texels *texels)
     alpi_release(context, texels->piece_first);
     alpi_release(context, texels->piece_triangles);
     alpi_release(context, texels->piece_ends);
+    alpi_release(context, texels->shapes);
     *texels = (alpi_texels){0};
 }
