@@ -22,9 +22,10 @@ void alpi_look_aim(const alpi_receiver_point *point, float side, alpi_look_kind 
 /// a texel, or above it in three of four directions; or, where something is near in all four, more
 /// backs than fronts lie on the ways out. Back faces of double-sided materials and of panes are no
 /// sign of an inside.
-/// @param points [32 at most]   @param asked bit i: whether point i is   @param side of the texel
+/// @param points [32 at most]   @param sides [points] of their texels, metres
+/// @param asked bit i: whether point i is
 /// @return bit i: point i was asked, and is inside
 uint32_t alpi_are_inside(const alpi_tracer *tracer, const alp_scene *scene,
-                         const alpi_receiver_point *points, uint32_t asked, float side);
+                         const alpi_receiver_point *points, const float *sides, uint32_t asked);
 
 #endif

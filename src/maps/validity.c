@@ -13,6 +13,7 @@ enum {
     TEXELS_PER_TICK = 1 << 16,
     STRATA = 16,
     NEAR_SAMPLES = 16,
+    TOGETHER = 16,
     OCTAVE_LIMIT = 64
 };
 
@@ -179,30 +180,35 @@ static void place_strata(const validity_job *job, uint32_t texel, const uint8_t 
     job->receivers->place(job->receivers->user, texel, count, (const float(*)[2])square, points);
 }
 
-/// Which of eight ways are blocked: lane i goes from `from` to `to`, unless it is shorter than
-/// `least[i]`. @return bits of the lanes
-static uint32_t find_blocked(const validity_job *job, const vec3 from[ALPI_PACKET],
-                             const vec3 to[ALPI_PACKET], const float least[ALPI_PACKET])
+/// Aims a lane of a packet that was cleared; one of no length stays of no length.
+static void aim_between(vec3 from, vec3 to, int lane, alpi_rays *rays)
 {
-    alpi_rays rays;
-    uint32_t active = 0, blocked = 0;
-    alpi_rays_clear(&rays);
+    const vec3 way = vec3_sub(to, from);
+    const float length = vec3_length(way);
+    if (length > 0.0f) {
+        alpi_rays_set(rays, lane, from, vec3_scale(way, 1.0f / length), length);
+    }
+}
+
+static uint32_t stopped_lanes(const alpi_rays *rays)
+{
+    uint32_t stopped = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec3 way = vec3_sub(to[i], from[i]);
-        const float length = vec3_length(way);
-        alpi_rays_set(&rays, i, from[i], vec3_scale(way, length > 0.0f ? 1.0f / length : 0.0f),
-                      length);
-        active |= (length > least[i] ? 1u : 0u) << i;
+        stopped |= (rays->maximum[i] < 0.0f ? 1u : 0u) << i;
     }
-    if (active == 0) {
-        return 0;
+    return stopped;
+}
+
+/// @param packets 4 at most   @return bits of the rays that are stopped, a packet after another
+static uint32_t find_stopped(const validity_job *job, alpi_rays *rays, uint32_t packets)
+{
+    uint32_t stopped = 0;
+    alpi_trace_occluded(job->setup->tracer, rays, packets, 0xffu, (alpi_trace_filter){0},
+                        ALPI_RAYS_PAIRED);
+    for (uint32_t p = 0; p < packets; p++) {
+        stopped |= stopped_lanes(&rays[p]) << ALPI_PACKET * p;
     }
-    alpi_trace_occluded(job->setup->tracer, &rays, 1, active, (alpi_trace_filter){0},
-                        ALPI_RAYS_NEAR);
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        blocked |= ((active >> i & 1u) != 0 && rays.maximum[i] < 0.0f ? 1u : 0u) << i;
-    }
-    return blocked;
+    return stopped;
 }
 
 /// Leaves the points of a texel on their triangles where the lift of any of eight passes through
@@ -211,79 +217,106 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
     alpi_receiver_point lifted[ALPI_PACKET];
-    vec3 low[ALPI_PACKET], from[ALPI_PACKET], to[ALPI_PACKET];
-    float square[ALPI_PACKET][2], least[ALPI_PACKET];
+    vec3 low[ALPI_PACKET];
+    float square[ALPI_PACKET][2];
+    alpi_rays rays;
+    bool any = false;
+    alpi_rays_clear(&rays);
     find_middles(chosen, ALPI_PACKET, square);
     alpi_texels_lifts(job->texels, texel, ALPI_PACKET, (const float(*)[2])square, lifted, low);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const alpi_receiver_point *point = &lifted[i];
-        from[i] = vec3_mad(low[i], point->offset, point->geometric_normal);
-        to[i] = vec3_add(from[i], vec3_sub(point->position, low[i]));
-        least[i] = point->offset;
+        const vec3 from = vec3_mad(low[i], point->offset, point->geometric_normal);
+        const vec3 to = vec3_add(from, vec3_sub(point->position, low[i]));
+        if (vec3_length(vec3_sub(to, from)) > point->offset) { // else it meets its own surface
+            aim_between(from, to, i, &rays);
+            any = true;
+        }
     }
-    if (find_blocked(job, from, to, least) != 0) {
+    if (any && find_stopped(job, &rays, 1) != 0) {
         job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     }
 }
 
-static bool is_inside(const validity_job *job, const alpi_receiver_point *point, float side)
-{
-    return alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, point, 1u, side) != 0;
-}
-
 /// Which strata of a texel lie inside other geometry: those that are seen from its middle, where
 /// that is outside, are outside; the others are asked.
-static uint16_t find_inside(const validity_job *job, uint32_t texel)
+static uint16_t find_inside(const validity_job *job, uint32_t texel,
+                            const alpi_receiver_point *middle, bool middle_inside)
 {
-    const float side = alpi_texels_side(job->texels, texel);
-    const float none[ALPI_PACKET] = {0.0f};
     const uint8_t all[STRATA] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    alpi_receiver_point points[STRATA], middle;
-    alpi_texels_point(job->texels, texel, &middle);
+    alpi_receiver_point points[STRATA];
+    float sides[STRATA];
     place_strata(job, texel, all, STRATA, points);
-    const vec3 above = alpi_look_start(&middle, side);
-    const bool middle_inside = is_inside(job, &middle, side);
-    uint32_t asked = 0;
-    for (int first = 0; first < STRATA; first += ALPI_PACKET) {
-        vec3 from[ALPI_PACKET], to[ALPI_PACKET];
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            from[i] = above;
-            to[i] = alpi_look_start(&points[first + i], side);
-        }
-        const uint32_t hidden = middle_inside ? 0xffu : find_blocked(job, from, to, none);
-        asked |= hidden << first;
+    const float side = alpi_texels_side(job->texels, texel);
+    for (int i = 0; i < STRATA; i++) {
+        sides[i] = side;
     }
-    return (uint16_t)alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, points, asked,
-                                     side);
+    uint32_t asked = (1u << STRATA) - 1u;
+    if (!middle_inside) {
+        alpi_rays rays[STRATA / ALPI_PACKET];
+        const vec3 above = alpi_look_start(middle, side);
+        for (int i = 0; i < STRATA; i++) {
+            alpi_rays *packet = &rays[i / ALPI_PACKET];
+            if (i % ALPI_PACKET == 0) {
+                alpi_rays_clear(packet);
+            }
+            aim_between(above, alpi_look_start(&points[i], side), i % ALPI_PACKET, packet);
+        }
+        asked = find_stopped(job, rays, STRATA / ALPI_PACKET);
+    }
+    return (uint16_t)alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, points, sides,
+                                     asked);
 }
 
-/// Whether anything is within 1.6 texels of a texel's middle (a filter reads it up to one away, and
-/// eight directions may miss the nearest by 22°): else it is wholly outside, or so far
-/// inside that no filter reads it with one that is seen.
-static bool is_suspicious(const validity_job *job, uint32_t texel)
+/// Neighbours that are judged together, as their rays go together.
+typedef struct judged {
+    uint32_t count;
+    uint32_t texels[TOGETHER];
+    alpi_receiver_point middles[TOGETHER];
+    float sides[TOGETHER];
+} judged;
+
+/// Bits of those that have anything within 1.6 texels of their middle (a filter reads them up to
+/// one away, and eight directions may miss the nearest by 22°): others are wholly outside, or so far
+/// inside that no filter reads them with one that is seen.
+static uint32_t find_suspicious(const validity_job *job, const judged *all)
 {
-    alpi_receiver_point point;
-    alpi_rays rays;
-    alpi_texels_point(job->texels, texel, &point);
-    const float reach = 1.6f * alpi_texels_side(job->texels, texel);
-    alpi_rays_clear(&rays);
-    alpi_look_aim(&point, reach, ALPI_LOOK_ALONG, reach, 0, &rays);
-    alpi_look_aim(&point, reach, ALPI_LOOK_BETWEEN, reach, 4, &rays);
-    alpi_trace_occluded(job->setup->tracer, &rays, 1, 0xffu, (alpi_trace_filter){0},
-                        ALPI_RAYS_NEAR);
-    bool suspicious = false;
-    for (int k = 0; k < ALPI_PACKET; k++) {
-        suspicious = suspicious || rays.maximum[k] < 0.0f;
+    alpi_rays rays[TOGETHER];
+    uint32_t suspicious = 0;
+    for (uint32_t k = 0; k < all->count; k++) {
+        const float reach = 1.6f * all->sides[k];
+        alpi_rays_clear(&rays[k]);
+        alpi_look_aim(&all->middles[k], reach, ALPI_LOOK_ALONG, reach, 0, &rays[k]);
+        alpi_look_aim(&all->middles[k], reach, ALPI_LOOK_BETWEEN, reach, 4, &rays[k]);
+    }
+    alpi_trace_occluded(job->setup->tracer, rays, all->count, 0xffu, (alpi_trace_filter){0},
+                        ALPI_RAYS_PAIRED);
+    for (uint32_t k = 0; k < all->count; k++) {
+        suspicious |= (stopped_lanes(&rays[k]) != 0 ? 1u : 0u) << k;
     }
     return suspicious;
 }
 
-/// Whether a texel with nothing beside it is far inside: what it touches is the solid around it.
-static bool is_covered(const validity_job *job, uint32_t texel)
+/// One that touches something and has nothing beside it may be far inside: what it touches is then
+/// the solid around it.
+static void judge(const validity_job *job, const judged *all)
 {
-    alpi_receiver_point point;
-    alpi_texels_point(job->texels, texel, &point);
-    return is_inside(job, &point, alpi_texels_side(job->texels, texel));
+    const uint32_t suspicious = find_suspicious(job, all);
+    uint32_t asked = suspicious;
+    for (uint32_t k = 0; k < all->count; k++) {
+        asked |= (job->out->near[all->texels[k]] == ALPI_TOUCHING ? 1u : 0u) << k;
+    }
+    const uint32_t inside = alpi_are_inside(job->setup->tracer, job->texels->atlas->scene,
+                                            all->middles, all->sides, asked);
+    for (uint32_t k = 0; k < all->count; k++) {
+        const uint32_t texel = all->texels[k];
+        const bool middle_inside = (inside >> k & 1u) != 0;
+        if ((suspicious >> k & 1u) != 0) {
+            job->inside[texel] = find_inside(job, texel, &all->middles[k], middle_inside);
+        } else if (middle_inside) {
+            job->texels->flags[texel] |= ALPI_TEXEL_HIDDEN;
+        }
+    }
 }
 
 static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -315,15 +348,17 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
 {
     (void)worker;
     const validity_job *job = user;
+    judged all = {.count = 0};
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
-        if (job->out->near[t] == ALPI_FAR) {
-            continue;
+        if (job->out->near[t] != ALPI_FAR) {
+            alpi_texels_point(job->texels, t, &all.middles[all.count]);
+            all.sides[all.count] = alpi_texels_side(job->texels, t);
+            all.texels[all.count++] = t;
         }
-        if (is_suspicious(job, t)) {
-            job->inside[t] = find_inside(job, t);
-        } else if (job->out->near[t] == ALPI_TOUCHING && is_covered(job, t)) {
-            job->texels->flags[t] |= ALPI_TEXEL_HIDDEN;
+        if (all.count == TOGETHER || (i + 1 == end && all.count > 0)) {
+            judge(job, &all);
+            all.count = 0;
         }
     }
     return ALP_OK;
