@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 1 << 12, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, STREAM_PROBES = 11 };
+enum { TEXELS_PER_RANGE = 1 << 9, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, STREAM_PROBES = 11 };
 enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all workers busy
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
@@ -23,12 +23,20 @@ static const float NEAR_SPREAD = 0.3f;
 /// teapot room gained little (192², for 1 %), by an eighth others traced more than they gained.
 static const float STRICT_SHARE = 0.25f;
 
+typedef struct texel_list {
+    const uint32_t *texels;
+    uint32_t count;
+} texel_list;
+
 typedef struct bounced_job {
     const alpi_bounced_options *options;
     alpi_lattice lattice; // states and values are of this map
     alpi_task_progress progress;
     alpi_bounced_report *report;
-    uint8_t *wanted; // [texels] to be traced next
+    uint8_t *wanted;   // [texels] to be traced next
+    uint32_t *by_pass; // [count] the order, pass by pass; NULL where not adaptive
+    uint32_t pass_first[ALPI_LATTICE_PASS_LIMIT + 1];
+    texel_list now;  // what is gone through
     uint32_t *list;  // [LIST_LIMIT], or count if that is less
     float noise;  // standard deviation of the mean of the channels, over the root mean square light
     float level;  // mean light
@@ -43,11 +51,23 @@ static uint32_t most_held_out(const bounced_job *job)
     return job->options->wide ? ALPI_HELD_OUT / 2 : ALPI_HELD_OUT;
 }
 
-static alp_result for_texels(bounced_job *job, alpi_task_fn *body)
+static texel_list all_texels(const bounced_job *job)
+{
+    return (texel_list){job->options->order, job->options->count};
+}
+
+static texel_list texels_of(const bounced_job *job, uint32_t pass)
+{
+    const uint32_t first = job->pass_first[pass];
+    return (texel_list){job->by_pass + first, job->pass_first[pass + 1] - first};
+}
+
+static alp_result for_texels(bounced_job *job, texel_list texels, alpi_task_fn *body)
 {
     alpi_task_progress told = job->progress;
     told.units_total = 0.0;
-    return alpi_parallel_for(job->lattice.context, job->options->count, TEXELS_PER_RANGE, body, job,
+    job->now = texels;
+    return alpi_parallel_for(job->lattice.context, texels.count, TEXELS_PER_RANGE, body, job,
                              &told);
 }
 
@@ -88,13 +108,13 @@ static alp_result trace_listed(bounced_job *job, uint32_t count)
     return ALP_OK;
 }
 
-/// Traces the texels that are wanted, so many at a time. @param traced out: how many
-static alp_result trace_wanted(bounced_job *job, uint64_t *traced)
+/// Traces those of the texels that are wanted, so many at a time. @param traced out: how many
+static alp_result trace_wanted(bounced_job *job, texel_list texels, uint64_t *traced)
 {
     const uint64_t before = job->gathered;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < job->options->count; i++) {
-        const uint32_t t = job->options->order[i];
+    for (uint32_t i = 0; i < texels.count; i++) {
+        const uint32_t t = texels.texels[i];
         if (job->wanted[t] != 0) {
             job->wanted[t] = 0;
             job->list[count++] = t;
@@ -228,7 +248,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     bounced_job *job = user;
     const float share = job->options->strict ? STRICT_SHARE : 1.0f;
     const alpi_lattice_judge judge = {.lattice = &job->lattice,
-                                      .order = job->options->order,
+                                      .order = job->now.texels,
                                       .near = job->options->near,
                                       .wanted = job->wanted,
                                       .spread =
@@ -245,28 +265,39 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-/// @param traced out: how many texels
-static alp_result judge(bounced_job *job, uint32_t pass, bool flood, uint64_t *traced)
+/// Interpolates what may be of a pass, and traces what may not.
+static alp_result run_pass(bounced_job *job, uint32_t pass)
 {
+    const texel_list texels = texels_of(job, pass);
+    uint64_t traced;
     job->pass = pass;
-    job->flood = flood;
-    ALP_TRY(for_texels(job, judge_range));
-    return trace_wanted(job, traced);
+    job->flood = false;
+    ALP_TRY(for_texels(job, texels, judge_range));
+    return trace_wanted(job, texels, &traced);
 }
 
-/// Wants texels traced that touch another surface, in every second row every second, or all: light
-/// that bounced changes less at once than occlusion does.
+/// @param traced out: how many texels
+static alp_result flood(bounced_job *job, uint64_t *traced)
+{
+    job->flood = true;
+    ALP_TRY(for_texels(job, all_texels(job), judge_range));
+    return trace_wanted(job, all_texels(job), traced);
+}
+
+/// Wants the lattice traced, whose texels no stencil ends at, and what touches another surface, in
+/// every second row every second, or all: light that bounced changes less at once than occlusion
+/// does.
 static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const bounced_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->options->order[i];
+        const uint32_t t = job->now.texels[i];
+        const uint16_t *pixel = job->lattice.texels->pixels[t];
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
-        job->wanted[t] =
-            job->lattice.states[t] == ALPI_TEXEL_OPEN &&
-            (!job->options->adaptive ||
-             (near == ALPI_TOUCHING && alpi_lattice_is_coarse(job->lattice.texels->pixels[t])));
+        job->wanted[t] = job->lattice.states[t] == ALPI_TEXEL_OPEN &&
+                         (!job->options->adaptive || alpi_lattice_pass(&job->lattice, pixel) == 0 ||
+                          (near == ALPI_TOUCHING && alpi_lattice_is_coarse(pixel)));
     }
     return ALP_OK;
 }
@@ -351,11 +382,9 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
     const bounced_job *job = user;
     const alpi_lattice *l = &job->lattice;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->options->order[i];
+        const uint32_t t = job->now.texels[i];
         alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-            alpi_lattice_pass(l, l->texels->pixels[t]) == job->pass &&
-            alpi_lattice_stencil(l, t, &stencil)) {
+        if (l->states[t] == ALPI_TEXEL_INTERPOLATED && alpi_lattice_stencil(l, t, &stencil)) {
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
             alpi_bounced_interpolate(job->options->gather, t, &stencil);
             if (job->options->gather->directional != NULL) {
@@ -368,9 +397,9 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
 
 static alp_result run_lattice(bounced_job *job)
 {
-    ALP_TRY(for_texels(job, want_range));
     uint64_t last;
-    ALP_TRY(judge(job, 0, false, &last)); // what is wanted, and the lattice: no stencil ends at it
+    ALP_TRY(for_texels(job, all_texels(job), want_range));
+    ALP_TRY(trace_wanted(job, all_texels(job), &last));
     const uint32_t traced = count_traced(job);
     if (job->options->joined) {
         ALP_TRY(find_factor(job, traced));
@@ -379,15 +408,19 @@ static alp_result run_lattice(bounced_job *job)
     if (!job->options->adaptive) {
         return ALP_OK;
     }
-    for (uint32_t pass = 1; pass < alpi_lattice_pass_count(&job->lattice); pass++) {
-        ALP_TRY(judge(job, pass, false, &last));
+    const uint32_t passes = alpi_lattice_pass_count(&job->lattice);
+    ALPI_TRY_NEW(job->lattice.context, job->by_pass, job->options->count);
+    ALP_TRY(alpi_lattice_split(&job->lattice, job->options->order, job->options->count,
+                               job->by_pass, job->pass_first));
+    for (uint32_t pass = 1; pass < passes; pass++) {
+        ALP_TRY(run_pass(job, pass));
     }
     last = 1;
     for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
-        ALP_TRY(judge(job, 0, true, &last));
+        ALP_TRY(flood(job, &last));
     }
-    for (job->pass = 1; job->pass < alpi_lattice_pass_count(&job->lattice); job->pass++) {
-        ALP_TRY(for_texels(job, interpolate_range));
+    for (uint32_t pass = 1; pass < passes; pass++) {
+        ALP_TRY(for_texels(job, texels_of(job, pass), interpolate_range));
     }
     return ALP_OK;
 }
@@ -511,6 +544,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
     job.lattice = alpi_bounced_lattice(options, lattice, states, options->levels);
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);
+    alpi_release(lattice->context, job.by_pass);
     alpi_release(lattice->context, job.list);
     if (options->levels == NULL) {
         alpi_release(lattice->context, job.lattice.values);

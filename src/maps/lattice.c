@@ -203,6 +203,73 @@ uint32_t alpi_lattice_reach(const alpi_lattice *lattice, uint32_t pass)
                                : ALPI_LATTICE_SPACING / 4;
 }
 
+/// Ranges of an order that is split by passes.
+typedef struct split {
+    const alpi_lattice *lattice;
+    const uint32_t *order;
+    uint32_t count;
+    uint32_t *by_pass;
+    uint32_t (*at)[ALPI_LATTICE_PASS_LIMIT]; // [ranges] texels of each pass; then where they go
+} split;
+
+static uint32_t range_end(const split *s, uint32_t range)
+{
+    const uint32_t left = s->count - range * TEXELS_PER_RANGE;
+    return range * TEXELS_PER_RANGE + (left < TEXELS_PER_RANGE ? left : TEXELS_PER_RANGE);
+}
+
+static alp_result count_passes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const split *s = user;
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t last = range_end(s, r);
+        for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
+            s->at[r][alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[s->order[i]])]++;
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result split_ranges(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const split *s = user;
+    for (uint32_t r = begin; r < end; r++) {
+        const uint32_t last = range_end(s, r);
+        for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
+            const uint32_t t = s->order[i];
+            s->by_pass[s->at[r][alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[t])]++] =
+                t;
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
+                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1])
+{
+    split s = {.lattice = lattice, .order = order, .count = count, .by_pass = by_pass};
+    const uint32_t ranges = count / TEXELS_PER_RANGE + (count % TEXELS_PER_RANGE > 0 ? 1 : 0);
+    ALPI_TRY_NEW(lattice->context, s.at, ranges);
+    alp_result result = alpi_parallel_for(lattice->context, ranges, 1, count_passes, &s, NULL);
+    uint32_t sum = 0;
+    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASS_LIMIT; pass++) {
+        first[pass] = sum;
+        for (uint32_t r = 0; r < ranges; r++) {
+            const uint32_t begin = sum;
+            sum += s.at[r][pass];
+            s.at[r][pass] = begin;
+        }
+    }
+    first[ALPI_LATTICE_PASS_LIMIT] = sum;
+    if (result == ALP_OK) {
+        result = alpi_parallel_for(lattice->context, ranges, 1, split_ranges, &s, NULL);
+    }
+    alpi_release(lattice->context, s.at);
+    return result;
+}
+
 /// A texel that looks at those around it.
 typedef struct centre {
     const uint32_t *at; // its place in the grid

@@ -66,6 +66,12 @@ static inline uint32_t alpi_lattice_pass_count(const alpi_lattice *lattice)
 }
 /// The pass a texel belongs to, by its pixel.
 uint32_t alpi_lattice_pass(const alpi_lattice *lattice, const uint16_t pixel[2]);
+enum { ALPI_LATTICE_PASS_LIMIT = ALPI_LATTICE_PASSES + ALPI_LATTICE_WIDE_PASSES };
+/// Texels in their order, pass by pass. @param order [count]   @param by_pass [count] out
+/// @param first out: where each pass begins in it, and where the last ends
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
+                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1]);
 /// Whether a texel belongs to the lattice of half the spacing, every second of every second row.
 bool alpi_lattice_is_coarse(const uint16_t pixel[2]);
 /// Distance in texels to the nearest texels that pass `pass` interpolates from inside a chart: 2,
