@@ -36,8 +36,8 @@ typedef struct bounced_job {
     uint8_t *wanted;   // [texels] to be traced next
     uint32_t *by_pass; // [count] the order, pass by pass; NULL where not adaptive
     uint32_t pass_first[ALPI_LATTICE_PASS_LIMIT + 1];
-    texel_list now;  // what is gone through
-    uint32_t *list;  // [LIST_LIMIT], or count if that is less
+    texel_list now; // what is gone through
+    uint32_t *list; // [LIST_LIMIT], or count if that is less
     float noise;  // standard deviation of the mean of the channels, over the root mean square light
     float level;  // mean light
     float factor; // true variances over those that replicates state

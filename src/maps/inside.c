@@ -178,6 +178,5 @@ uint32_t alpi_are_inside(const alpi_tracer *tracer, const alp_scene *scene,
 {
     const solids s = {tracer, scene};
     const uint32_t beside = look_around(&s, points, sides, asked, ALPI_LOOK_ALONG, met_any_back);
-    return beside |
-           look_around(&s, points, sides, asked & ~beside, ALPI_LOOK_UP, met_backs_above);
+    return beside | look_around(&s, points, sides, asked & ~beside, ALPI_LOOK_UP, met_backs_above);
 }

@@ -277,8 +277,8 @@ typedef struct judged {
 } judged;
 
 /// Bits of those that have anything within 1.6 texels of their middle (a filter reads them up to
-/// one away, and eight directions may miss the nearest by 22°): others are wholly outside, or so far
-/// inside that no filter reads them with one that is seen.
+/// one away, and eight directions may miss the nearest by 22°): others are wholly outside, or so
+/// far inside that no filter reads them with one that is seen.
 static uint32_t find_suspicious(const validity_job *job, const judged *all)
 {
     alpi_rays rays[TOGETHER];

@@ -3,6 +3,8 @@
 // is one.
 #include "atlas_scenes.h"
 
+#include "base/random.h"
+
 /// A cube of side 2 whose corners' normals are given by `normal`, and the texels it has.
 static alp_scene *normal_cube(alp_context *context, void (*normal)(const float at[3], float out[3]))
 {
@@ -139,11 +141,70 @@ static void a_lift_follows_its_formula(void **state)
     alp_context_destroy(context);
 }
 
+// --- kept shapes ---------------------------------------------------------------------------------
+
+enum { SAME_POINTS = 8 };
+
+static void place_all(const alpi_texels *texels, uint32_t texel,
+                      alpi_receiver_point points[SAME_POINTS + 1], alpi_texel_spot *spot)
+{
+    float square[SAME_POINTS][2];
+    for (uint32_t i = 0; i < SAME_POINTS; i++) {
+        square[i][0] = alpi_unit_float(alpi_random_key(texel, i, 0));
+        square[i][1] = alpi_unit_float(alpi_random_key(texel, i, 1));
+    }
+    const alpi_receivers r = alpi_texels_receivers(texels);
+    r.place(r.user, texel, SAME_POINTS, (const float(*)[2])square, points);
+    alpi_texels_point(texels, texel, &points[SAME_POINTS]);
+    alpi_texels_spot(texels, texel, square[0], spot);
+}
+
+/// @return how many texels lie elsewhere without their lift
+static uint32_t count_lifted(alp_context *context, alp_scene *scene, alp_atlas *atlas, bool kept)
+{
+    alpi_texels texels;
+    uint32_t lifted = 0;
+    ASSERT_OK(context, alpi_texels_create(atlas, &texels));
+    assert_int_equal(texels.shapes != NULL, kept);
+    alpi_texels without = texels;
+    without.shapes = NULL;
+    for (uint32_t i = 0; i < texels.count; i++) {
+        alpi_receiver_point a[SAME_POINTS + 1], b[SAME_POINTS + 1], low[SAME_POINTS + 1];
+        alpi_texel_spot at[2];
+        place_all(&texels, i, a, &at[0]);
+        place_all(&without, i, b, &at[1]);
+        assert_memory_equal(a, b, sizeof a);
+        assert_memory_equal(&at[0], &at[1], sizeof *at);
+        texels.flags[i] = ALPI_TEXEL_NO_LIFT; // of both
+        place_all(&texels, i, low, &at[0]);
+        place_all(&without, i, b, &at[1]);
+        assert_memory_equal(low, b, sizeof low);
+        lifted += memcmp(a, low, sizeof a) != 0 ? 1 : 0;
+    }
+    alpi_texels_destroy(context, &texels);
+    alp_atlas_destroy(atlas);
+    alp_scene_destroy(scene);
+    return lifted;
+}
+
+static void kept_shapes_place_the_same(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(2);
+    alp_scene *flat = scene_cube(context), *round = normal_cube(context, out_of_the_middle);
+    alp_scene *fine = scene_sphere(context, 30, 60);
+    assert_int_equal(count_lifted(context, flat, charts_of_size(context, flat, 64), true), 0);
+    assert_true(count_lifted(context, round, charts_of_size(context, round, 64), true) > 1000);
+    (void)count_lifted(context, fine, charts_of_size(context, fine, 100), false);
+    alp_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lifts_have_a_limit),
         cmocka_unit_test(a_lift_follows_its_formula),
+        cmocka_unit_test(kept_shapes_place_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -380,6 +380,34 @@ static void kinks_are_found_beside_traced_texels_only(void **state)
     tear_down(&s);
 }
 
+/// Every third texel from the last to the first, by passes: each in its own, in the order's turn.
+static void passes_take_all_texels_in_their_order(void **state)
+{
+    (void)state;
+    enum { COUNT = 2 * SIZE * SIZE / 3 };
+    static uint32_t order[COUNT], by_pass[COUNT];
+    lattice_setup s;
+    set_up(&s);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        order[i] = 3 * (COUNT - 1 - i);
+    }
+    for (int wide = 0; wide < 2; wide++) {
+        s.lattice.wide = wide == 1;
+        uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1], at = 0;
+        ASSERT_OK(s.context, alpi_lattice_split(&s.lattice, order, COUNT, by_pass, first));
+        for (uint32_t pass = 0; pass < ALPI_LATTICE_PASS_LIMIT; pass++) {
+            assert_int_equal(first[pass], at);
+            for (uint32_t i = 0; i < COUNT; i++) {
+                if (alpi_lattice_pass(&s.lattice, s.texels.pixels[order[i]]) == pass) {
+                    assert_int_equal(by_pass[at++], order[i]);
+                }
+            }
+        }
+        assert_int_equal(first[ALPI_LATTICE_PASS_LIMIT], COUNT);
+    }
+    tear_down(&s);
+}
+
 static bool refuse(void *user, const alp_progress *progress)
 {
     assert_string_equal(progress->stage, "build");
@@ -412,6 +440,7 @@ int main(void)
         cmocka_unit_test(near_surfaces_the_judge_is_stricter),
         cmocka_unit_test(no_stencil_crosses_a_chart_or_takes_the_unknown),
         cmocka_unit_test(kinks_are_found_beside_traced_texels_only),
+        cmocka_unit_test(passes_take_all_texels_in_their_order),
         cmocka_unit_test(it_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
