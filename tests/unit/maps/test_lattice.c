@@ -380,16 +380,16 @@ static void kinks_are_found_beside_traced_texels_only(void **state)
     tear_down(&s);
 }
 
-/// Every third texel from the last to the first, by passes: each in its own, in the order's turn.
+/// By passes: each in its own, in the order's turn, over several ranges.
 static void passes_take_all_texels_in_their_order(void **state)
 {
     (void)state;
-    enum { COUNT = 2 * SIZE * SIZE / 3 };
+    enum { COUNT = 3 * 4096 + 5 };
     static uint32_t order[COUNT], by_pass[COUNT];
     lattice_setup s;
     set_up(&s);
     for (uint32_t i = 0; i < COUNT; i++) {
-        order[i] = 3 * (COUNT - 1 - i);
+        order[i] = (COUNT - i) * 7 % (2 * SIZE * SIZE);
     }
     for (int wide = 0; wide < 2; wide++) {
         s.lattice.wide = wide == 1;

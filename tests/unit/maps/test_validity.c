@@ -3,6 +3,7 @@
 // something are not made.
 #include "atlas/facet.h"
 #include "base/context.h"
+#include "maps/inside.h"
 #include "maps/validity.h"
 #include "scene/mesh_builder.h"
 #include "test_scenes.h"
@@ -159,6 +160,36 @@ static void a_one_sided_wall_has_a_behind(void **state)
         }
     }
     end(&s);
+}
+
+static void points_look_as_far_as_their_own_texels(void **state)
+{
+    (void)state;
+    // .3 m behind a wall of one side: one of texels of half a metre is inside, of a tenth is not.
+    alp_context *context = test_context(1);
+    test_mesh *mesh = test_mesh_start();
+    test_mesh_quad(mesh, (double[]){0.3, 0, -1}, (double[]){0, 1, 0}, (double[]){0, 0, 2});
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    const vec3 up = {0.0f, 1.0f, 0.0f};
+    alpi_receiver_point points[32];
+    float sides[32];
+    uint32_t large = 0;
+    for (uint32_t i = 0; i < 32; i++) {
+        points[i] = (alpi_receiver_point){.position = {0.0f, 0.2f, 0.01f * (float)i},
+                                          .geometric_normal = up,
+                                          .shading_normal = up,
+                                          .offset = 1e-5f};
+        sides[i] = i % 3 == 1 ? 0.5f : 0.1f;
+        large |= (i % 3 == 1 ? 1u : 0u) << i;
+    }
+    assert_int_equal(alpi_are_inside(tracer, scene, points, sides, UINT32_MAX), large);
+    assert_int_equal(alpi_are_inside(tracer, scene, points, sides, 0xff0ff0f0u),
+                     large & 0xff0ff0f0u);
+    assert_int_equal(alpi_are_inside(tracer, scene, points, sides, 0), 0);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
 }
 
 static void add_box(test_mesh *mesh, const double low[3], const double high[3])
@@ -505,6 +536,7 @@ int main(void)
         cmocka_unit_test(strata_under_a_box_are_left_out),
         cmocka_unit_test(double_sided_walls_hide_no_inside),
         cmocka_unit_test(a_one_sided_wall_has_a_behind),
+        cmocka_unit_test(points_look_as_far_as_their_own_texels),
         cmocka_unit_test(what_stands_on_a_solid_is_hidden_below),
         cmocka_unit_test(roofs_of_one_side_enclose_nothing),
         cmocka_unit_test(what_stands_in_glass_is_not_inside),
