@@ -72,7 +72,7 @@ enum {
 };
 
 /// The covered texels of an atlas, page by page, row by row: index i is receiver i. About 50 bytes
-/// a texel and 8 a piece.
+/// a texel and 8 a piece, and 16 a texel at most of shapes.
 typedef struct alpi_texels {
     uint32_t count;
     uint32_t *pages;          // [count]

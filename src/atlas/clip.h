@@ -78,12 +78,4 @@ static inline alpi_facet_patch alpi_page_map_from(const alpi_page_map *map, doub
 /// Both in one step.
 alpi_facet_patch alpi_page_triangle_patch(const alpi_page_triangle *triangle, double x, double y);
 
-/// What the places of texels share that lie wholly in a face.
-typedef struct alpi_face_shape {
-    alpi_page_map map;
-    alpi_facet facet; // with its lift
-} alpi_face_shape;
-/// Makes the shapes of all faces where texels are many to a face; else there are none.
-alp_result alpi_face_shapes_make(alpi_texels *texels);
-
 #endif

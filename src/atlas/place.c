@@ -4,20 +4,38 @@
 // convex polygons, each a fan of triangles about its first corner: the square's first coordinate
 // goes through pieces and fans by their areas, the second goes from that corner outwards. So
 // neighbours in the square stay neighbours in a piece, and strata stay strata.
-#include "atlas/clip.h"
-
-#include "base/memory.h"
-#include "base/tasks.h"
+#include "atlas/face_shapes.h"
 
 #include <math.h>
 
 enum { BATCH = 64, STRATA = 16 };
 
+// --- facets --------------------------------------------------------------------------------------
+
+/// The facet of a face. @param own where it is made if none is kept   @return it
+static const alpi_facet *find_facet(const alpi_texels *texels, uint32_t face, bool lift,
+                                    alpi_facet *own)
+{
+    const alpi_facet *kept = texels->shapes != NULL ? &texels->shapes[face].facet : NULL;
+    if (kept != NULL && (lift || !kept->lifted)) {
+        return kept;
+    }
+    const alp_atlas *atlas = texels->atlas;
+    alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, face), lift, own);
+    return own;
+}
+
+static bool may_lift(const alpi_texels *texels, uint32_t texel)
+{
+    return (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0;
+}
+
 // --- cut texels ----------------------------------------------------------------------------------
 
 /// A triangle's part of a texel, as a fan.
 typedef struct fan {
-    alpi_facet facet;
+    alpi_facet own;
+    const alpi_facet *facet;
     alpi_facet_patch map; // from the texel's corner
     alpi_polygon shape;
     double ends[ALPI_POLYGON_LIMIT]; // of each triangle, ascending to 1
@@ -46,8 +64,7 @@ static void load_fan(const alpi_texels *texels, uint32_t texel, uint32_t piece, 
     alpi_page_triangle_load(atlas, triangle, &page);
     alpi_page_triangle_cut(&page, pixel[0], pixel[1], &f->shape);
     f->map = alpi_page_triangle_patch(&page, pixel[0], pixel[1]);
-    alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, triangle),
-                    (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0, &f->facet);
+    f->facet = find_facet(texels, triangle, may_lift(texels, texel), &f->own);
     for (int i = 0; i < f->shape.count; i++) {
         f->shape.p[i][0] -= pixel[0];
         f->shape.p[i][1] -= pixel[1];
@@ -140,7 +157,7 @@ static void place_in_pieces(const alpi_texels *texels, uint32_t texel, uint32_t 
                 const double u = width > 0.0 ? ((double)square[j][0] - begin) / width : 0.0;
                 double b[2];
                 find_in_fan(&f, u, (double)square[j][1], b);
-                alpi_facet_point(&f.facet, b, &points[j], lows != NULL ? &lows[j] : NULL);
+                alpi_facet_point(f.facet, b, &points[j], lows != NULL ? &lows[j] : NULL);
                 pieces[j] = ALPI_NONE;
             }
         }
@@ -173,51 +190,7 @@ static void keep_valid(uint32_t valid, uint32_t count, const float (*square)[2],
     }
 }
 
-// --- kept shapes ---------------------------------------------------------------------------------
-
-static alp_result make_shapes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const alpi_texels *texels = user;
-    const alp_atlas *atlas = texels->atlas;
-    for (uint32_t f = begin; f < end; f++) {
-        alpi_page_triangle page;
-        if (atlas->triangle_charts[f] != ALPI_NONE && alpi_page_triangle_load(atlas, f, &page)) {
-            texels->shapes[f].map = alpi_page_triangle_map(&page);
-            alpi_facet_load(atlas->scene, alpi_atlas_triangle(atlas, f), true,
-                            &texels->shapes[f].facet);
-        }
-    }
-    return ALP_OK;
-}
-
-alp_result alpi_face_shapes_make(alpi_texels *texels)
-{
-    enum { TEXELS_PER_FACE = 16, FACES_PER_RANGE = 256 }; // 16 bytes a texel at most
-    alp_context *context = texels->atlas->context;
-    const uint32_t faces = alpi_atlas_face_count(texels->atlas);
-    if (faces > texels->count / TEXELS_PER_FACE) {
-        return ALP_OK;
-    }
-    ALPI_TRY_NEW(context, texels->shapes, faces);
-    return alpi_parallel_for(context, faces, FACES_PER_RANGE, make_shapes, texels, NULL);
-}
-
 // --- texels --------------------------------------------------------------------------------------
-
-/// The facet that a texel's representative point is of, and a whole texel all.
-/// @param own where it is made if none is kept   @return it
-static const alpi_facet *find_facet(const alpi_texels *texels, uint32_t texel, alpi_facet *own)
-{
-    const bool lift = (texels->flags[texel] & ALPI_TEXEL_NO_LIFT) == 0;
-    const alpi_facet *kept =
-        texels->shapes != NULL ? &texels->shapes[texels->faces[texel]].facet : NULL;
-    if (kept != NULL && (lift || !kept->lifted)) {
-        return kept;
-    }
-    alpi_facet_load(texels->atlas->scene, texels->triangles[texel], lift, own);
-    return own;
-}
 
 /// Barycentrics of a whole texel's triangle, from the texel's corner on.
 static alpi_facet_patch find_map(const alpi_texels *texels, uint32_t texel)
@@ -244,8 +217,10 @@ static void place_in_texel(const alpi_texels *texels, uint32_t texel, uint32_t c
         return;
     }
     alpi_facet own;
+    const alpi_facet *facet =
+        find_facet(texels, texels->faces[texel], may_lift(texels, texel), &own);
     const alpi_facet_patch map = find_map(texels, texel);
-    alpi_facet_points(find_facet(texels, texel, &own), &map, count, square, points, lows);
+    alpi_facet_points(facet, &map, count, square, points, lows);
 }
 
 static void place(const void *user, uint32_t texel, uint32_t count, const float (*square)[2],
@@ -307,15 +282,11 @@ float alpi_texels_side(const alpi_texels *texels, uint32_t texel)
 
 bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
 {
-    const alp_scene *scene = texels->atlas->scene;
     const uint32_t last = texels->piece_first[texel + 1];
-    alpi_facet facet;
-    alpi_facet_load(scene, texels->triangles[texel], true, &facet);
-    bool lifted = facet.lifted;
+    alpi_facet own;
+    bool lifted = find_facet(texels, texels->faces[texel], true, &own)->lifted;
     for (uint32_t i = texels->piece_first[texel]; i < last && !lifted; i++) {
-        alpi_facet_load(scene, alpi_atlas_triangle(texels->atlas, texels->piece_triangles[i]), true,
-                        &facet);
-        lifted = facet.lifted;
+        lifted = find_facet(texels, texels->piece_triangles[i], true, &own)->lifted;
     }
     return lifted;
 }
@@ -323,7 +294,9 @@ bool alpi_texels_are_lifted(const alpi_texels *texels, uint32_t texel)
 void alpi_texels_point(const alpi_texels *texels, uint32_t texel, alpi_receiver_point *point)
 {
     alpi_facet own;
+    const alpi_facet *facet =
+        find_facet(texels, texels->faces[texel], may_lift(texels, texel), &own);
     const double b[2] = {(double)texels->barycentrics[texel][0],
                          (double)texels->barycentrics[texel][1]};
-    alpi_facet_point(find_facet(texels, texel, &own), b, point, NULL);
+    alpi_facet_point(facet, b, point, NULL);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The covered texels of an atlas as arrays: joined from what the bands of its pages hold.
 #include "atlas/blend.h"
-#include "atlas/clip.h"
+#include "atlas/face_shapes.h"
 #include "atlas/stages.h"
 
 #include "base/memory.h"

@@ -4,6 +4,7 @@
 #include "bake/layers.h"
 #include "bake/light.h"
 
+#include "atlas/face_shapes.h"
 #include "maps/bounced_map.h"
 
 #include <math.h>
@@ -73,6 +74,8 @@ enum {
                      (ALPI_HELD_OUT + ALPI_BOUNCED_PROBES) * sizeof(alpi_reference_value),
     BAND_BYTES_PER_TEXEL = 16,     // a list 4, pooled variances 12; both of a band alone, which has
     BAND_BYTES = 5 << 18,          // so many at most
+    PASS_BYTES_PER_TEXEL = 4,      // before, and instead of rounds: the order by passes
+    PASS_BYTES = 1 << 18,          // and a list
     DENOISE_BYTES_PER_TEXEL = 256, // in place of later rounds, measured
     SPACING = 4                    // texels along a block
 };
@@ -167,12 +170,14 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t of_blocks = (SIDE_BLOCK_BYTES * sides + BLOCK_BYTES) * blocks;
     const uint64_t solution = of_texel * texels + places + of_blocks;
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
+    const uint64_t passes =
+        alpi_light_has_rounds(options) ? 0u : PASS_BYTES + PASS_BYTES_PER_TEXEL * texels;
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
              alpi_light_kept_block_rays(o, texels) * sizeof(uint32_t);
     const uint64_t board = alpi_light_direct_error(options) > 0.0 ? BOARD_BYTES : 0u;
     m.solve = solution + (VALUE_BYTES * sides + board) * texels; // of direct light
-    m.rounds = larger(m.rounds, find_round_bytes(options) * texels + (bands < most ? bands : most) +
-                                    HELD_OUT_BYTES +
+    m.rounds = larger(m.rounds, find_round_bytes(options) * texels +
+                                    larger(bands < most ? bands : most, passes) + HELD_OUT_BYTES +
                                     (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels
                                                : places + find_settled(atlas, options, sides)));
     if (sides > 1) { // direct light of backs goes by a copy of that of fronts
@@ -192,6 +197,17 @@ static uint64_t find_vectors(const alp_atlas_info *atlas, const alp_bake_options
             ((options->maps & ALP_MAP_OBSCURANCE) != 0 ? 1u : 0u));
 }
 
+/// What texels of a face share; of blended charts, of which only the most is known.
+static uint64_t find_shapes(const alp_atlas_info *atlas, const alp_scene *scene,
+                            const alp_bake_options *options)
+{
+    const uint64_t most = atlas->texels / ALPI_TEXELS_PER_FACE_SHAPE;
+    const bool blend = options->atlas.mode == ALP_ATLAS_BLEND;
+    const uint64_t faces = (blend ? 3u : 1u) * (uint64_t)scene->triangle_count;
+    const uint64_t kept = faces <= most ? faces : blend ? most : 0u;
+    return sizeof(alpi_face_shape) * kept;
+}
+
 /// What is held until all maps are stored.
 static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene,
                           const alp_bake_options *options)
@@ -199,7 +215,8 @@ static uint64_t find_kept(const alp_atlas_info *atlas, const alp_scene *scene,
     const uint64_t pages = (uint64_t)atlas->width * atlas->height * atlas->pages;
     return (BYTES_PER_TEXEL + LATTICE_BYTES + (has_occlusion(options) ? ERROR_BYTES : 0u)) *
                atlas->texels +
-           GRID_BYTES * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count;
+           GRID_BYTES * pages + BYTES_PER_TRIANGLE * (uint64_t)scene->triangle_count +
+           find_shapes(atlas, scene, options);
 }
 
 static uint64_t count_directional(const alp_bake_options *options)

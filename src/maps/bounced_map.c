@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 1 << 9, FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, STREAM_PROBES = 11 };
+enum { TEXELS_PER_RANGE = 1 << 9 }; // few, as some passes are short
+enum { FLOOD_ROUNDS = 4, STREAM_HELD_OUT = 10, STREAM_PROBES = 11 };
 enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all workers busy
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
@@ -108,10 +109,9 @@ static alp_result trace_listed(bounced_job *job, uint32_t count)
     return ALP_OK;
 }
 
-/// Traces those of the texels that are wanted, so many at a time. @param traced out: how many
-static alp_result trace_wanted(bounced_job *job, texel_list texels, uint64_t *traced)
+/// Traces those of the texels that are wanted, so many at a time.
+static alp_result trace_wanted(bounced_job *job, texel_list texels)
 {
-    const uint64_t before = job->gathered;
     uint32_t count = 0;
     for (uint32_t i = 0; i < texels.count; i++) {
         const uint32_t t = texels.texels[i];
@@ -124,9 +124,7 @@ static alp_result trace_wanted(bounced_job *job, texel_list texels, uint64_t *tr
             count = 0;
         }
     }
-    ALP_TRY(trace_listed(job, count));
-    *traced = job->gathered - before;
-    return ALP_OK;
+    return trace_listed(job, count);
 }
 
 /// Some texels of a state, evenly and at random, into the list. @param count that there are
@@ -269,19 +267,21 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
 static alp_result run_pass(bounced_job *job, uint32_t pass)
 {
     const texel_list texels = texels_of(job, pass);
-    uint64_t traced;
     job->pass = pass;
     job->flood = false;
     ALP_TRY(for_texels(job, texels, judge_range));
-    return trace_wanted(job, texels, &traced);
+    return trace_wanted(job, texels);
 }
 
 /// @param traced out: how many texels
 static alp_result flood(bounced_job *job, uint64_t *traced)
 {
+    const uint64_t before = job->gathered;
     job->flood = true;
     ALP_TRY(for_texels(job, all_texels(job), judge_range));
-    return trace_wanted(job, all_texels(job), traced);
+    ALP_TRY(trace_wanted(job, all_texels(job)));
+    *traced = job->gathered - before;
+    return ALP_OK;
 }
 
 /// Wants the lattice traced, whose texels no stencil ends at, and what touches another surface, in
@@ -397,9 +397,8 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
 
 static alp_result run_lattice(bounced_job *job)
 {
-    uint64_t last;
     ALP_TRY(for_texels(job, all_texels(job), want_range));
-    ALP_TRY(trace_wanted(job, all_texels(job), &last));
+    ALP_TRY(trace_wanted(job, all_texels(job)));
     const uint32_t traced = count_traced(job);
     if (job->options->joined) {
         ALP_TRY(find_factor(job, traced));
@@ -415,13 +414,15 @@ static alp_result run_lattice(bounced_job *job)
     for (uint32_t pass = 1; pass < passes; pass++) {
         ALP_TRY(run_pass(job, pass));
     }
-    last = 1;
+    uint64_t last = 1;
     for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
         ALP_TRY(flood(job, &last));
     }
     for (uint32_t pass = 1; pass < passes; pass++) {
         ALP_TRY(for_texels(job, texels_of(job, pass), interpolate_range));
     }
+    alpi_release(job->lattice.context, job->by_pass); // errors take as much
+    job->by_pass = NULL;
     return ALP_OK;
 }
 

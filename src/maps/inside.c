@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { PACKETS = 16 };
+enum { POINTS = 32, PACKETS = POINTS / 2 };
 
 /// What is looked at.
 typedef struct solids {
@@ -120,7 +120,7 @@ static uint32_t look_around(const solids *s, const alpi_receiver_point *points, 
     alpi_rays rays[PACKETS];
     alpi_hits hits[PACKETS];
     const alpi_rays *packets[PACKETS] = {NULL};
-    uint32_t active[PACKETS] = {0}, which[2 * PACKETS], count = 0, found = 0;
+    uint32_t active[PACKETS] = {0}, which[POINTS], count = 0, found = 0;
     if (asked == 0) {
         return 0;
     }

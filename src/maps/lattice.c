@@ -218,6 +218,11 @@ static uint32_t range_end(const split *s, uint32_t range)
     return range * TEXELS_PER_RANGE + (left < TEXELS_PER_RANGE ? left : TEXELS_PER_RANGE);
 }
 
+static uint32_t pass_at(const split *s, uint32_t i)
+{
+    return alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[s->order[i]]);
+}
+
 static alp_result count_passes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -225,7 +230,7 @@ static alp_result count_passes(void *user, uint32_t begin, uint32_t end, uint32_
     for (uint32_t r = begin; r < end; r++) {
         const uint32_t last = range_end(s, r);
         for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
-            s->at[r][alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[s->order[i]])]++;
+            s->at[r][pass_at(s, i)]++;
         }
     }
     return ALP_OK;
@@ -238,9 +243,7 @@ static alp_result split_ranges(void *user, uint32_t begin, uint32_t end, uint32_
     for (uint32_t r = begin; r < end; r++) {
         const uint32_t last = range_end(s, r);
         for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
-            const uint32_t t = s->order[i];
-            s->by_pass[s->at[r][alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[t])]++] =
-                t;
+            s->by_pass[s->at[r][pass_at(s, i)]++] = s->order[i];
         }
     }
     return ALP_OK;

@@ -59,17 +59,20 @@ typedef struct alpi_stencil {
 /// between two (type 1) and those in the middle of four (type 2). Of spacing 2, type 1 goes in two:
 /// those in rows and columns of the lattice first (3), for the sake of borders. A wide lattice has
 /// the two of spacing 8 before these, and all others are two later.
-enum { ALPI_LATTICE_PASSES = 6, ALPI_LATTICE_WIDE_PASSES = 2 };
+enum {
+    ALPI_LATTICE_PASSES = 6,
+    ALPI_LATTICE_WIDE_PASSES = 2,
+    ALPI_LATTICE_PASS_LIMIT = ALPI_LATTICE_PASSES + ALPI_LATTICE_WIDE_PASSES
+};
 static inline uint32_t alpi_lattice_pass_count(const alpi_lattice *lattice)
 {
     return ALPI_LATTICE_PASSES + (lattice->wide ? ALPI_LATTICE_WIDE_PASSES : 0);
 }
 /// The pass a texel belongs to, by its pixel.
 uint32_t alpi_lattice_pass(const alpi_lattice *lattice, const uint16_t pixel[2]);
-enum { ALPI_LATTICE_PASS_LIMIT = ALPI_LATTICE_PASSES + ALPI_LATTICE_WIDE_PASSES };
 /// Texels in their order, pass by pass. @param order [count]   @param by_pass [count] out
 /// @param first out: where each pass begins in it, and where the last ends
-/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+/// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
                               uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1]);
 /// Whether a texel belongs to the lattice of half the spacing, every second of every second row.

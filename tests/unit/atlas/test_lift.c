@@ -146,7 +146,8 @@ static void a_lift_follows_its_formula(void **state)
 enum { SAME_POINTS = 8 };
 
 static void place_all(const alpi_texels *texels, uint32_t texel,
-                      alpi_receiver_point points[SAME_POINTS + 1], alpi_texel_spot *spot)
+                      alpi_receiver_point points[SAME_POINTS + 1], alpi_texel_spot *spot,
+                      vec3 lows[SAME_POINTS])
 {
     float square[SAME_POINTS][2];
     for (uint32_t i = 0; i < SAME_POINTS; i++) {
@@ -157,6 +158,8 @@ static void place_all(const alpi_texels *texels, uint32_t texel,
     r.place(r.user, texel, SAME_POINTS, (const float(*)[2])square, points);
     alpi_texels_point(texels, texel, &points[SAME_POINTS]);
     alpi_texels_spot(texels, texel, square[0], spot);
+    alpi_receiver_point again[SAME_POINTS];
+    alpi_texels_lifts(texels, texel, SAME_POINTS, (const float(*)[2])square, again, lows);
 }
 
 /// @return how many texels lie elsewhere without their lift
@@ -171,13 +174,15 @@ static uint32_t count_lifted(alp_context *context, alp_scene *scene, alp_atlas *
     for (uint32_t i = 0; i < texels.count; i++) {
         alpi_receiver_point a[SAME_POINTS + 1], b[SAME_POINTS + 1], low[SAME_POINTS + 1];
         alpi_texel_spot at[2];
-        place_all(&texels, i, a, &at[0]);
-        place_all(&without, i, b, &at[1]);
+        vec3 lows[2][SAME_POINTS];
+        place_all(&texels, i, a, &at[0], lows[0]);
+        place_all(&without, i, b, &at[1], lows[1]);
         assert_memory_equal(a, b, sizeof a);
         assert_memory_equal(&at[0], &at[1], sizeof *at);
+        assert_memory_equal(lows[0], lows[1], sizeof *lows);
         texels.flags[i] = ALPI_TEXEL_NO_LIFT; // of both
-        place_all(&texels, i, low, &at[0]);
-        place_all(&without, i, b, &at[1]);
+        place_all(&texels, i, low, &at[0], lows[0]);
+        place_all(&without, i, b, &at[1], lows[1]);
         assert_memory_equal(low, b, sizeof low);
         lifted += memcmp(a, low, sizeof a) != 0 ? 1 : 0;
     }
@@ -187,14 +192,27 @@ static uint32_t count_lifted(alp_context *context, alp_scene *scene, alp_atlas *
     return lifted;
 }
 
+static alp_atlas *blend_of_size(alp_context *context, const alp_scene *scene, uint32_t size)
+{
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_BLEND;
+    options.size = size;
+    alp_atlas *atlas = NULL;
+    ASSERT_OK(context, alp_atlas_create(scene, &options, &atlas));
+    assert_true(alpi_atlas_face_count(atlas) > scene->triangle_count);
+    return atlas;
+}
+
 static void kept_shapes_place_the_same(void **state)
 {
     (void)state;
     alp_context *context = test_context(2);
     alp_scene *flat = scene_cube(context), *round = normal_cube(context, out_of_the_middle);
+    alp_scene *blended = scene_sphere(context, 12, 24);
     alp_scene *fine = scene_sphere(context, 30, 60);
     assert_int_equal(count_lifted(context, flat, charts_of_size(context, flat, 64), true), 0);
     assert_true(count_lifted(context, round, charts_of_size(context, round, 64), true) > 1000);
+    (void)count_lifted(context, blended, blend_of_size(context, blended, 256), true);
     (void)count_lifted(context, fine, charts_of_size(context, fine, 100), false);
     alp_context_destroy(context);
 }
