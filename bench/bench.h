@@ -4,8 +4,8 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "maps/occlusion_map.h"
-#include "maps/validity.h"
+#include "maps/texels/occlusion_map.h"
+#include "maps/texels/validity.h"
 
 #include <stdio.h>
 

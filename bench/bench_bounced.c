@@ -9,8 +9,8 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
-#include "maps/bounced_map.h"
-#include "transport/cosine_rays.h"
+#include "maps/radiosity/bounced_map.h"
+#include "transport/gather/cosine_rays.h"
 
 #include <math.h>
 #include <stdlib.h>

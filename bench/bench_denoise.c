@@ -9,7 +9,7 @@
 
 #include "base/tasks.h"
 #include "maps/denoise.h"
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 #include <math.h>
 #include <stdlib.h>

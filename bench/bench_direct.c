@@ -3,7 +3,7 @@
 // without bounces, which asks one light a path.
 #include "bench.h"
 
-#include "transport/direct.h"
+#include "transport/direct/direct.h"
 
 #include <math.h>
 #include <stdlib.h>

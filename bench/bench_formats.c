@@ -7,10 +7,10 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 #include "formats/formats.h"
-#include "formats/gltf_splice.h"
-#include "formats/obj.h"
+#include "formats/obj/obj.h"
+#include "formats/text/text_edits.h"
 
 #include <math.h>
 #include <stdlib.h>

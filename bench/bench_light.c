@@ -6,8 +6,8 @@
 #include "raw_embree.h"
 
 #include "base/tasks.h"
-#include "transport/cosine_rays.h"
-#include "transport/hemicube.h"
+#include "transport/gather/cosine_rays.h"
+#include "transport/gather/hemicube.h"
 
 #include <stdlib.h>
 

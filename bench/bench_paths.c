@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "render/camera_rays.h"
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lit_scene.h"
 
-#include "transport/cosine_rays.h"
+#include "transport/gather/cosine_rays.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 
 #include "bench.h"
 
-#include "maps/radiosity.h"
+#include "maps/radiosity/radiosity.h"
 
 typedef struct lit_scene {
     bench_scene scene;

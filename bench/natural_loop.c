@@ -6,9 +6,9 @@
 
 #include "base/random.h"
 
-#define ALPI_KERNEL bench_unused_kernel
+#define ALPI_VARIANT(name) bench_unused_kernel
 alpi_occlusion_kernel bench_unused_kernel;
-#include "transport/occlusion_kernel_body.h"
+#include "transport/occlusion/occlusion_kernel_body.h"
 
 enum { POINT_LIMIT = 128, STREAM_DIRECTION = 0, STREAM_PLACE = 1 };
 

@@ -4,7 +4,7 @@
 #ifndef BENCH_RECORDED_RAYS_H
 #define BENCH_RECORDED_RAYS_H
 
-#include "transport/occlusion_kernel.h"
+#include "transport/occlusion/occlusion_kernel.h"
 
 /// Where packets go; set `user` of one thread at a time. Packets beyond the capacity are dropped.
 typedef struct ray_record {

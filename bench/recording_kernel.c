@@ -35,5 +35,5 @@ static bool takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
 
 #define alpi_trace_occluded write_down
 #define alpi_tracer_takes_pairs takes_pairs
-#define ALPI_KERNEL bench_recording_kernel
-#include "transport/occlusion_kernel_body.h"
+#define ALPI_VARIANT(name) bench_recording_kernel
+#include "transport/occlusion/occlusion_kernel_body.h"

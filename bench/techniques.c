@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "techniques.h"
 
-#include "bake/light.h"
+#include "bake/light/light.h"
 #include "base/memory.h"
 
 #include <math.h>

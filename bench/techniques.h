@@ -6,7 +6,7 @@
 
 #include "bench.h"
 
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 /// What is asked of all techniques: the irradiance at some texels of a lit scene.
 typedef struct bench_question {

@@ -25,8 +25,46 @@ ROOMS = {
     "maps": ["transport", "atlas", "trace", "scene", "sh", "base"],
     "fields": ["transport", "maps", "trace", "scene", "sh", "base"],
     "render": ["fields", "maps", "transport", "trace", "scene", "film", "sh", "base"],
-    "bake": ["render", "fields", "maps", "transport", "atlas", "trace", "formats", "scene", "film",
-             "sh", "base"],
+    "doctor": ["render", "maps", "transport", "atlas", "trace", "formats", "scene", "film", "sh",
+               "base"],
+    "bake": ["doctor", "render", "fields", "maps", "transport", "atlas", "trace", "formats", "scene",
+             "film", "sh", "base"],
+    "report": ["bake", "doctor", "render", "fields", "maps", "transport", "atlas", "trace", "formats",
+               "scene", "film", "sh", "base"],
+}
+
+# room: its sub-rooms and the sub-rooms of the same room whose headers each may include. "." stands
+# for the headers that lie in the room itself. Sources that lie in the room itself may include all of
+# its headers: they put the sub-rooms together.
+SUB_ROOMS = {
+    "formats": {
+        ".": [],
+        "text": [],
+        "polygon": [],
+        "images": ["."],
+        "gltf": ["text", "."],
+        "gltf/write": ["gltf", "text", "."],
+        "collada": ["polygon", "."],
+        "collada/write": ["collada", "gltf/write", "text", "."],
+        "obj": ["gltf/write", "polygon", "text", "."],
+        "viewers": ["text", "."],
+    },
+    "scene": {".": [], "sky": ["."], "lights": ["sky", "."], "builtin": ["."]},
+    "transport": {
+        ".": [],
+        "paths": ["."],
+        "occlusion": ["."],
+        "direct": ["occlusion", "paths", "."],
+        "gather": ["paths", "."],
+    },
+    "maps": {
+        "texels": [],
+        ".": ["texels"],
+        "radiosity": ["texels", "."],
+        "seams": ["texels", "."],
+        "vertex": ["."],
+    },
+    "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["light", "."]},
 }
 
 # public header: the lowest room that may include it, which stands for it in the law. Lightmaps,
@@ -35,8 +73,8 @@ PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
     "occlusion": "transport",
-    "bake": "maps", "render": "render", "report": "bake", "doctor": "bake", "compare": "bake",
-    "alpenglow": "bake",
+    "bake": "maps", "render": "render", "doctor": "doctor", "report": "report", "compare": "report",
+    "alpenglow": "report",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)
@@ -52,7 +90,7 @@ THIRD_PARTY = {
     r"meshoptimizer\.h": ["src/formats"],
     r"webp/.*": ["src/formats"],
     # The one file of C++, and what that language brings.
-    r"draco/.*|cstdio|exception|memory|new": ["src/formats/draco_mesh.cpp"],
+    r"draco/.*|cstdio|exception|memory|new": ["src/formats/gltf/draco_mesh.cpp"],
     r"pthread\.h": ["src/base"],
 }
 
@@ -78,6 +116,26 @@ def includes(path):
 
 def may_use(room, other):
     return other == room or other in ROOMS[room]
+
+
+def sub_room(room, parts):
+    """The sub-room of a file below src/ROOM, "." for the room itself; None where it is not listed."""
+    sub = "/".join(parts) or "."
+    return sub if sub == "." or sub in SUB_ROOMS.get(room, {}) else None
+
+
+def fault_of_sub_room(place, room, target):
+    """Fault of including "target" of the same room from another of its sub-rooms."""
+    mine = sub_room(room, place.split("/")[2:-1])
+    other = sub_room(room, target.split("/")[1:-1])
+    if other is None:
+        return f'"{target}" lies in a folder that is no sub-room of {room}'
+    if mine == other or (mine == "." and not place.endswith(".h")):
+        return None
+    allowed = SUB_ROOMS[room][mine]
+    if other in allowed:
+        return None
+    return f'{room}/{mine} may not include "{target}": it may use {", ".join(allowed) or "none"}'
 
 
 def fault_of_public(name, room):
@@ -131,6 +189,8 @@ def fault_of_quoted(root, place, room, target):
         return f'"{target}" is no header of a room (write it from src/, as "room/name.h")'
     if not may_use(room, other):
         return f'{room} may not include "{target}": it may use {", ".join(ROOMS[room]) or "none"}'
+    if other == room and room in SUB_ROOMS:
+        return fault_of_sub_room(place, room, target)
     if other != room and brings_third_party(root, target):
         return f'"{target}" brings in another project: only {other} may include it'
     return None
@@ -139,7 +199,7 @@ def fault_of_quoted(root, place, room, target):
 def faults_of_file(root, path):
     place = path.relative_to(root).as_posix()
     parts = place.split("/")
-    if parts[0] == "src" and (len(parts) != 3 or parts[1] not in ROOMS):
+    if parts[0] == "src" and (parts[1] not in ROOMS or sub_room(parts[1], parts[2:-1]) is None):
         yield 1, f"{'/'.join(parts[1:-1]) or 'src'} is not a room"
         return
     room = parts[1] if parts[0] == "src" else None
@@ -165,25 +225,24 @@ def faults_of_file(root, path):
             yield number, fault
 
 
-def listed_files(cmake):
-    """Names of sources in a CMakeLists.txt; alp_compile_twice(NAME) stands for two, thrice for
-    three (src/)."""
-    text = cmake.read_text(encoding="utf-8")
-    compiled = re.findall(r"^alp_compile_(twice|thrice)\((\w+)\)$", text, re.MULTILINE)
-    kinds = {"twice": ("baseline", "v3"), "thrice": ("baseline", "v3", "v4")}
-    return {*re.findall(r"[\w.]+\.(?:cpp|c)\b", text),
-            *(f"{name}_{kind}.c" for times, name in compiled for kind in kinds[times])}
-
-
 def unlisted_files(root):
     """Sources that their room's CMakeLists.txt does not name, and so nobody compiles."""
     for room in ROOMS:
         folder = root / "src" / room
-        sources = sorted([*folder.glob("*.c"), *folder.glob("*.cpp")])
-        listed = listed_files(folder / "CMakeLists.txt") if sources else set()
+        sources = sorted([*folder.rglob("*.c"), *folder.rglob("*.cpp")])
+        text = (folder / "CMakeLists.txt").read_text(encoding="utf-8") if sources else ""
+        listed = set(re.findall(r"[\w./]+\.(?:cpp|c)\b", text))
         for path in sources:
-            if path.name not in listed:
+            if path.relative_to(folder).as_posix() not in listed:
                 yield path, 1, "is not listed in its room's CMakeLists.txt"
+
+
+def repeated_names(root):
+    """Files of the library whose name another file of it has too."""
+    first = {}
+    for path in sorted((root / "src").rglob("*")):
+        if path.suffix in (".c", ".h", ".cpp") and first.setdefault(path.name, path) != path:
+            yield path, 1, f"has the name of {first[path.name].relative_to(root)}"
 
 
 def check(root):
@@ -194,17 +253,18 @@ def check(root):
             if path.suffix in (".c", ".h", ".cpp") or path.name.endswith(".h.in"):
                 for number, fault in faults_of_file(root, path):
                     lines.append(f"{path.relative_to(root)}:{number}: {fault}")
-    for path, number, fault in unlisted_files(root):
+    for path, number, fault in [*unlisted_files(root), *repeated_names(root)]:
         lines.append(f"{path.relative_to(root)}:{number}: {fault}")
     return lines
 
 
 def check_table():
-    """The law itself: every room builds on rooms that stand before it."""
-    seen = set()
-    for room, allowed in ROOMS.items():
-        assert set(allowed) <= seen, f"{room} may include a room above it"
-        seen.add(room)
+    """The law itself: every room, and every sub-room, builds on those that stand before it."""
+    for table in (ROOMS, *SUB_ROOMS.values()):
+        seen = set()
+        for room, allowed in table.items():
+            assert set(allowed) <= seen, f"{room} may include a room above it"
+            seen.add(room)
 
 
 def main():

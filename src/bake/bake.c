@@ -5,7 +5,7 @@
 #include "atlas/choice.h"
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <string.h>
 #include <unistd.h>

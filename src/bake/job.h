@@ -4,11 +4,11 @@
 #define ALPI_BAKE_JOB_H
 
 #include "base/file_set.h"
-#include "maps/light_layers.h"
 #include "maps/lightmap.h"
-#include "maps/validity.h"
+#include "maps/radiosity/light_layers.h"
+#include "maps/texels/validity.h"
 #include "transport/directional.h"
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <alpenglow/bake.h>
 

@@ -3,8 +3,8 @@
 #include "bake/layers.h"
 
 #include "base/memory.h"
-#include "maps/bounced_again.h"
-#include "transport/direct.h"
+#include "maps/radiosity/bounced_again.h"
+#include "transport/direct/direct.h"
 
 #include <ctype.h>
 #include <string.h>

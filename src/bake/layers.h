@@ -5,8 +5,8 @@
 
 #include "bake/job.h"
 #include "base/file.h"
-#include "maps/bounced_map.h"
-#include "maps/radiosity.h"
+#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/radiosity.h"
 
 /// Refuses what has no layers.
 alp_result alpi_bake_check_layers(const alpi_bake_job *job);

@@ -2,10 +2,10 @@
 // What a bake will need, known as soon as the atlas is: better a message now than a killed process
 // after an hour.
 #include "bake/layers.h"
-#include "bake/light.h"
+#include "bake/light/light.h"
 
 #include "atlas/face_shapes.h"
-#include "maps/bounced_map.h"
+#include "maps/radiosity/bounced_map.h"
 
 #include <math.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #define ALPI_BAKE_OBJECTS_H
 
 #include "bake/job.h"
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 /// What one group is gathered with.
 typedef struct alpi_object {

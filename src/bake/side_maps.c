@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "transport/obscurance.h"
+#include "transport/occlusion/obscurance.h"
 
 #include <string.h>
 

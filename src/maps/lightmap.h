@@ -5,7 +5,7 @@
 
 #include "atlas/atlas.h"
 #include "base/image.h"
-#include "maps/lattice.h"
+#include "maps/texels/lattice.h"
 #include "transport/surface_light.h"
 
 #include <alpenglow/bake.h>

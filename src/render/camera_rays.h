@@ -3,7 +3,7 @@
 #ifndef ALPI_RENDER_CAMERA_RAYS_H
 #define ALPI_RENDER_CAMERA_RAYS_H
 
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 /// A camera and its picture.
 typedef struct alpi_view {

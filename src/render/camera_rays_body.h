@@ -66,4 +66,4 @@ static void aim(const alpi_view *view, uint32_t count, const float *x, const flo
     }
 }
 
-const alpi_camera_loops ALPI_CAMERA_LOOPS = {packet, aim};
+const alpi_camera_loops ALPI_VARIANT(alpi_camera_loops) = {packet, aim};

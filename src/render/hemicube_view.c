@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/hemicube_view.h"
 
-#include "maps/solution.h"
+#include "maps/radiosity/solution.h"
 #include "transport/examine.h"
-#include "transport/hemicube_picture.h"
+#include "transport/gather/hemicube_picture.h"
 
 bool alpi_hemicube_view_is_map(const alp_render_options *options)
 {

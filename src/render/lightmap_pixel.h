@@ -4,7 +4,7 @@
 #define ALPI_RENDER_LIGHTMAP_PIXEL_H
 
 #include "render/camera_rays.h"
-#include "transport/gather.h"
+#include "transport/gather/gather.h"
 
 /// Radiance Le + ρ/π · E of one pixel, with E from the map that `from` reads, through panes and
 /// before sky and sun; a mean over `samples` camera rays. Panes cost rays and no noise.

@@ -7,16 +7,16 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "maps/lightmap.h"
-#include "maps/solution.h"
+#include "maps/radiosity/solution.h"
 #include "render/automatic_camera.h"
 #include "render/camera_rays.h"
 #include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
 #include "scene/select.h"
 #include "transport/examine.h"
-#include "transport/hit.h"
-#include "transport/occlusion_run.h"
-#include "transport/reference.h"
+#include "transport/occlusion/occlusion_run.h"
+#include "transport/paths/hit.h"
+#include "transport/paths/reference.h"
 
 #include <math.h>
 #include <string.h>

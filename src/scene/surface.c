@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a surface is made of at a point: texture coordinates, alpha, transmission, albedo, emission.
 #include "scene/blend_weights.h"
-#include "scene/lighting.h"
+#include "scene/lights/lighting.h"
 #include "scene/scene.h"
 
 #include <math.h>

@@ -525,4 +525,4 @@ static void nearest(const alpi_few *few, const alpi_rays *const *packets, const 
     }
 }
 
-const alpi_few_loops ALPI_FEW_LOOPS = {occluded, nearest};
+const alpi_few_loops ALPI_VARIANT(alpi_few_loops) = {occluded, nearest};

@@ -8,7 +8,7 @@
 #include "base/tasks.h"
 #include "base/warp.h"
 #include "scene/area_points.h"
-#include "transport/hit.h"
+#include "transport/paths/hit.h"
 
 #include <alpenglow/light.h>
 

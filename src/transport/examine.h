@@ -3,7 +3,7 @@
 #ifndef ALPI_TRANSPORT_EXAMINE_H
 #define ALPI_TRANSPORT_EXAMINE_H
 
-#include "scene/lighting.h"
+#include "scene/lights/lighting.h"
 #include "trace/trace.h"
 
 /// Warns as alp_scene_examine tells.

@@ -3,7 +3,7 @@
 #include "test_direct_stage.h"
 
 #include "base/image.h"
-#include "scene/polygon_light.h"
+#include "scene/lights/polygon_light.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "scene/lighting_emitters.h"
+#include "scene/lights/lighting_emitters.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "test_direct_stage.h"
 
 #include "base/random.h"
-#include "scene/polygon_light.h"
+#include "scene/lights/polygon_light.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,9 +5,9 @@
 
 #include "base/image.h"
 #include "base/random.h"
-#include "scene/sky.h"
+#include "scene/sky/sky.h"
 #include "sh/basis.h"
-#include "transport/direct_spots.h"
+#include "transport/direct/direct_spots.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 // the list; it ends soon after it is cancelled, within one receiver too. It tells what a sample
 // takes.
 #include "base/image.h"
-#include "scene/sky.h"
+#include "scene/sky/sky.h"
 #include "test_direct_stage.h"
 
 enum { POINTS = 32, PARTS = 3 };

@@ -4,7 +4,7 @@
 
 #include "base/image.h"
 #include "base/memory.h"
-#include "scene/polygon_light.h"
+#include "scene/lights/polygon_light.h"
 
 #include <math.h>
 #include <stdlib.h>

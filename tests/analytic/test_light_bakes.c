@@ -5,7 +5,7 @@
 #include "test_scenes.h"
 
 #include "maps/lightmap.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdio.h>

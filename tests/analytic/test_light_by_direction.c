@@ -11,7 +11,7 @@
 #include "test_scenes.h"
 
 #include "maps/lightmap.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 #include "sh/basis.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 
 #include "base/image.h"
 #include "maps/lightmap.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "test_lit.h"
 
 #include "base/memory.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 // one sequence, and each of a receiver's two normals does its own work.
 #include "test_scenes.h"
 
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <math.h>
 

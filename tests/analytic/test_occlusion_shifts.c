@@ -5,7 +5,7 @@
 // 1 + (n − 1) r times as much.
 #include "test_scenes.h"
 
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <math.h>
 

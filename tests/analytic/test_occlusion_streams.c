@@ -3,7 +3,7 @@
 // number of samples and of receivers, every ray counts once, for its receiver and its quarter.
 #include "test_scenes.h"
 
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <math.h>
 

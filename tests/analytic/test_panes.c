@@ -3,8 +3,8 @@
 #include "test_lit.h"
 #include "test_support.h"
 
-#include "scene/mesh_builder.h"
-#include "transport/direct.h"
+#include "scene/builtin/mesh_builder.h"
+#include "transport/direct/direct.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // its standard error is true.
 #include "test_lit.h"
 
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdio.h>

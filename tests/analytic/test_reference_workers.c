@@ -3,7 +3,7 @@
 // the list.
 #include "test_support.h"
 
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 enum { POINTS = 128 }; // of 112 paths: four ranges of 36
 static float positions[POINTS][3], normals[POINTS][3], offsets[POINTS];

@@ -4,7 +4,7 @@
 #include "atlas/atlas.h"
 #include "base/memory.h"
 #include "test_support.h"
-#include "transport/occlusion.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 // the map and of each other: E[(x − y₁)(x − y₂)] is the squared error of x without their own.
 #include "test_support.h"
 
-#include "maps/occlusion_map.h"
+#include "maps/texels/occlusion_map.h"
 
 #include <math.h>
 #include <stdlib.h>

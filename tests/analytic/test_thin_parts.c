@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "maps/lightmap.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 #include "trace/trace.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "test_collada.h"
 
 #include "base/memory.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 #include "formats/formats.h"
 
 #include <stdlib.h>

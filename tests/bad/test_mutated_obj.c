@@ -5,7 +5,7 @@
 #include "test_obj.h"
 
 #include "base/random.h"
-#include "formats/obj.h"
+#include "formats/obj/obj.h"
 
 #include <stdio.h>
 #include <stdlib.h>

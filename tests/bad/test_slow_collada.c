@@ -4,7 +4,7 @@
 // limit for a test is what it must stay below.
 #include "test_collada.h"
 
-#include "formats/gltf_splice.h"
+#include "formats/text/text_edits.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include "test_obj.h"
 
 #include "base/memory.h"
-#include "formats/gltf_splice.h"
+#include "formats/text/text_edits.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 // Fuzz target: COLLADA text. What can be read is written with a map and read again.
 #include "fuzz.h"
 
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

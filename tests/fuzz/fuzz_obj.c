@@ -3,7 +3,7 @@
 // What can be read is written as glTF or OBJ and read again.
 #include "fuzz.h"
 
-#include "formats/obj.h"
+#include "formats/obj/obj.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 // seven of eight inputs, as nearly every change makes them wrong.
 #include "fuzz.h"
 
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "test_collada.h"
 
 #include "base/memory.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>

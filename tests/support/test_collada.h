@@ -5,7 +5,7 @@
 
 #include "test_support.h"
 
-#include "formats/collada_document.h"
+#include "formats/collada/collada_document.h"
 #include "scene/scene.h"
 
 /// Four corners (0,0,0) (1,0,0) (1,1,0) (0,1,0) as source "p" and vertices "v" of geometry "g",

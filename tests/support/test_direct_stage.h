@@ -5,8 +5,8 @@
 
 #include "test_support.h"
 
-#include "scene/mesh_builder.h"
-#include "transport/direct.h"
+#include "scene/builtin/mesh_builder.h"
+#include "transport/direct/direct.h"
 
 typedef struct test_stage {
     alp_context *context;

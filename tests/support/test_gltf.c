@@ -2,7 +2,7 @@
 #include "test_gltf.h"
 
 #include "base/memory.h"
-#include "formats/gltf_read.h"
+#include "formats/gltf/gltf_read.h"
 
 static uint8_t *put_u32(uint8_t *place, size_t value)
 {

@@ -5,7 +5,7 @@
 
 #include "test_support.h"
 
-#include "formats/gltf_document.h"
+#include "formats/gltf/gltf_document.h"
 #include "scene/scene.h"
 
 /// GLB bytes of the JSON and a BIN chunk (none when bin_size is 0), owned by the context.

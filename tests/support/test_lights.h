@@ -5,8 +5,8 @@
 
 #include "test_support.h"
 
-#include "scene/lighting.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
+#include "scene/lights/lighting.h"
 
 /// Mean of light · cosθ / density over draws, one channel, with its standard error and the variance
 /// of one draw.

@@ -5,7 +5,7 @@
 
 #include "test_support.h"
 
-#include "transport/reference.h"
+#include "transport/paths/reference.h"
 
 /// A scene with what the path tracer needs of it.
 typedef struct test_lit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "test_obj.h"
 
-#include "formats/obj.h"
+#include "formats/obj/obj.h"
 
 #include <stdio.h>
 

@@ -5,7 +5,7 @@
 
 #include "test_direct_stage.h"
 
-#include "transport/hemicube.h"
+#include "transport/gather/hemicube.h"
 
 typedef struct test_probe {
     test_stage stage;

@@ -5,10 +5,10 @@
 
 #include "test_lit.h"
 
-#include "maps/radiosity.h"
-#include "scene/mesh_builder.h"
-#include "transport/cosine_rays.h"
-#include "transport/hemicube.h"
+#include "maps/radiosity/radiosity.h"
+#include "scene/builtin/mesh_builder.h"
+#include "transport/gather/cosine_rays.h"
+#include "transport/gather/hemicube.h"
 
 typedef struct test_radiant_options {
     const alp_lighting_options *lighting; // NULL: the scene's own light alone

@@ -7,7 +7,7 @@
 
 #include "atlas/blend.h"
 #include "atlas/choice.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 static alp_atlas *blend_of(alp_context *context, const alp_scene *scene, uint32_t size,
                            double density)

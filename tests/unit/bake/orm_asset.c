@@ -2,7 +2,7 @@
 #include "orm_asset.h"
 
 #include "base/memory.h"
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
 #include "test_gltf.h"
 
 #include <math.h>

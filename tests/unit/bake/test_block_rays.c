@@ -2,7 +2,7 @@
 // How many rays blocks gather by, told by what a trial found.
 #include "test_support.h"
 
-#include "bake/light.h"
+#include "bake/light/light.h"
 
 /// A Cornell box, and a sphere on a plane under an even sky, both at 256².
 static const alpi_trial_light BOX = {.blocks = 5205, .mean = 0.47, .rms = 0.63};

@@ -4,9 +4,9 @@
 #include "test_obj.h"
 
 #include "atlas/atlas.h"
-#include "bake/same_triangles.h"
 #include "formats/formats.h"
 #include "maps/lightmap.h"
+#include "report/same_triangles.h"
 #include "scene/area_points.h"
 #include "scene/blend_weights.h"
 

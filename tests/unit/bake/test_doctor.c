@@ -3,8 +3,8 @@
 // it, and none from one that is like it and has not.
 #include "test_support.h"
 
-#include "bake/doctor.h"
 #include "base/memory.h"
+#include "doctor/doctor.h"
 
 #include <math.h>
 #include <stdio.h>

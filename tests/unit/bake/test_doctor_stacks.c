@@ -3,7 +3,7 @@
 // whether they are seen, and says that it is not all.
 #include "test_scenes.h"
 
-#include "bake/doctor_pairs.h"
+#include "doctor/doctor_pairs.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 
 #include "bake/job.h"
 #include "base/half.h"
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // More samples of direct light, dealt out to the texels of a floor beside a box's shadow.
-#include "bake/light_direct.h"
+#include "bake/light/light_direct.h"
 #include "base/memory.h"
 #include "test_radiant.h"
 

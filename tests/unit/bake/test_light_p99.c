@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The 99th percentile of the errors of light: rounds go on until it is small enough too.
-#include "bake/light_error.h"
+#include "bake/light/light_error.h"
 #include "maps/lightmap.h"
 #include "test_scenes.h"
 

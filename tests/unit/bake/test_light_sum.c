@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is stated of light beyond what its own rays tell: the noise of the solution that they meet.
-#include "bake/light.h"
+#include "bake/light/light.h"
 
 #include "base/memory.h"
 #include "test_support.h"

@@ -2,7 +2,7 @@
 // Occlusion in the red channel of the image that a material reads roughness and metalness from.
 #include "orm_asset.h"
 
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
 #include "maps/lightmap.h"
 
 #include <math.h>

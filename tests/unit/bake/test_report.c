@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The page about a bake: well-formed, self-contained, true to the maps, and proof against names.
-#include "bake/report_parts.h"
 #include "base/image.h"
 #include "maps/lightmap.h"
 #include "page_check.h"
+#include "report/report_parts.h"
 #include "test_scenes.h"
 
 #include <dirent.h>

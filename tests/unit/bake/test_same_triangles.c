@@ -3,7 +3,7 @@
 // corners, and not at all.
 #include "test_scenes.h"
 
-#include "bake/same_triangles.h"
+#include "report/same_triangles.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #include "quad_asset.h"
 
 #include "base/memory.h"
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
 #include "text_check.h"
 
 #include <stdio.h>

@@ -9,7 +9,7 @@
 #define QUAD_ASSET_H
 
 #include "formats/formats.h"
-#include "formats/gltf_document.h"
+#include "formats/gltf/gltf_document.h"
 #include "test_support.h"
 
 /// One quad with everything, as a primitive's attributes.

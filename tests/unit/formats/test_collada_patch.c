@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 #include "formats/formats.h"
 
 #include <stdio.h>

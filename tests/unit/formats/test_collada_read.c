@@ -5,8 +5,8 @@
 #include "test_gltf.h"
 
 #include "base/memory.h"
-#include "formats/collada_numbers.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_numbers.h"
+#include "formats/collada/collada_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "base/memory.h"
-#include "formats/collada_read.h"
+#include "formats/collada/collada_read.h"
 #include "formats/formats.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "test_gltf.h"
 
 #include "base/memory.h"
-#include "formats/gltf_bytes.h"
+#include "formats/gltf/gltf_bytes.h"
 
 #include <stdio.h>
 

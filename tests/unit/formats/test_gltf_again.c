@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "formats/gltf_accessor.h"
+#include "formats/gltf/gltf_accessor.h"
 
 #include <stdio.h>
 #include <stdlib.h>

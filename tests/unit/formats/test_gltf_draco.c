@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "formats/formats.h"
-#include "formats/gltf_compression.h"
-#include "formats/gltf_read.h"
+#include "formats/gltf/gltf_compression.h"
+#include "formats/gltf/gltf_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "formats/formats.h"
-#include "formats/gltf_read.h"
+#include "formats/gltf/gltf_read.h"
 
 #include <meshoptimizer.h>
 

@@ -4,7 +4,7 @@
 #include "quad_asset.h"
 
 #include "base/memory.h"
-#include "formats/gltf_accessor.h"
+#include "formats/gltf/gltf_accessor.h"
 
 #include <stdio.h>
 #include <stdlib.h>

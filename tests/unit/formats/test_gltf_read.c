@@ -3,7 +3,7 @@
 #include "test_gltf.h"
 
 #include "formats/formats.h"
-#include "formats/gltf_read.h"
+#include "formats/gltf/gltf_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "formats/formats.h"
-#include "formats/gltf_document.h"
+#include "formats/gltf/gltf_document.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
 // Spans of JSON values: found where they are, escapes and odd white space and all; edits of a text.
 #include "test_support.h"
 
-#include "formats/gltf_splice.h"
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
+#include "formats/text/text_edits.h"
 
 #include <stdlib.h>
 

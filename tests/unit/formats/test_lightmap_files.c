@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "formats/formats.h"
-#include "formats/gltf_splice.h"
+#include "formats/text/text_edits.h"
 
 #include <jansson.h>
 #include <math.h>

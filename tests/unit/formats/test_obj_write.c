@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "formats/formats.h"
-#include "formats/obj.h"
+#include "formats/obj/obj.h"
 
 #include <math.h>
 #include <stdio.h>

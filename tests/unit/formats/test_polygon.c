@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "base/vec.h"
-#include "formats/polygon.h"
+#include "formats/polygon/polygon.h"
 
 #include <math.h>
 #include <stdlib.h>

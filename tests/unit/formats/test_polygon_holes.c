@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "base/memory.h"
-#include "formats/polygon.h"
+#include "formats/polygon/polygon.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "text_check.h"
 
-#include "formats/json_spans.h"
+#include "formats/text/json_spans.h"
 #include "test_support.h"
 
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "test_scenes.h"
 
 #include "base/random.h"
-#include "maps/patches.h"
+#include "maps/radiosity/patches.h"
 
 /// An atlas of a scene and patches of it.
 typedef struct setting {

@@ -2,9 +2,9 @@
 // Bent normals of a map: interpolated ones are as good as traced ones.
 #include "base/context.h"
 #include "base/tasks.h"
-#include "maps/bent.h"
-#include "maps/occlusion_map.h"
-#include "maps/validity.h"
+#include "maps/texels/bent.h"
+#include "maps/texels/occlusion_map.h"
+#include "maps/texels/validity.h"
 #include "test_scenes.h"
 
 #include <math.h>

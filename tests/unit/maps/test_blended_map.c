@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "maps/lightmap.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 // than the limits let pass.
 #include "test_scenes.h"
 
-#include "maps/bounced_map.h"
-#include "maps/validity.h"
-#include "transport/cosine_rays.h"
+#include "maps/radiosity/bounced_map.h"
+#include "maps/texels/validity.h"
+#include "transport/gather/cosine_rays.h"
 
 enum { SIZE = 32 };
 

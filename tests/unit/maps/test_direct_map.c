@@ -4,8 +4,8 @@
 #include "test_scenes.h"
 
 #include "base/memory.h"
-#include "maps/direct_map.h"
-#include "maps/validity.h"
+#include "maps/radiosity/direct_map.h"
+#include "maps/texels/validity.h"
 
 #include <math.h>
 

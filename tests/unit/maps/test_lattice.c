@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/context.h"
-#include "maps/lattice.h"
-#include "maps/validity.h"
+#include "maps/texels/lattice.h"
+#include "maps/texels/validity.h"
 #include "test_scenes.h"
 
 #include <math.h>

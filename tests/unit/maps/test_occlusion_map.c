@@ -2,9 +2,9 @@
 // Which texels are traced, when it stops, and whether what it says of its error is true.
 #include "base/context.h"
 #include "base/tasks.h"
-#include "maps/occlusion_map.h"
-#include "maps/stated_error.h"
-#include "maps/validity.h"
+#include "maps/texels/occlusion_map.h"
+#include "maps/texels/stated_error.h"
+#include "maps/texels/validity.h"
 #include "test_scenes.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 // of a texel lie above a floor, where all is open, or just below it, where nothing is.
 #include "base/context.h"
 #include "base/random.h"
-#include "maps/occlusion_map.h"
+#include "maps/texels/occlusion_map.h"
 #include "test_scenes.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 // Cells of whole packets: those of their points one by one, and the same by any instructions.
 #include "patch_setting.h"
 
-#include "maps/patch_lookup.h"
+#include "maps/radiosity/patch_lookup.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "maps/patch_reach.h"
+#include "maps/radiosity/patch_reach.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 // Pooled in bands, variances have the bits that they have pooled all at once.
 #include "base/context.h"
 #include "base/random.h"
-#include "maps/pooled_variance.h"
+#include "maps/texels/pooled_variance.h"
 #include "test_scenes.h"
 
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Seams between tiles: where they are, how long they are, and how far apart their sides are.
-#include "maps/seams.h"
+#include "maps/seams/seams.h"
 
 #include "base/random.h"
 #include "base/tasks.h"
-#include "maps/seam_edges.h"
+#include "maps/seams/seam_edges.h"
 #include "test_scenes.h"
 #include "test_tiles.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stitching: sides of seams agree, and nothing else moves further than it should.
-#include "maps/stitch.h"
+#include "maps/seams/stitch.h"
 
 #include "base/random.h"
 #include "base/tasks.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Seams of overlapping charts: samples are blended look-ups, and stitching finds the minimum.
-#include "maps/seam_edges.h"
-#include "maps/stitch.h"
+#include "maps/seams/seam_edges.h"
+#include "maps/seams/stitch.h"
 
 #include "base/random.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 #include "test_support.h"
 
 #include <math.h>

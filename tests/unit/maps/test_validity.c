@@ -3,9 +3,9 @@
 // something are not made.
 #include "atlas/facet.h"
 #include "base/context.h"
-#include "maps/inside.h"
-#include "maps/validity.h"
-#include "scene/mesh_builder.h"
+#include "maps/texels/inside.h"
+#include "maps/texels/validity.h"
+#include "scene/builtin/mesh_builder.h"
 #include "test_scenes.h"
 
 #include <math.h>

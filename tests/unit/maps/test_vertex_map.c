@@ -4,8 +4,8 @@
 #include "test_scenes.h"
 
 #include "base/random.h"
-#include "maps/vertex_map.h"
-#include "transport/occlusion.h"
+#include "maps/vertex/vertex_map.h"
+#include "transport/occlusion/occlusion.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 
 #include "test_support.h"
 
-#include "scene/sky.h"
+#include "scene/sky/sky.h"
 
 /// Options as alp_lighting_options_default gives them, of a kind.
 alp_sky_options sky_options(alp_sky_kind kind);

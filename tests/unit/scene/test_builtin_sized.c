@@ -3,8 +3,8 @@
 // solid closed and facing outside, things where they should stand, settings read or refused.
 #include "test_support.h"
 
-#include "scene/builtin_atrium.h"
-#include "scene/builtin_terrain.h"
+#include "scene/builtin/builtin_atrium.h"
+#include "scene/builtin/builtin_terrain.h"
 
 #include <math.h>
 #include <stdio.h>

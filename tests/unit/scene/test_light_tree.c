@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "base/random.h"
-#include "scene/light_tree.h"
+#include "scene/lights/light_tree.h"
 
 #include <math.h>
 #include <stdlib.h>

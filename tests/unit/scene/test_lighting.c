@@ -3,7 +3,7 @@
 #include "test_lights.h"
 
 #include "base/memory.h"
-#include "scene/triangle_light.h"
+#include "scene/lights/triangle_light.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // The shapes that scenes are built of: which way they face, how large they are, what is left out.
 #include "test_support.h"
 
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #include "test_scenes.h"
 
 #include "base/random.h"
-#include "scene/polygon_light.h"
+#include "scene/lights/polygon_light.h"
 
 #include <math.h>
 

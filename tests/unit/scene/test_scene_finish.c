@@ -4,7 +4,7 @@
 
 #include "base/image.h"
 #include "base/memory.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 

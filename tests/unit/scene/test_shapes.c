@@ -3,7 +3,7 @@
 // counting against building, and the fineness that gives a wanted number.
 #include "test_support.h"
 
-#include "scene/shapes.h"
+#include "scene/builtin/shapes.h"
 
 #include <math.h>
 

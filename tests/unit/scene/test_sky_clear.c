@@ -4,7 +4,7 @@
 #include "sky_checks.h"
 
 #include "base/random.h"
-#include "scene/sky_clear.h"
+#include "scene/sky/sky_clear.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "base/image.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "scene/sky_spots.h"
+#include "scene/sky/sky_spots.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // the room it stands in.
 #include "test_support.h"
 
-#include "scene/teapot.h"
+#include "scene/builtin/teapot.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 // Directions to a triangle: as many in each part as its solid angle says.
 #include "test_lights.h"
 
-#include "scene/triangle_light.h"
+#include "scene/lights/triangle_light.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 // instructions.
 #include "soup.h"
 
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 #include "trace/few.h"
 
 /// MOST: packets of a round, past the eight that are laid out together and past two times as many.

@@ -3,7 +3,7 @@
 // state is the one they have.
 #include "test_probe.h"
 
-#include "transport/cosine_rays.h"
+#include "transport/gather/cosine_rays.h"
 
 #include <math.h>
 #include <stdio.h>

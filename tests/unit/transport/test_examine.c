@@ -3,7 +3,7 @@
 #include "test_support.h"
 
 #include "base/memory.h"
-#include "scene/mesh_builder.h"
+#include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "test_support.h"
 
 #include "base/random.h"
-#include "transport/hemicube.h"
+#include "transport/gather/hemicube.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // Pictures of what hemicubes see and of their weights.
 #include "test_direct_stage.h"
 
-#include "transport/hemicube_picture.h"
+#include "transport/gather/hemicube_picture.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // Weights of hemicube pixels against integrals, and how pixels are laid out in packets and frames.
 #include "test_support.h"
 
-#include "transport/hemicube.h"
+#include "transport/gather/hemicube.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 // changes and however many workers there are.
 #include "test_probe.h"
 
-#include "transport/cosine_rays.h"
-#include "transport/kept_rays.h"
+#include "transport/gather/cosine_rays.h"
+#include "transport/gather/kept_rays.h"
 
 #include <string.h>
 

@@ -2,8 +2,8 @@
 // Paths that end with light that is known, and go on where they meet it from near.
 #include "test_scenes.h"
 
-#include "scene/lighting.h"
-#include "transport/paths.h"
+#include "scene/lights/lighting.h"
+#include "transport/paths/paths.h"
 
 #include <math.h>
 #include <string.h>

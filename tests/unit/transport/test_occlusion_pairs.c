@@ -6,7 +6,7 @@
 #include "test_scenes.h"
 
 #include "base/memory.h"
-#include "transport/occlusion_kernel.h"
+#include "transport/occlusion/occlusion_kernel.h"
 
 enum { RECEIVERS = 21, ALL_LANES = (1 << ALPI_PACKET) - 1 };
 
@@ -54,9 +54,9 @@ static void see_packets(const alpi_tracer *tracer, alpi_rays *rays, uint32_t cou
 #define alpi_tracer_takes_pairs takes_pairs
 #define alpi_trace_occluded_pairs see_pairs
 #define alpi_trace_occluded see_packets
-#define ALPI_KERNEL seeing_kernel
+#define ALPI_VARIANT(name) seeing_kernel
 static alpi_occlusion_kernel seeing_kernel;
-#include "transport/occlusion_kernel_body.h"
+#include "transport/occlusion/occlusion_kernel_body.h"
 
 static void place(const void *user, uint32_t receiver, uint32_t count, const float (*square)[2],
                   alpi_receiver_point *points)

@@ -3,7 +3,7 @@
 // about one direction, and those of a point spread over all directions.
 #include "test_scenes.h"
 
-#include "transport/occlusion_run.h"
+#include "transport/occlusion/occlusion_run.h"
 
 /// A setup of some scene: only its sequence and its places matter.
 static void set_up(uint32_t samples, alp_context **context, alp_scene **scene,

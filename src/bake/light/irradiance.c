@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Irradiance at the texels of a bake: direct light alone, or all of it, by radiosity or by the
+// reference.
+#include "bake/layers.h"
+#include "bake/light/light.h"
+#include "bake/light/light_error.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "transport/direct/direct.h"
+#include "transport/examine.h"
+#include "transport/paths/reference.h"
+
+#include <math.h>
+
+enum { TEXELS_PER_RANGE = 4096 };
+
+bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
+{
+    return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
+}
+
+static bool is_by_hemicubes(const alpi_bake_job *job)
+{
+    const alp_light_options *o = &job->options.light;
+    return o->gather == ALP_GATHER_HEMICUBE && o->bounces > 0;
+}
+
+typedef struct take_job {
+    alpi_bake_job *job;
+    const uint32_t *order;
+    const alpi_reference_value *values;
+} take_job;
+
+static alp_result take_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const take_job *t = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t texel = t->order[i];
+        const alpi_reference_value *v = &t->values[texel];
+        for (int k = 0; k < 3; k++) {
+            t->job->irradiance[texel][k] = v->mean[k];
+            t->job->irradiance_errors[texel][k] = sqrtf(v->variance[k]);
+        }
+    }
+    return ALP_OK;
+}
+
+/// Takes means and standard errors of the listed texels, and the stated error of the whole.
+static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
+                              const alpi_reference_value *values)
+{
+    const uint32_t texels = job->lightmap->texels.count;
+    ALPI_TRY_NEW(job->context, job->irradiance, texels);
+    ALPI_TRY_NEW(job->context, job->irradiance_errors, texels);
+    take_job take = {job, order, values};
+    ALP_TRY(alpi_parallel_for(job->context, count, TEXELS_PER_RANGE, take_range, &take, NULL));
+    alpi_light_error error;
+    ALP_TRY(alpi_light_find_error(job->context, values, texels, order, count, &error));
+    const bool told = !is_by_hemicubes(job);
+    alp_bake_report *r = &job->report;
+    r->light_mean = error.mean;
+    r->light_relative_error = told ? error.over_mean.rms : (double)NAN;
+    r->light_p99_error = told ? error.over_mean.p99 : (double)NAN;
+    return ALP_OK;
+}
+
+/// Light that comes straight from where it is made.
+static alp_result gather_direct(alpi_bake_job *job, alpi_light_task *t)
+{
+    ALPI_TRY_NEW(job->context, t->values, t->receivers->count);
+    const alp_bake_options *o = &job->options;
+    const alpi_direct_options options = {
+        .context = job->context,
+        .scene = job->scene,
+        .tracer = t->tracer,
+        .lighting = t->lighting,
+        .filter = {.one_sided = o->occlusion.one_sided},
+        .samples = o->light.samples,
+        .seed = o->occlusion.seed,
+    };
+    alpi_direct *direct = NULL;
+    alpi_direct_output output = {.values = t->values, .directional = t->directional};
+    alpi_light_layers *layers = alpi_bake_light_layers(job, false);
+    if (layers != NULL) {
+        const uint32_t texels = t->receivers->count;
+        ALP_TRY(alpi_light_layers_reserve(layers, texels, 0, texels));
+        output.groups = layers->direct;
+        output.part_groups = layers->part_layers;
+    }
+    ALP_TRY(alpi_direct_create(&options, &direct));
+    const alp_result result =
+        alpi_direct_irradiance(direct, t->receivers, t->order, t->count, &t->progress, &output);
+    alpi_bake_sum_layers(job, t->order, t->count, NULL, true, t->values);
+    job->report.light_samples = alpi_direct_samples(direct);
+    job->report.rays += output.rays;
+    alpi_direct_destroy(direct);
+    return result;
+}
+
+static alp_result gather_paths(alpi_bake_job *job, alpi_light_task *t)
+{
+    ALPI_TRY_NEW(job->context, t->values, t->receivers->count);
+    const alp_bake_options *o = &job->options;
+    const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
+    const alpi_reference reference = {
+        .context = job->context,
+        .scene = job->scene,
+        .tracer = t->tracer,
+        .lighting = t->lighting,
+        .filter = {.one_sided = o->occlusion.one_sided},
+        .bounces = o->light.bounces < limit ? o->light.bounces : limit,
+        .samples = o->light.samples,
+        .next_event = true,
+        .share = true,
+        .seed = o->occlusion.seed,
+    };
+    ALP_TRY(alpi_reference_irradiance(&reference, t->receivers, t->order, t->count, &t->progress,
+                                      t->values));
+    job->report.light_samples = alpi_reference_samples(&reference);
+    job->report.rays += (uint64_t)t->count * job->report.light_samples;
+    return ALP_OK;
+}
+
+static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
+{
+    job->report.light_direct = job->options.light.bounces == 0;
+    alp_result result = job->report.light_direct ? gather_direct(job, t)
+                        : job->options.light.gather == ALP_GATHER_PATHS
+                            ? gather_paths(job, t)
+                            : alpi_bake_radiosity(job, t);
+    if (result == ALP_OK) {
+        result = take_values(job, t->order, t->count, t->values);
+    }
+    alpi_release(job->context, t->values);
+    return result;
+}
+
+alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
+                                const alpi_receivers *receivers, const uint32_t *order,
+                                uint32_t count, const alpi_lattice *lattice,
+                                const alpi_task_progress *progress)
+{
+    if ((job->options.maps & ALP_MAP_LIGHT) == 0) {
+        return ALP_OK;
+    }
+    alpi_scratch_destroy(&job->scratch); // of the rays of occlusion, which are done
+    alpi_lighting *lighting = NULL;
+    ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
+    alpi_task_progress told = *progress;
+    told.stage = "light";
+    alpi_light_clock clock = alpi_light_clock_start(job, &told);
+    told.callback = alpi_light_clock_goes_on;
+    told.user = &clock;
+    const alpi_watch former =
+        alpi_set_watch(job->context, (alpi_watch){.callback = told.callback, .user = &clock});
+    const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    alp_result result =
+        alpi_examine_light(tracer, filter, job->scene, lighting, told.callback, told.user);
+    alpi_light_task task = {.lighting = lighting,
+                            .tracer = tracer,
+                            .receivers = receivers,
+                            .order = order,
+                            .count = count,
+                            .lattice = lattice,
+                            .directional = job->directional,
+                            .progress = told,
+                            .clock = &clock};
+    if (result == ALP_OK) {
+        result = gather(job, &task);
+    }
+    alpi_set_watch(job->context, former);
+    alpi_lighting_destroy(job->context, lighting);
+    if (result == ALP_ERROR_CANCELLED && !clock.refused && alpi_light_clock_is_late(&clock)) {
+        return alpi_fail(job->context, ALP_ERROR_LIMIT,
+                         "the time limit ended before any texel had light; allow more time");
+    }
+    return result;
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What the files that bake irradiance share.
+#ifndef ALPI_BAKE_LIGHT_H
+#define ALPI_BAKE_LIGHT_H
+
+#include "bake/job.h"
+#include "maps/radiosity/radiosity.h"
+#include "transport/directional.h"
+#include "transport/paths/reference.h"
+
+/// The watch of the light: a progress callback and its user data. Time that is left is told by how
+/// long the part that runs takes, and what comes after it in times of that part.
+typedef struct alpi_light_clock {
+    alp_progress_fn *callback; // the user's, or NULL
+    void *user;
+    const char *stage;
+    double deadline;     // alpi_seconds(); HUGE_VAL: none
+    bool until_deadline; // all the time there is will be used
+    bool refused;        // by the user
+    bool ended;          // nobody is asked any more
+    bool one_loop;       // of the part: its progress is told as that of one loop
+    double began, part_began;
+    double after;             // what comes after the part, over the part
+    double base, share, loop; // of the part: done before this loop, done; of the loop: done
+    double told;              // of all of it
+} alpi_light_clock;
+
+alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
+                                        const alpi_task_progress *progress);
+/// Begins a part. @param after what comes after it, over the time it takes itself
+void alpi_light_clock_part(alpi_light_clock *clock, bool one_loop, double after);
+bool alpi_light_clock_is_late(const alpi_light_clock *clock);
+/// The callback; `user` is the clock.
+bool alpi_light_clock_goes_on(void *user, const alp_progress *progress);
+
+/// Where light is gathered, and what it becomes.
+typedef struct alpi_light_task {
+    const alpi_lighting *lighting;
+    const alpi_lighting *near_lighting; // NULL, or that of paths from near surfaces
+    const alpi_tracer *tracer;
+    const alpi_receivers *receivers; // texels of the job's atlas
+    const uint32_t *order;           // [count] those with light of their own
+    uint32_t count;
+    const alpi_lattice *lattice;
+    alpi_task_progress progress; // of the clock
+    alpi_light_clock *clock;
+    alpi_reference_value *values;  // [receivers] out; made by who gathers, when it does
+    alpi_directional *directional; // [receivers] out, or NULL
+} alpi_light_task;
+
+/// Direct light and what surfaces make of it, by rays or hemicubes.
+alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
+
+/// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
+bool alpi_light_has_rounds(const alp_bake_options *options);
+/// Whether blocks are texels where another surface touches: not for an error of 2 % and more, which
+/// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
+/// and corners").
+bool alpi_light_has_fine_blocks(const alp_light_options *options);
+/// Whether the lattice begins with every eighth texel, not every fourth: for an error of 3 % and
+/// more (docs/radiosity.md, "Every eighth texel").
+bool alpi_light_has_wide_lattice(const alp_light_options *options);
+/// Rays that a block gathers by at most, on a map of so many texels.
+uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
+/// Rays of a block that there is memory for at once where all are kept: a trial's beside the most.
+uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels);
+/// Rays of a block, a power of two in [16, 1024], that take least time together with what is left
+/// to the texels for an error.
+/// @param error over the mean, > 0
+uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light);
+/// Rays that a block sends about, those of a trial that finds `light` included.
+uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
+                                    const alpi_trial_light *light);
+/// Samples of each light at a texel in the first round.
+uint32_t alpi_light_first_direct(const alpi_bake_job *job);
+
+/// Mean of two estimates by their numbers of samples.
+void alpi_light_merge(alpi_reference_value *value, const alpi_reference_value *fresh, double had,
+                      double more);
+
+/// Gathers the last bounce at the texels, in rounds until the wanted error is stated or the time is
+/// over, and takes what the rounds before gave where one is cut off; adds direct light, and fills
+/// task->values and the report.
+/// @param fixed the gatherer of texels, or NULL: cosine rays, as many as it takes
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
+                             alpi_radiosity *solution);
+
+/// Shows the rays of a round what is known by now. The few samples of direct light of the first
+/// round make noise in corners, where a texel sees few others, that no number of rays takes off.
+/// What texels gathered by as many rays is finer than what blocks did. With a number of bounces it
+/// has one too many, and layers need it apart: there, blocks' light is shown. Where only some
+/// surfaces are baked, rays meet other texels, and nothing is shown anew.
+/// @param rays  of a texel, so far: task->values are what they brought
+/// @param noise out: 1 / √ rays that a block's light is known by from now on
+/// @return ALP_OK; CANCELLED
+alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
+                           const alpi_radiosity *solution, uint32_t rays, double *noise);
+
+/// Whether texels are interpolated, in rounds of all.
+bool alpi_light_is_adaptive(const alp_bake_options *options);
+/// The error that direct light is interpolated within: that of the map, where texels are and it is
+/// given; 0: it is gathered at all.
+double alpi_light_direct_error(const alp_bake_options *options);
+/// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
+bool alpi_light_meets_solved(const alpi_radiosity_options *options);
+/// Error of a solution by one ray of each block, over the mean of the light: it falls with the root
+/// of their number.
+/// @param bounced root mean square of bounced light, over that mean
+double alpi_light_solved_noise(double bounced);
+/// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
+/// them, that no number of rays tells. Root mean square over texels, as measured.
+/// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart
+/// @param noise 1 / √ rays that a block's light is known by
+double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
+                               double noise);
+
+/// What the two make of the light so far, which stays as it is.
+/// @param share error of the solution, over the bounced light of each texel: added to variances
+/// @param whole [texels] out
+/// @return ALP_OK
+alp_result alpi_light_peek(const alpi_bake_job *job, const alpi_light_task *task,
+                           const alpi_radiosity *solution, const float (*skies)[3], double share,
+                           alpi_reference_value *whole);
+
+/// Adds direct light to bounced light, and keeps them apart where that is asked for.
+/// @param skies [texels] or NULL: what of the bounced light is a soft sky's
+/// @param share as of alpi_light_peek
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
+                          const alpi_radiosity *solution, const float (*skies)[3], double share);
+
+/// Takes noise off task->values, and keeps the sky's share of them. Whoever ends the bake before,
+/// or meanwhile, and keeps what there is, gets the light as it was gathered: no texel is changed
+/// before all are known.
+/// @param skies [texels] what of the values is a soft sky's
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_light_denoise(alpi_bake_job *job, const alpi_light_task *task, float (*skies)[3]);
+
+#endif

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+// The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
+#include "bake/layers.h"
+#include "bake/light/light_next.h"
+#include "bake/light/light_plan.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "maps/radiosity/counted_emitters.h"
+#include "maps/radiosity/direct_map.h"
+#include "maps/radiosity/radiosity.h"
+#include "maps/radiosity/solution.h"
+#include "transport/gather/cosine_rays.h"
+#include "transport/gather/hemicube.h"
+
+#include <math.h>
+
+enum { BLOCK_CUBE = 16 };
+
+// What the rays of all blocks together miss is a bias of the whole map: measured, at most 1.5 /
+// √rays of a bounce; what those of single blocks miss is noise about them, measured, 1.6 / √rays
+// percent of the light. Each shall be a quarter of the error that is wanted, or that the samples of
+// a texel leave, which is about 16 / √samples percent: of a rms error that is 3 %.
+//
+// Where the solution is not refined later, direct light that it reflects has noise of its own: with
+// 16 samples, measured, 0.4 % of the light about it. It shall be a third of that error.
+static const double DIRECT_SHARE = 0.0125; // error at which 16 samples are enough for that
+
+/// The error that is wanted, or about what the samples of a texel leave; 0: there is time for more.
+static double find_error(const alp_light_options *o)
+{
+    enum { MOST_SAMPLES = 65536 };
+    return o->error > 0.0f             ? (double)o->error
+           : o->samples < MOST_SAMPLES ? 0.16 / sqrt((double)o->samples)
+                                       : 0.0;
+}
+
+static uint32_t find_direct_samples(const alp_light_options *o)
+{
+    enum { LEAST = 16, MOST = 1024 };
+    const double error = find_error(o);
+    const double samples = error > 0.0 ? LEAST * pow(DIRECT_SHARE / error, 2.0) : LEAST;
+    return (uint32_t)fmin(fmax(samples, LEAST), MOST);
+}
+
+/// What is left out of all light where passes end is a bias, and mostly in a few places: of light
+/// that a sphere throws onto a plane, .06 % of the whole left out made .4 % of error. Of a number
+/// of bounces by a number of samples nothing is left out: what a light brings hangs on no other
+/// light.
+static double find_tolerance(const alp_light_options *o)
+{
+    static const double SHARE = 0.01, LEAST = 5e-5, MOST = 5e-4;
+    return o->error > 0.0f || o->bounces > ALPI_RADIOSITY_PASS_LIMIT
+               ? fmin(fmax(SHARE * find_error(o), LEAST), MOST)
+               : 0.0;
+}
+
+bool alpi_light_is_adaptive(const alp_bake_options *o)
+{
+    return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
+           o->sampling.accuracy != ALP_ADAPTIVE_OFF;
+}
+
+double alpi_light_direct_error(const alp_bake_options *o)
+{
+    return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;
+}
+
+bool alpi_light_has_fine_blocks(const alp_light_options *options)
+{
+    return !(options->error >= 0.02f);
+}
+
+bool alpi_light_has_wide_lattice(const alp_light_options *options)
+{
+    return options->error >= 0.03f;
+}
+
+uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
+{
+    enum { TEXELS_PER_BLOCK = 8, TEXELS_PER_FINE_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
+    if (options->gather == ALP_GATHER_HEMICUBE) {
+        return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
+    }
+    const double error = find_error(options);
+    if (error == 0.0) { // rounds come first
+        return ALPI_RADIOSITY_BLOCK_RAYS;
+    }
+    const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
+    const double size =
+        alpi_light_has_fine_blocks(options) ? TEXELS_PER_FINE_BLOCK : TEXELS_PER_BLOCK;
+    const double each = fmax(all * size / fmax((double)texels, 1.0), about);
+    uint32_t rays = FEWEST_RAYS;
+    while (rays * sqrt(2.0) < each && rays < MOST_RAYS) { // the nearest power of two
+        rays *= 2;
+    }
+    return rays;
+}
+
+// Where little light bounces, or blocks are few beside the texels' rays, fewer rays of theirs will
+// do, or more pay. A trial by the fewest tells how much does.
+enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
+
+/// Rays that texels and direct light take, about, for an error: measured on the Cornell box, a
+/// sphere on a plane, living_room, a seventh of the texels being traced and direct light taking as
+/// long as a quarter of them would.
+static double guess_texel_rays(double error, uint64_t texels, double rms)
+{
+    const double each = pow(0.39 * rms / error, 2.0);
+    return 0.4 * (double)texels * fmax(each, ALPI_LIGHT_FIRST_RAYS);
+}
+
+uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light)
+{
+    enum { FEWEST_RAYS = TRIAL_RAYS, MOST_RAYS = 1024 };
+    const double noise = alpi_light_solved_noise(light->rms), blocks = fmax(light->blocks, 1.0);
+    // The whole map's bias takes the square of that share, but what is told of the energy, by the
+    // same rays, none of it: between the two.
+    const double least = pow(6.0 / error, 2.0) * light->mean / blocks;
+    const double others = guess_texel_rays(error, texels, light->rms);
+    uint32_t best = MOST_RAYS;
+    double best_cost = HUGE_VAL;
+    for (uint32_t rays = MOST_RAYS; rays >= FEWEST_RAYS && rays * sqrt(2.0) >= least; rays /= 2) {
+        // What the solution leaves of the squared error is the texels': their error falls with the
+        // .62th power of their rays.
+        const double left = 1.0 - noise * noise / (rays * error * error);
+        if (!(left > 0.0)) {
+            break; // nor do fewer leave any
+        }
+        const double cost = blocks * rays + others * pow(left, -0.5 / ALPI_LIGHT_RAYS_POWER);
+        if (cost <= best_cost) {
+            best_cost = cost;
+            best = rays;
+        }
+    }
+    return best;
+}
+
+/// Whether a trial tells how many, where `most` are sent if all light bounces. Not where the number
+/// of samples is given: then what a light brings does not hang on other lights.
+static bool is_tried(const alp_light_options *o, uint32_t most)
+{
+    return o->gather == ALP_GATHER_RAYS && o->error > 0.0f && most >= NO_TRIAL_BELOW;
+}
+
+uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels)
+{
+    const uint32_t most = alpi_light_block_rays(options, texels);
+    return most + (is_tried(options, most) ? TRIAL_RAYS : 0);
+}
+
+uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
+                                    const alpi_trial_light *light)
+{
+    const uint32_t most = alpi_light_block_rays(options, texels);
+    if (!is_tried(options, most)) {
+        return most;
+    }
+    const uint32_t rays = alpi_light_least_block_rays((double)options->error, texels, light);
+    return rays < most ? rays : most;
+}
+
+/// How blocks gather, and, by hemicubes, how texels do.
+typedef struct light_gatherers {
+    double error;         // that is wanted
+    uint64_t texel_count; // that there are
+    alpi_cosine_rays trial_rays, block_rays;
+    alpi_gatherer trial;                    // of blocks
+    alpi_hemicube *block_cube, *texel_cube; // or NULL
+    alpi_hemicube_options block_cubes, texel_cubes;
+    alpi_gatherer blocks, texels;
+    bool counts;    // emissive surfaces are what hemicubes see of them, and
+    alp_scene dark; // direct light is that of the scene without them
+} light_gatherers;
+
+static alp_result make_hemicubes(const alpi_bake_job *job, uint64_t seed, light_gatherers *g)
+{
+    const uint32_t n = job->options.light.hemicube;
+    ALP_TRY(alpi_hemicube_create(job->context, n, &g->texel_cube));
+    ALP_TRY(alpi_hemicube_create(job->context, n < BLOCK_CUBE ? n : BLOCK_CUBE, &g->block_cube));
+    g->texel_cubes = (alpi_hemicube_options){
+        .context = job->context, .cube = g->texel_cube, .turned = true, .seed = seed};
+    g->block_cubes = g->texel_cubes;
+    g->block_cubes.cube = g->block_cube;
+    g->block_cubes.scattered = true;
+    g->blocks = alpi_hemicube_gatherer(&g->block_cubes);
+    g->texels = alpi_hemicube_gatherer(&g->texel_cubes);
+    g->counts = job->options.light.emitters == ALP_EMITTERS_COUNTED;
+    return g->counts ? alpi_scene_without_emitters(job->scene, &g->dark) : ALP_OK;
+}
+
+/// @param texels that there are
+static alp_result make_gatherers(const alpi_bake_job *job, uint64_t texels, light_gatherers *g)
+{
+    const alp_light_options *o = &job->options.light;
+    const uint64_t seed = job->options.occlusion.seed;
+    *g = (light_gatherers){0};
+    if (o->gather == ALP_GATHER_HEMICUBE) {
+        return make_hemicubes(job, seed, g);
+    }
+    g->error = (double)o->error;
+    g->texel_count = texels;
+    g->block_rays = (alpi_cosine_rays){.context = job->context,
+                                       .samples = alpi_light_block_rays(o, texels),
+                                       .replicates = 1,
+                                       .seed = seed};
+    g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
+    g->trial_rays = g->block_rays;
+    g->trial_rays.samples = TRIAL_RAYS;
+    g->trial = alpi_cosine_rays_gatherer(&g->trial_rays);
+    return ALP_OK;
+}
+
+/// As many rays of blocks as are worth it, and no more than without a trial.
+static const alpi_gatherer *choose_rays(void *user, const alpi_trial_light *light)
+{
+    light_gatherers *g = user;
+    const uint32_t rays = alpi_light_least_block_rays(g->error, g->texel_count, light);
+    g->block_rays.samples = rays < g->block_rays.samples ? rays : g->block_rays.samples;
+    g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
+    return rays > TRIAL_RAYS ? &g->blocks : NULL;
+}
+
+/// @param met whether rays of texels meet light that blocks gathered
+static alpi_radiosity_trial trial_of(light_gatherers *g, const alp_light_options *o, bool met)
+{
+    const bool tried = met && is_tried(o, g->block_rays.samples);
+    return (alpi_radiosity_trial){tried ? &g->trial : NULL, choose_rays, g};
+}
+
+static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
+{
+    const alpi_energy *e = &solution->energy;
+    alp_bake_report *r = &job->report;
+    const uint32_t most = sizeof r->light_changes / sizeof *r->light_changes;
+    r->rays += solution->rays;
+    r->light_passes = solution->passes;
+    r->light_energy = (alp_light_energy){e->known,   e->emitted,     e->absorbed,
+                                         e->escaped, e->lost_behind, e->unshot};
+    for (uint32_t i = 0; i < solution->passes && i < most; i++) {
+        r->light_changes[i] = solution->changes[i];
+    }
+}
+
+static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g,
+                               const alpi_lighting *direct)
+{
+    const alp_bake_options *o = &job->options;
+    alpi_radiosity_options options = alpi_radiosity_options_default();
+    options.context = job->context;
+    options.scene = job->scene;
+    options.tracer = t->tracer;
+    options.lighting = t->lighting;
+    options.blocks.near = job->validity.near;
+    options.blocks.fine = alpi_light_has_fine_blocks(&o->light);
+    options.direct = direct;
+    options.direct_scene = g->counts ? &g->dark : NULL;
+    options.counted = g->counts ? &g->texels : NULL;
+    options.filter = (alpi_trace_filter){.one_sided = o->occlusion.one_sided};
+    options.gatherer = &g->blocks;
+    options.bounces = o->light.bounces;
+    options.tolerance = find_tolerance(&o->light);
+    options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
+    options.direct_samples = alpi_light_first_direct(job);
+    options.direct_error = alpi_light_direct_error(&job->options);
+    options.directional = t->directional != NULL;
+    options.kept_limit = job->kept_limit;
+    options.seed = o->occlusion.seed;
+    options.layers = alpi_bake_light_layers(job, direct != t->lighting);
+    alpi_radiosity solution;
+    alpi_light_clock_part(t->clock, false, 1.0);
+    ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
+                                 &t->progress, &solution));
+    report_solution(job, &solution);
+    alpi_radiosity_settle(&solution, alpi_light_has_rounds(o));
+    const alp_result result =
+        alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
+    alpi_radiosity_destroy(&solution);
+    return result;
+}
+
+/// Direct light of the baked texels in place of that of the solution's own.
+static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alpi_radiosity *r)
+{
+    const uint32_t texels = t->receivers->count;
+    alpi_release(job->context, r->direct);
+    alpi_release(job->context, r->directional);
+    r->direct = NULL;
+    r->directional = NULL;
+    r->texels = t->receivers;
+    r->options.direct_samples = alpi_light_first_direct(job);
+    ALPI_TRY_NEW(job->context, r->direct, texels);
+    if (t->directional != NULL) {
+        ALPI_TRY_NEW(job->context, r->directional, texels);
+    }
+    alpi_direct_output output = {.values = r->direct, .directional = r->directional};
+    const double began = alpi_seconds();
+    const alpi_direct_map_options options = {.lattice = t->lattice,
+                                             .near = job->validity.near,
+                                             .error = alpi_light_direct_error(&job->options)};
+    ALP_TRY(alpi_direct_map(r, &options, t->order, t->count, &t->progress, &output,
+                            &r->direct_gathered));
+    r->direct_seconds = alpi_seconds() - began;
+    r->rays += output.rays;
+    return ALP_OK;
+}
+
+/// Where only some surfaces are baked, light comes from all: it is solved for on an atlas of the
+/// whole scene, one page of the bake's size, always by cosine rays.
+static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const light_gatherers *g)
+{
+    alpi_solution_options options = {.scene = job->scene,
+                                     .tracer = t->tracer,
+                                     .lighting = t->lighting,
+                                     .atlas = alp_atlas_options_default(),
+                                     .one_sided = job->options.occlusion.one_sided,
+                                     .bounces = job->options.light.bounces,
+                                     .tolerance = find_tolerance(&job->options.light),
+                                     .seed = job->options.occlusion.seed};
+    options.atlas.mode = ALP_ATLAS_CHARTS;
+    options.atlas.size = job->options.atlas.size;
+    options.block_rays = alpi_light_block_rays(&job->options.light,
+                                               (uint64_t)options.atlas.size * options.atlas.size);
+    options.direct_samples = find_direct_samples(&job->options.light);
+    options.kept_limit = job->kept_limit > 0 ? job->kept_limit : 1;
+    alpi_solution *around = NULL;
+    alpi_light_clock_part(t->clock, false, 1.0);
+    ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));
+    alp_result result = light_texels(job, t, &around->radiosity);
+    if (result == ALP_OK) {
+        report_solution(job, &around->radiosity);
+        alpi_radiosity_settle(&around->radiosity, false);
+        result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
+                                   &around->radiosity);
+    }
+    alpi_solution_destroy(around);
+    return result;
+}
+
+/// A sky without bright spots is best gathered with what is bounced, by the same rays; the spots
+/// are looked for directly, with all else. Panes would mix the two.
+static alp_result gather_with_sky(alpi_bake_job *job, alpi_light_task *t, light_gatherers *g)
+{
+    if (job->only != NULL) {
+        return gather_around(job, t, g);
+    }
+    if (alpi_lighting_sky(t->lighting) == NULL || alpi_tracer_has_panes(t->tracer)) {
+        return gather_light(job, t, g, t->lighting);
+    }
+    alpi_light_task with_soft_sky = *t;
+    alpi_lighting *soft = NULL, *direct = NULL;
+    ALP_TRY(alpi_lighting_split_sky(t->lighting, &job->options.light.lighting, &soft, &direct));
+    with_soft_sky.lighting = soft;
+    // A sky that cannot be parted is asked as it is: that about a sun is bright.
+    with_soft_sky.near_lighting = alpi_lighting_sky(direct) != NULL ? direct : t->lighting;
+    const alp_result result = gather_light(job, &with_soft_sky, g, direct);
+    t->values = with_soft_sky.values;
+    alpi_lighting_destroy(job->context, soft);
+    alpi_lighting_destroy(job->context, direct);
+    return result;
+}
+
+alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task)
+{
+    light_gatherers gatherers;
+    alp_result result = make_gatherers(job, task->receivers->count, &gatherers);
+    if (result == ALP_OK) {
+        result = gather_with_sky(job, task, &gatherers);
+    }
+    alpi_scene_without_emitters_clear(&gatherers.dark);
+    alpi_hemicube_destroy(gatherers.block_cube);
+    alpi_hemicube_destroy(gatherers.texel_cube);
+    return result;
+}

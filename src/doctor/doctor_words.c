@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// What the doctor says of each kind of finding: how grave it is, what will be seen, what to do.
+// docs/doctor.md holds the same for people to read; a test compares the two.
+#include "doctor/doctor.h"
+
+#include <string.h>
+
+static const alpi_finding_words words[] = {
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "message", "", ""},
+
+    {ALP_FINDING_NO_TRIANGLES, ALP_SEVERITY_ERROR, "no-triangles",
+     "nothing: bake and render stop with a message",
+     "export meshes as triangles, and check that the right scene and layers were exported"},
+    {ALP_FINDING_BAD_COORDINATES, ALP_SEVERITY_WARNING, "bad-coordinates",
+     "holes where those triangles should be, and light through them",
+     "export the mesh anew; a division by zero in a modifier or a script is the usual cause"},
+    {ALP_FINDING_ZERO_AREA, ALP_SEVERITY_NOTE, "zero-area",
+     "nothing: they are invisible, and left out",
+     "nothing; to be rid of them, merge vertices by distance before export"},
+    {ALP_FINDING_DUPLICATES, ALP_SEVERITY_WARNING, "duplicates",
+     "flicker where the two look different, and twice the texels for one place",
+     "delete one of the two (in Blender: select, merge by distance)"},
+    {ALP_FINDING_BACK_TO_BACK, ALP_SEVERITY_NOTE, "back-to-back",
+     "each side gets texels of its own, the inner side too, which nobody may see",
+     "nothing where both sides are seen; else delete the faces that look inwards"},
+    {ALP_FINDING_COPLANAR, ALP_SEVERITY_WARNING, "coplanar",
+     "flicker where the two look different, which moves with the camera, and twice the texels for "
+     "one place",
+     "cut the one along the other, or move it off by a millimetre"},
+    {ALP_FINDING_BAD_NORMALS, ALP_SEVERITY_WARNING, "bad-normals",
+     "facets where the surface should be smooth", "recalculate the normals before export"},
+    {ALP_FINDING_REVERSED_NORMALS, ALP_SEVERITY_WARNING, "reversed-normals",
+     "dark or black patches: they ask for light on the side that is inside",
+     "recalculate the normals outside, or flip the faces, before export"},
+    {ALP_FINDING_NO_NORMALS, ALP_SEVERITY_NOTE, "no-normals",
+     "facets: right for boxes, edges on what should be round",
+     "export normals with the mesh if it is to look smooth"},
+    {ALP_FINDING_BACKS_SEEN, ALP_SEVERITY_WARNING, "backs-seen",
+     "those backs are black and stop light: dark stains on what is before them",
+     "turn the faces round, close the mesh, or make its material double-sided"},
+    {ALP_FINDING_MIRRORED, ALP_SEVERITY_NOTE, "mirrored",
+     "nothing: their triangles are turned round, so that fronts stay fronts", ""},
+    {ALP_FINDING_SIZE, ALP_SEVERITY_NOTE, "size",
+     "with another unit, lamps are too dark or too bright by its square, and lengths in options "
+     "(--ao-distance, --texels-per-metre) mean something else",
+     "nothing where metres are right; else scale the scene to metres before export"},
+    {ALP_FINDING_PRECISION, ALP_SEVERITY_WARNING, "precision",
+     "steps and noise in occlusion, and edges that do not meet",
+     "move the scene near the origin before export"},
+    {ALP_FINDING_T_JUNCTIONS, ALP_SEVERITY_NOTE, "t-junctions",
+     "cracks of single pixels, and a seam: the two sides share neither corners nor charts",
+     "cut the long edge at that vertex (in Blender: loop cut, merge by distance)"},
+    {ALP_FINDING_THIN_WALL, ALP_SEVERITY_NOTE, "thin-wall",
+     "light of the open side on the other one, or its shadow: a texel holds one value for "
+     "both",
+     "give the sheet a thickness (in Blender: solidify), so that each side has texels of its "
+     "own"},
+    {ALP_FINDING_BURIED, ALP_SEVERITY_NOTE, "buried",
+     "nothing of that part; its texels are wasted and black, and darken the border where it "
+     "comes out",
+     "cut away what nobody sees, or move the object out"},
+    {ALP_FINDING_SCALE, ALP_SEVERITY_NOTE, "scale-outlier",
+     "one that is too large takes the texels of all others and makes the scene's box, and all "
+     "that is given as a share of it, large; one that is too small is a dot",
+     "bring the object to the unit of the others, or leave skies and helpers out of the "
+     "export or, with --only, out of the bake"},
+
+    {ALP_FINDING_NO_UVS, ALP_SEVERITY_NOTE, "no-uvs",
+     "nothing: a bake makes charts, and writes their coordinates with the mesh", ""},
+    {ALP_FINDING_UV_MISSING, ALP_SEVERITY_WARNING, "uv-missing",
+     "--atlas keep stops; --atlas auto makes charts, in another set",
+     "unwrap those surfaces into the set, or give no set: charts are made"},
+    {ALP_FINDING_UV_OUTSIDE, ALP_SEVERITY_WARNING, "uv-outside",
+     "--atlas keep stops, as texels outside of the page do not exist; --atlas auto makes charts",
+     "pack the set into the unit square (in Blender: UV, pack islands), or use --atlas charts"},
+    {ALP_FINDING_UV_FLAT, ALP_SEVERITY_WARNING, "uv-flat",
+     "--atlas keep stops: all of such a triangle would show one texel; --atlas auto makes charts",
+     "unwrap those triangles, or use --atlas charts"},
+    {ALP_FINDING_UV_OVERLAP, ALP_SEVERITY_WARNING, "uv-overlap",
+     "--atlas keep stops: places that share texels would show each other's shadows; --atlas auto "
+     "makes charts",
+     "unwrap the set without overlaps (in Blender: lightmap pack), or use --atlas charts"},
+    {ALP_FINDING_UV_SHARED, ALP_SEVERITY_WARNING, "uv-shared",
+     "--atlas keep stops: nodes that show one mesh would show each other's shadows; --atlas auto "
+     "makes charts, and each node gets its own",
+     "use --atlas charts; for occlusion of each object by itself, --ao-self keeps them shared"},
+    {ALP_FINDING_UV_PADDING, ALP_SEVERITY_WARNING, "uv-padding",
+     "with --atlas keep, light bleeds over the seams: viewers mix neighbouring texels",
+     "give the set a margin of two texels or more, bake it larger, or use --atlas charts"},
+    {ALP_FINDING_UV_DENSITY, ALP_SEVERITY_NOTE, "uv-density",
+     "with --atlas keep, sharp shadows on the one and blurred ones on the other",
+     "scale the islands to one density, or use --atlas charts"},
+    {ALP_FINDING_UV_MIPS, ALP_SEVERITY_NOTE, "uv-mips",
+     "with --atlas keep, light bleeds over the seams from afar: smaller mip levels mix the "
+     "islands",
+     "give the set a margin of two texels for the first smaller level, four for the second, or "
+     "bake without mip-maps"},
+    {ALP_FINDING_UV_TINY, ALP_SEVERITY_WARNING, "uv-tiny",
+     "with --atlas keep, one value for all of such an island: no shadow falls across it",
+     "scale those islands up, bake at that size, or use --atlas charts"},
+    {ALP_FINDING_UV_STRETCH, ALP_SEVERITY_WARNING, "uv-stretch",
+     "with --atlas keep, shadows with steps in the one direction and sharp in the other",
+     "unwrap the surface with less stretch, or use --atlas charts"},
+
+    {ALP_FINDING_MATERIAL_RANGE, ALP_SEVERITY_WARNING, "material-range",
+     "a look that differs from what the file says: with such values light would grow at every "
+     "bounce",
+     "give colours and factors between 0 and 1"},
+    {ALP_FINDING_WHITE, ALP_SEVERITY_NOTE, "white",
+     "rooms too bright and flat, and more noise: light is hardly lost at a bounce (0.95 is the "
+     "most that is used)",
+     "use 0.8 for white paint, 0.9 for snow"},
+    {ALP_FINDING_METAL, ALP_SEVERITY_WARNING, "metal",
+     "black in a light bake: a metal has no diffuse colour and bounces nothing",
+     "give what is no metal a metallicFactor of 0; without one, glTF takes 1"},
+    {ALP_FINDING_IMAGE, ALP_SEVERITY_WARNING, "image",
+     "the material without this texture: plain colours in bounced light, no holes, no glow",
+     "check the name and the file, and export the texture as PNG or JPEG"},
+    {ALP_FINDING_EMISSION_OFF, ALP_SEVERITY_WARNING, "emission-off",
+     "nothing glows: the texture is multiplied by the factor, and glTF's default is 0",
+     "set emissiveFactor to 1, 1, 1"},
+    {ALP_FINDING_EMISSION_BLACK, ALP_SEVERITY_NOTE, "emission-black",
+     "nothing glows: the factor is multiplied by a black texture",
+     "remove the texture if the material should glow"},
+    {ALP_FINDING_INVISIBLE, ALP_SEVERITY_NOTE, "invisible",
+     "nothing: rays pass through, but its triangles take texels",
+     "leave such helpers out of the export, or out of the bake with --only"},
+
+    {ALP_FINDING_NO_LIGHT, ALP_SEVERITY_NOTE, "no-light",
+     "black with --maps light; occlusion needs no lights",
+     "for light, give one: --sky, --sun, --lamp"},
+    {ALP_FINDING_LIGHT_INSIDE, ALP_SEVERITY_WARNING, "light-inside",
+     "the lamp lights nothing, and the room stays dark", "move it, or remove what is around it"},
+    {ALP_FINDING_LIGHT_ON_SURFACE, ALP_SEVERITY_WARNING, "light-on-surface",
+     "a glaring spot, noise around it, and light on both sides",
+     "move it off, to the side it is to light"},
+    {ALP_FINDING_CLOSED_ROOM, ALP_SEVERITY_WARNING, "closed-room",
+     "black with --maps light: neither sky nor sun gets in", "give the room a lamp, or an opening"},
+    {ALP_FINDING_LIGHT_VALUES, ALP_SEVERITY_WARNING, "light",
+     "a light that differs from what the file says", "give values as KHR_lights_punctual has them"},
+    {ALP_FINDING_LIGHT_OFF, ALP_SEVERITY_NOTE, "light-off", "nothing of this light",
+     "give it an intensity, or remove it"},
+    {ALP_FINDING_LIGHT_STRONG, ALP_SEVERITY_WARNING, "light-strong",
+     "white surfaces near it, and all else dark beside it",
+     "check the unit: candela for lamps (a bulb has 100), lux for suns (noon has 100,000)"},
+    {ALP_FINDING_LIGHT_RANGE, ALP_SEVERITY_WARNING, "light-range",
+     "the lamp lights nothing: its range ends before the first surface",
+     "remove the range, or make it longer; light needs none"},
+
+    // Messages of the readers.
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "mtllib",
+     "grey surfaces: colours and textures are missing", "put the .mtl beside the .obj"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "material", "grey surfaces",
+     "add the material to the .mtl, or correct its name"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "effect", "grey surfaces",
+     "export with the common profile"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "alpha",
+     "surfaces that may have been meant to be seen through cast full shadows",
+     "nothing where they are solid; else export as glTF, whose alpha is not in doubt"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "light-units",
+     "light of a strength that is a guess", "compare, and set the light's intensity"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "leftover-indices",
+     "a triangle may be missing at the end of the mesh", "export the mesh anew"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "bad-faces", "faces may be missing",
+     "export the mesh anew"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "crossed-faces",
+     "faces that flicker, and holes beside them", "cut such faces into triangles before export"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "short-array", "vertices may be missing",
+     "export the mesh anew"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "bad-uvs",
+     "a texture that is smeared over those triangles", "unwrap them anew"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "no-uv",
+     "one texel of the texture all over the surface", "unwrap it, or remove the texture"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "uv-set",
+     "plain colours in the place of that texture",
+     "use one of the first four sets, by the number that it has"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "external", "that part of the scene is missing",
+     "merge the documents into one"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "camera", "renders from another place",
+     "give one with --camera"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "rotation", "an object that may be turned wrongly",
+     "export the scene anew"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "skin", "a part of the mesh out of place",
+     "export the mesh in its pose, without its skin"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "no-scene", "meshes at places that are a guess",
+     "export the document with its scene"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "not-mesh", "those shapes are missing",
+     "turn splines and solids into meshes before export"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "trailing-bytes",
+     "nothing; but the file may be cut together wrongly, or hide something",
+     "export the file anew"},
+};
+
+enum { WORDS_COUNT = sizeof words / sizeof *words };
+
+const alpi_finding_words *alpi_finding_words_of(alp_finding_kind kind)
+{
+    for (size_t i = 0; i < WORDS_COUNT; i++) {
+        if (words[i].kind == kind) {
+            return &words[i];
+        }
+    }
+    return &words[0];
+}
+
+const alpi_finding_words *alpi_finding_words_by_code(const char *code)
+{
+    for (size_t i = 0; i < WORDS_COUNT; i++) {
+        if (strcmp(words[i].code, code) == 0) {
+            return &words[i];
+        }
+    }
+    return &words[0];
+}

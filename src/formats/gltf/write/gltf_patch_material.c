@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Materials: each (old material, page, coordinate set) in use needs one. The first of an old
+// material is that material itself, unless something that gets no map uses it too.
+#include "formats/gltf/write/gltf_patch.h"
+
+#include "base/memory.h"
+#include "formats/gltf/gltf_tree.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// A material that the written file needs.
+typedef struct need {
+    size_t old;    // ALPI_GLTF_NONE = the primitive had none
+    uint32_t page; // ALPI_NONE: packed into an image
+    uint32_t sets[ALPI_GLTF_BLEND_SETS];
+    bool occluded, lit;
+    float light_scale; // what 1 in the light's image stands for
+    size_t written;
+} need;
+
+typedef struct needs {
+    need *items;
+    size_t count, capacity;
+    bool *has_other_users; // [materials of the document]
+    bool *edited;          // [materials of the document] has become one of the needs
+} needs;
+
+// --- who else uses a material --------------------------------------------------------------------
+
+static void mark_user(const alpi_gltf_patcher *p, json_t *object, bool *marks)
+{
+    json_t *index = json_object_get(object, "material");
+    if (json_is_number(index)) {
+        double value = json_number_value(index);
+        if (value >= 0.0 && value < (double)p->lists[ALPI_GLTF_MATERIALS].count) {
+            marks[(size_t)value] = true;
+        }
+    }
+}
+
+/// Materials that a variant of a primitive can switch to stay as they are.
+static void mark_variants(const alpi_gltf_patcher *p, json_t *primitive, bool *marks)
+{
+    json_t *variants = alpi_gltf_extension(primitive, "KHR_materials_variants");
+    json_t *mappings = json_object_get(variants, "mappings");
+    for (size_t i = 0; i < json_array_size(mappings); i++) {
+        mark_user(p, json_array_get(mappings, i), marks);
+    }
+}
+
+/// Marks the materials of primitives that will still be there unpatched. `patched` tells for each
+/// primitive, counted through all meshes, whether it is edited in place.
+static void mark_other_users(const alpi_gltf_patcher *p, const bool *patched, bool *marks)
+{
+    size_t at = 0, count = p->lists[ALPI_GLTF_MESHES].count;
+    for (size_t m = 0; m < count; m++) {
+        json_t *primitives =
+            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives");
+        for (size_t i = 0; i < json_array_size(primitives); i++, at++) {
+            json_t *primitive = json_array_get(primitives, i);
+            if (!patched[at]) {
+                mark_user(p, primitive, marks);
+            }
+            mark_variants(p, primitive, marks);
+        }
+    }
+}
+
+static alp_result find_other_users(const alpi_gltf_patcher *p, bool *marks)
+{
+    size_t count = p->lists[ALPI_GLTF_MESHES].count, total = 0;
+    size_t *first = ALPI_NEW(p->context, size_t, count);
+    if (first == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (size_t m = 0; m < count; m++) {
+        first[m] = total;
+        total += json_array_size(
+            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives"));
+    }
+    bool *patched = ALPI_NEW(p->context, bool, total);
+    for (size_t i = 0; patched != NULL && i < p->plan_count; i++) {
+        const alpi_gltf_plan *plan = &p->plans[i];
+        patched[first[plan->mesh] + plan->primitive] |= !plan->in_a_copy;
+    }
+    if (patched != NULL) {
+        mark_other_users(p, patched, marks);
+    }
+    alp_result result = patched == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+    alpi_release(p->context, patched);
+    alpi_release(p->context, first);
+    return result;
+}
+
+// --- images and textures -------------------------------------------------------------------------
+
+size_t alpi_patcher_add_image(alpi_gltf_patcher *p, const char *name, uint32_t uri,
+                              const uint8_t *png, size_t size)
+{
+    alpi_bytes image = alpi_bytes_create(p->context);
+    alpi_bytes_print(&image, "{\"name\":\"%s\",", name);
+    if (p->page_uris != NULL) {
+        alpi_bytes_print(&image, "\"uri\":");
+        alpi_bytes_quote(&image, p->page_uris[uri]);
+        alpi_bytes_print(&image, "," ALPI_GLTF_MAP_EXTRAS "}");
+    } else {
+        size_t view = alpi_patcher_add_view(p, png, size, 0, 0);
+        alpi_bytes_print(&image,
+                         "\"bufferView\":%zu,\"mimeType\":\"image/png\"," ALPI_GLTF_MAP_EXTRAS "}",
+                         view);
+    }
+    p->data.failed |= image.failed;
+    size_t index = alpi_patcher_append(p, ALPI_GLTF_IMAGES, image.bytes, image.size);
+    alpi_bytes_destroy(&image);
+    return index;
+}
+
+static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
+{
+    char name[32];
+    snprintf(name, sizeof name, "occlusion %u", page);
+    return alpi_patcher_add_image(p, name, page, p->patch->page_pngs[page],
+                                  p->patch->page_png_sizes[page]);
+}
+
+/// Not mipmapped: charts are padded by few texels.
+size_t alpi_patcher_add_texture(alpi_gltf_patcher *p, size_t image)
+{
+    alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
+    static const char sampler[] =
+        "{\"magFilter\":9729,\"minFilter\":9729,"                    // linear
+        "\"wrapS\":33071,\"wrapT\":33071," ALPI_GLTF_MAP_EXTRAS "}"; // clamp to edge
+    if (samplers->added == 0) {
+        alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
+    }
+    char texture[128];
+    int length = snprintf(texture, sizeof texture,
+                          "{\"sampler\":%zu,\"source\":%zu," ALPI_GLTF_MAP_EXTRAS "}",
+                          samplers->count, image);
+    return alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
+}
+
+/// The texture of a page, made at its first use.
+static size_t page_texture(alpi_gltf_patcher *p, uint32_t page)
+{
+    if (p->page_textures[page] == ALPI_GLTF_NONE) {
+        p->page_textures[page] = alpi_patcher_add_texture(p, add_page_image(p, page));
+    }
+    return p->page_textures[page];
+}
+
+// --- materials -----------------------------------------------------------------------------------
+
+static void print_texture(alpi_gltf_patcher *p, const need *n, alpi_bytes *value)
+{
+    alpi_bytes_print(value, "{\"index\":%zu", page_texture(p, n->page));
+    if (n->sets[0] != 0) {
+        alpi_bytes_print(value, ",\"texCoord\":%u", n->sets[0]);
+    }
+    if (p->patch->occlusion_strength != 1.0f) {
+        alpi_bytes_print(value, ",\"strength\":");
+        alpi_bytes_number(value, (double)p->patch->occlusion_strength, 9);
+    }
+    alpi_bytes_print(value, "}");
+}
+
+static alpi_gltf_light_use light_use(const need *n, const char *blend)
+{
+    return (alpi_gltf_light_use){n->old, n->page, n->sets[0], n->light_scale, blend};
+}
+
+/// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
+/// no KHR_texture_transform of the old one remains.
+static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char *blend,
+                                alpi_edits *edits)
+{
+    const bool packed = n->page == ALPI_NONE;
+    const alpi_gltf_maps replaced = {packed || n->occluded, !packed && n->lit};
+    if (packed || blend == NULL) {
+        alpi_patcher_unblend_material(p, n->old, replaced, edits);
+    }
+    if (packed) {
+        return alpi_patcher_pack_material(p, n->old, edits);
+    }
+    const bool named = n->lit && p->patch->light->form == ALPI_LIGHT_FORM_EXTRAS; // with the light
+    if (blend != NULL && !named) {
+        alpi_patcher_blend_material(p, n->old, blend, edits);
+    }
+    if (n->occluded) {
+        alpi_bytes value = alpi_bytes_create(p->context);
+        print_texture(p, n, &value);
+        p->data.failed |= value.failed;
+        alpi_edits_set(edits, p->lists[ALPI_GLTF_MATERIALS].spans[n->old], "occlusionTexture",
+                       value.bytes, value.size);
+        alpi_bytes_destroy(&value);
+    }
+    if (n->lit) {
+        const alpi_gltf_light_use use = light_use(n, blend);
+        alpi_patcher_light_material(p, &use, edits);
+    }
+    return ALP_OK;
+}
+
+/// A material for a primitive without one. It looks like glTF's default material; the mark tells a
+/// later reading that there was none.
+static void print_new_material(alpi_gltf_patcher *p, const need *n, const char *blend,
+                               alpi_bytes *text)
+{
+    alpi_bytes members = alpi_bytes_create(p->context);
+    alpi_bytes_print(&members, "\"alpenglow\":\"" ALPI_GLTF_NO_MATERIAL "\"");
+    if (blend != NULL) {
+        alpi_bytes_print(&members, ",\"" ALPI_GLTF_BLEND "\":%s", blend);
+    }
+    const char *mark = members.failed ? "" : (const char *)members.bytes;
+    p->data.failed |= members.failed;
+    alpi_bytes_print(text, "{");
+    if (n->occluded) {
+        alpi_bytes_print(text, "\"occlusionTexture\":");
+        print_texture(p, n, text);
+        alpi_bytes_print(text, ",");
+    }
+    if (n->lit) {
+        const alpi_gltf_light_use use = light_use(n, blend);
+        alpi_patcher_print_light(p, &use, mark, text);
+    } else {
+        alpi_bytes_print(text, "\"extras\":{%s}", mark);
+    }
+    alpi_bytes_print(text, "}");
+    alpi_bytes_destroy(&members);
+}
+
+/// Puts the map into a material: the one of the document, a copy of it, or a new one.
+static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
+{
+    alpi_bytes sets = alpi_bytes_create(p->context);
+    if (p->patch->set_uvs != NULL) {
+        const alpi_gltf_maps maps = {n->occluded, n->lit};
+        alpi_patcher_print_blend(p, n->old, n->sets, maps, &sets);
+    }
+    const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
+    alpi_bytes text = alpi_bytes_create(p->context);
+    alp_result result = ALP_OK;
+    if (n->old == ALPI_GLTF_NONE) {
+        print_new_material(p, n, blend, &text);
+        n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
+    } else {
+        alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[n->old];
+        if (!all->has_other_users[n->old] && !all->edited[n->old]) {
+            n->written = n->old;
+            result = edit_material(p, n, blend, &p->edits);
+        } else {
+            alpi_edits copy = alpi_edits_create(p->context, p->document->text);
+            result = edit_material(p, n, blend, &copy);
+            result = result == ALP_OK ? alpi_edits_apply(&copy, span, &text) : result;
+            result = result == ALP_OK ? alpi_patcher_mark_copy(p, n->old, &text) : result;
+            n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
+            alpi_edits_destroy(&copy);
+        }
+        all->edited[n->old] = true;
+    }
+    p->data.failed |= text.failed || sets.failed;
+    alpi_bytes_destroy(&text);
+    alpi_bytes_destroy(&sets);
+    return result;
+}
+
+static bool same_need(const need *a, const need *b)
+{
+    return a->old == b->old && a->page == b->page &&
+           memcmp(a->sets, b->sets, sizeof a->sets) == 0 && a->light_scale == b->light_scale;
+}
+
+static alp_result find_material(alpi_gltf_patcher *p, needs *all, const need *wanted,
+                                size_t *written)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        const need *n = &all->items[i];
+        if (same_need(n, wanted)) {
+            *written = n->written;
+            return ALP_OK;
+        }
+    }
+    void *items = all->items;
+    ALP_TRY(alpi_grow(p->context, &items, &all->capacity, all->count + 1, sizeof *all->items));
+    all->items = items;
+    need *n = &all->items[all->count++];
+    *n = *wanted;
+    ALP_TRY(write_material(p, all, n));
+    *written = n->written;
+    return ALP_OK;
+}
+
+static float light_scale(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
+{
+    const uint32_t material = p->scene->surfaces[plan->surface].material;
+    return !plan->lit ? 0.0f
+                      : p->patch->light
+                            ->scales[material == ALPI_NONE ? p->scene->material_count : material];
+}
+
+static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
+{
+    size_t count = p->lists[ALPI_GLTF_MATERIALS].count;
+    ALPI_TRY_NEW(p->context, all->has_other_users, count);
+    ALPI_TRY_NEW(p->context, all->edited, count);
+    ALP_TRY(find_other_users(p, all->has_other_users));
+    for (size_t i = 0; i < p->plan_count; i++) {
+        const alpi_gltf_plan *plan = &p->plans[i];
+        size_t original;
+        ALP_TRY(alpi_patcher_original(p, plan, &original));
+        for (size_t k = 0; k < plan->piece_count; k++) {
+            alpi_gltf_piece *piece = &p->pieces[plan->piece_first + k];
+            need wanted = {.old = original,
+                           .page = piece->page,
+                           .occluded = plan->occluded,
+                           .lit = plan->lit,
+                           .light_scale = light_scale(p, plan)};
+            memcpy(wanted.sets, plan->sets, sizeof wanted.sets);
+            ALP_TRY(find_material(p, all, &wanted, &piece->material));
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_patcher_materials(alpi_gltf_patcher *p)
+{
+    needs all = {0};
+    alp_result result = write_materials(p, &all);
+    alpi_release(p->context, all.items);
+    alpi_release(p->context, all.has_other_users);
+    alpi_release(p->context, all.edited);
+    return result;
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// How rays find the patches that they meet. alpi_patches_find and alpi_patches_light of patches.h
+// are of this room too.
+#ifndef ALPI_MAPS_PATCH_LOOKUP_H
+#define ALPI_MAPS_PATCH_LOOKUP_H
+
+#include "maps/radiosity/patches.h"
+
+/// Makes `triangles`, and fills `places` (all ones before) and `chart_texels` (ALPI_NONE before),
+/// of patches whose `blocks` say which texels have light of their own.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_patch_places_create(alpi_patches *patches);
+
+// --- shared by look-ups of points and of packets (patch_cells_body.h) ----------------------------
+
+/// The pixel of a point of a triangle, which may be off the page.
+static inline void alpi_patches_pixel(const alpi_patch_triangle *t, float b1, float b2,
+                                      int32_t at[2])
+{
+    for (int k = 0; k < 2; k++) {
+        at[k] = (int32_t)(t->at[k] + b1 * t->along[k] + b2 * t->across[k]);
+    }
+}
+
+/// NULL: off the page, or on none.
+static inline const alpi_patch_place *
+alpi_patches_place_at(const alpi_patches *p, const alpi_patch_triangle *t, float b1, float b2)
+{
+    const alpi_lattice *l = p->lattice;
+    int32_t at[2];
+    alpi_patches_pixel(t, b1, b2, at);
+    const uint32_t x = (uint32_t)at[0], y = (uint32_t)at[1]; // below 0: large
+    const bool on = t->page != ALPI_NONE && x < l->width && y < l->height;
+    return on ? &p->places[alpi_lattice_pixel(l, t->page, x, y)] : NULL;
+}
+
+/// The texel of a point whose pixel is off its chart: a corner of the texel at it may still be on.
+uint32_t alpi_patches_find_beside(const alpi_patches *p, const alpi_patch_triangle *t, float b1,
+                                  float b2);
+
+/// The cell of a side of a texel.
+static inline uint32_t alpi_patches_side_cell(const alpi_patches *p, uint32_t texel, bool behind)
+{
+    if (texel == ALPI_NONE) {
+        return ALPI_CELL_BLACK;
+    }
+    if (!behind) {
+        return alpi_patches_cell(p, texel, ALPI_FRONT);
+    }
+    if (!p->two_sided) {
+        return ALPI_CELL_BLACK;
+    }
+    uint8_t *seen = &p->seen_backs[p->blocks[texel]];
+    if (__atomic_load_n(seen, __ATOMIC_RELAXED) == ALPI_BACK_UNSEEN) {
+        __atomic_store_n(seen, ALPI_BACK_SEEN, __ATOMIC_RELAXED);
+    }
+    return alpi_patches_cell(p, texel, ALPI_BACK);
+}
+
+/// Cells of packets (alpi_light_cells_fn), for any machine and for x86-64-v3: the same.
+alpi_light_cells_fn alpi_patches_find_cells_baseline, alpi_patches_find_cells_v3;
+
+#endif

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "transport/gather/kept_rays.h"
+
+#include "base/memory.h"
+#include "base/tasks.h"
+
+#include <assert.h>
+#include <string.h>
+
+enum { TRACED_PER_RANGE = 1024, ADDED_PER_RANGE = 4096 }; // rays
+enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
+
+uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
+{
+    return (uint64_t)gatherer->packet_count * ALPI_PACKET * sizeof(uint32_t);
+}
+
+alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
+                                  uint32_t count, alpi_kept_rays *kept)
+{
+    const uint32_t rays = gatherer->packet_count * ALPI_PACKET;
+    uint32_t *cells = alpi_reallocate(context, kept->cells, count, rays * sizeof *cells);
+    if (cells == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    *kept = (alpi_kept_rays){.context = context,
+                             .receivers = count,
+                             .rays = rays,
+                             .cells = cells,
+                             .by_list = kept->by_list};
+    return ALP_OK;
+}
+
+alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept)
+{
+    const uint32_t before = kept->rays, rays = gatherer->packet_count * ALPI_PACKET;
+    assert(rays >= before);
+    uint32_t *cells =
+        alpi_reallocate(kept->context, kept->cells, kept->receivers, rays * sizeof *cells);
+    if (cells == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (size_t i = kept->receivers; i-- > 0;) { // the last first: none is written over
+        memmove(cells + i * rays, cells + i * before, before * sizeof *cells);
+    }
+    kept->cells = cells;
+    kept->rays = rays;
+    kept->known = before;
+    return ALP_OK;
+}
+
+void alpi_kept_rays_destroy(alpi_kept_rays *kept)
+{
+    if (kept->context != NULL) {
+        alpi_release(kept->context, kept->cells);
+    }
+    *kept = (alpi_kept_rays){0};
+}
+
+typedef struct kept_job {
+    const alpi_gather_job *job;
+    const alpi_kept_rays *kept;
+} kept_job;
+
+static uint32_t receiver_at(const alpi_gather_job *job, uint32_t i)
+{
+    return job->list != NULL ? job->list[i] : i;
+}
+
+/// The rays of the i-th of the list.
+static uint32_t *rays_of(const kept_job *k, uint32_t i)
+{
+    const size_t row = k->kept->by_list ? i : receiver_at(k->job, i);
+    return k->kept->cells + row * k->kept->rays;
+}
+
+/// Packets of a batch. What those met that are known stands in their cells; where they go is asked
+/// again only for what the sky brings.
+static void trace_batch(const kept_job *k, uint32_t receiver, uint32_t first, uint32_t count,
+                        alpi_gather_packet *packets, uint32_t (*cells)[ALPI_PACKET])
+{
+    const alpi_gather_job *job = k->job;
+    const alpi_gatherer *g = job->gatherer;
+    const uint32_t known = k->kept->known / ALPI_PACKET, before = known > first ? known - first : 0;
+    const uint32_t met = before < count ? before : count, aimed = job->from->sky ? 0 : met;
+    if (aimed < count) {
+        g->aim(g->user, job->receivers, receiver, first + aimed, count - aimed, packets + aimed,
+               NULL);
+    }
+    if (met < count) {
+        alpi_gather_cells(job->from, packets + met, count - met, g->coherent, cells + met);
+    }
+}
+
+static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const kept_job *k = user;
+    const alpi_gather_job *job = k->job;
+    const alpi_gatherer *g = job->gatherer;
+    alpi_gather_packet packets[ALPI_GATHER_BATCH];
+    vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = receiver_at(job, i);
+        uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
+        alpi_gather_sums sums = {.lost = {0.0}};
+        for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
+            const uint32_t left = g->packet_count - first;
+            const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
+            trace_batch(k, receiver, first, count, packets, &cells[first]);
+            if (job->from->sky) {
+                alpi_gather_find_skies(job->from, packets, count,
+                                       (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
+            }
+            for (uint32_t p = 0; p < count; p++) {
+                alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells,
+                                      &sums);
+                if (job->from->sky) {
+                    alpi_gather_add_sky(g, first + p, cells[first + p], skies[p], &sums);
+                }
+            }
+            if (!alpi_loop_goes_on(job->context)) {
+                return ALP_ERROR_CANCELLED;
+            }
+        }
+        for (int c = 0; c < 3 && job->skies != NULL; c++) {
+            job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
+        }
+        for (int c = 0; c < 2 && job->lost != NULL; c++) {
+            job->lost[receiver][c] = (float)sums.lost[c];
+        }
+    }
+    return ALP_OK;
+}
+
+/// Runs a body over the listed receivers, so many rays at a time.
+static alp_result run(kept_job *k, uint32_t together, alpi_task_fn *body,
+                      const alpi_task_progress *progress)
+{
+    const uint32_t rays = k->kept->rays;
+    assert(!k->kept->by_list || k->job->count <= k->kept->receivers);
+    return alpi_parallel_for(k->job->context, k->job->count, rays < together ? together / rays : 1,
+                             body, k, progress);
+}
+
+alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
+                                alpi_kept_rays *kept)
+{
+    alpi_gather_check(job->gatherer);
+    kept_job k = {job, kept};
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    told.units_per_item = (double)(kept->rays - kept->known);
+    told.units_are_rays = true;
+    return run(&k, TRACED_PER_RANGE, trace_range, &told);
+}
+
+static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const kept_job *k = user;
+    const alpi_gather_job *job = k->job;
+    alpi_gather_job without_sky = *job;
+    without_sky.skies = NULL;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t receiver = receiver_at(job, i);
+        const uint32_t(*cells)[ALPI_PACKET] = (const uint32_t(*)[ALPI_PACKET])rays_of(k, i);
+        alpi_gather_sums sums = {.lost = {0.0}};
+        for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
+            for (int r = 0; r < ALPI_PACKET && p + AHEAD < job->gatherer->packet_count; r++) {
+                __builtin_prefetch(job->from->light.cells[cells[p + AHEAD][r]]);
+            }
+            alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
+        }
+        alpi_gather_put(&without_sky, receiver, &sums);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
+                                 const alpi_task_progress *progress)
+{
+    alpi_gather_check(job->gatherer);
+    kept_job k = {job, kept};
+    return run(&k, ADDED_PER_RANGE, gather_range, progress);
+}

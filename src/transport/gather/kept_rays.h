@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Rays that are traced once and remembered: what each met is the number of a cell of surface light,
+// so that every later pass of light is a table look-up.
+#ifndef ALPI_TRANSPORT_KEPT_RAYS_H
+#define ALPI_TRANSPORT_KEPT_RAYS_H
+
+#include "transport/gather/gather.h"
+
+typedef struct alpi_kept_rays {
+    alp_context *context;
+    uint32_t receivers; // that there is room for
+    uint32_t rays;      // of each
+    uint32_t known;     // the first so many of them are there already, of the receivers that are
+                        // traced next; the caller's to set back to 0
+    uint32_t *cells;    // [receivers][rays]
+    bool by_list;       // the i-th row is of the i-th receiver of the one list that all jobs have,
+                        // not of receiver i; the caller's to set, before any is traced
+} alpi_kept_rays;
+
+/// Bytes of the rays of a receiver.
+uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer);
+
+/// Makes room for receivers [0, count); what is there stays. Zeroed is where to begin.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
+                                  uint32_t count, alpi_kept_rays *kept);
+/// Makes room for more rays of the same receivers, whose first are those that are there: `known`.
+/// The gatherer's first packets are all of the one before.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept);
+void alpi_kept_rays_destroy(alpi_kept_rays *kept);
+
+/// Traces the rays of the listed receivers that are not known, and writes to job->skies what all of
+/// those that meet nothing bring, and job->lost: the same bits as if none were known. Needs
+/// alpi_gather_meets_cells.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
+                                alpi_kept_rays *kept);
+
+/// What alpi_gather_irradiance would find for the listed receivers without a sky, bit for bit, with
+/// the light that is in the cells now. Leaves job->skies alone.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
+                                 const alpi_task_progress *progress);
+
+#endif
