@@ -16,17 +16,25 @@ setup = $(if $(filter no,$(SETUP)),@:,@scripts/setup.sh $(1))
 FUZZ_SECONDS ?= 600
 FUZZ_TARGETS ?=
 
-.PHONY: all demo test fuzz format lint install clean help
+# Pictures of docs/gallery.md to make; empty: all that are quick.
+GALLERY ?=
+
+.PHONY: all demo gallery test fuzz format lint install clean help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
 	@$(call build,release)
 	@echo "The command is build/release/apps/alpenglow/alpenglow; 'make help' says what else there is."
 
-demo: ## Set up, build, bake a teapot in a room and take its picture
+demo: ## Set up, build, bake occlusion and light of a teapot in a room, render it
 	$(call setup,build)
 	@$(call build,release)
 	@scripts/demo.sh build/release/apps/alpenglow/alpenglow demo
+
+gallery: ## Set up, build, make the pictures of docs/gallery.md (GALLERY="atrium windows")
+	$(call setup,build)
+	@$(call build,release)
+	@scripts/make_gallery.py build/release/apps/alpenglow/alpenglow docs/pictures $(GALLERY)
 
 test: ## Set up, build and run every test; ends in a line that counts them
 	$(call setup,check)

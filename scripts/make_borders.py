@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders borders of charts four ways and puts the pictures in rows: docs/blend-borders.png.
+"""Renders borders of charts four ways and puts the pictures in rows.
 
     scripts/make_borders.py ALPENGLOW OUT.png
 
-Columns: charts as they are baked, charts stitched, charts that overlap and are blended by the
-normal, and their plain average. Rows: a sphere on its plane, the handle and the spout of the teapot
-in its room. Grey, with the contrast raised about the mean of the middle of the first picture of a
-row.
+Columns: charts as baked, charts stitched, overlapping charts blended by the normal, and their plain
+average. Rows: a sphere on its plane, the handle and the spout of the teapot
+in its room. Grey; contrast is raised about the mean of the middle of the first
+picture of a row. `make gallery` calls it.
 """
 import subprocess
 import sys

@@ -1,42 +1,43 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Writes docs/speed.md, docs/accuracy.md and the tables of docs/atlas.md anew from measurements, in
-# an hour or more.
+# Measures, and writes docs/measured/*.md and the table of README.md. Takes an hour or more.
 #
-#   scripts/make_docs.sh [COMMAND [TESTS]]
+#   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# COMMAND is a release build of alpenglow (default build/release/apps/alpenglow/alpenglow), TESTS the
-# folder of the test programs (default build/dev/tests), whose lines "accuracy: …" are collected.
-# Run it on a machine that has nothing else to do, with ALPENGLOW_SHARED set to the shared scenes:
-# those that are not there show as skipped.
+# PAGE is accuracy, speed, atlas or peers; without it all four. COMMAND is a release build of
+# alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
+# programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
+# are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
+# the shared scenes and peers. Scenes that are absent are skipped; peers needs Blender and numpy.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-command=${1:-build/release/apps/alpenglow/alpenglow}
-tests=${2:-build/dev/tests}
+command=build/release/apps/alpenglow/alpenglow tests=build/dev/tests
+while getopts c:t: option; do
+    case $option in
+        c) command=$OPTARG ;;
+        t) tests=$OPTARG ;;
+        *) exit 2 ;;
+    esac
+done
+shift $((OPTIND - 1))
 
-machine() {
+head_of() { # page, title: with its text, and the machine
+    printf '# %s\n\n' "$2"
+    scripts/make_tables.py text "$1"
     local cpu
     cpu=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)
-    printf 'Measured %s on %s with %s cores, load %s before, alpenglow %s, by `scripts/make_docs.sh`.\n' \
+    printf '\nMeasured %s on %s, %s cores, load %s before, alpenglow %s, by `scripts/make_docs.sh %s`.\n' \
         "$(date -I)" "${cpu:-an unknown processor}" "$(nproc)" "$(cut -d' ' -f1 /proc/loadavg)" \
-        "$("$command" --version | sed 's/.* //')"
+        "$("$command" --version | sed 's/.* //')" "$1"
 }
 
-section() { # title, room
+section() { # title, room of the bench
     printf '\n## %s\n\n    alpenglow bench %s\n\n' "$1" "$2"
-    "$command" bench "$2" --markdown | sed '/./,$!d' | cat -s
+    "$command" bench "$2" --markdown | scripts/make_tables.py captions
 }
 
 speed() {
-    cat <<'TEXT'
-# Speed
-
-Written by `scripts/make_docs.sh`; do not edit. Machines drift, so what counts is the ratio of what
-was measured in turns in one process: seconds of the limit over ours, 1 is the limit. Medians;
-processor time for one worker, wall time for more.
-
-TEXT
-    machine
+    head_of speed "Speed"
     section 'The innermost loop' transport
     section 'Light' light
     section 'Error per second' maps
@@ -45,33 +46,51 @@ TEXT
     section 'Reading files' formats
 }
 
-closed_forms() {
-    printf '\n## Closed forms and oracles\n\nWhat the tests say of accuracy, `ctest --preset dev`:\n\n'
-    local test
-    for test in "$tests"/test_*; do
-        [ -f "$test" ] && [ -x "$test" ] && grep -q 'accuracy: ' "$test" || continue
-        "$test" 2>&1 | sed -n "s/^accuracy: /    /p" || true
-    done
-}
-
 accuracy() {
-    cat <<'TEXT'
-# Accuracy
-
-Written by `scripts/make_docs.sh`; do not edit. Errors of occlusion are in units of accessibility, 0
-to 1, or in percent of the mean of the map where they say so. What interpolation costs and gains
-stands in [speed.md](speed.md), "Error per second": the lines `adaptive off` and `auto` of a scene.
-
-TEXT
-    machine
+    head_of accuracy "Accuracy"
     section 'Techniques against the truth' truth
     section 'Stated errors' accuracy
-    closed_forms
+    printf '\n'
+    scripts/make_tables.py text 'closed forms'
+    printf '\n'
+    find "$tests" -type f -perm -u+x -print0 | sort -z | xargs -0 grep -l 'accuracy: ' |
+        while read -r test; do
+            { "$test" 2>&1 || true; } | sed -n 's/^accuracy: /    /p'
+        done
 }
 
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-speed >"$folder/speed.md"
-accuracy >"$folder/accuracy.md"
-cp "$folder"/*.md docs/
-tests/truth/atlas_table.py "$(dirname "$command")/alpenglow-bench" --document docs/atlas.md
+peers() {
+    head_of peers "Beside Blender's Cycles"
+    printf '\n    scripts/peer_speed.py build/release/apps/alpenglow/alpenglow "$ALPENGLOW_SHARED"\n'
+    scripts/peer_speed.py "$command" "$ALPENGLOW_SHARED" | scripts/make_tables.py peers
+}
+
+atlas() { # the tables come in place, and the pictures in docs/pictures
+    head_of atlas "Atlases"
+    printf '\n'
+    scripts/make_tables.py text 'atlas tables'
+}
+
+write_page() {
+    local page=$1 new
+    new=$(mktemp)
+    "$page" >"$new"
+    cat "$new" >"docs/measured/$page.md"
+    rm "$new"
+    case $page in
+        atlas)
+            tests/truth/atlas_table.py "$(dirname "$command")/alpenglow-bench" \
+                --document docs/measured/atlas.md
+            ;;
+        peers) scripts/make_tables.py readme docs/measured/peers.md README.md ;;
+    esac
+}
+
+for page in "${@:-accuracy speed atlas peers}"; do
+    for one in $page; do
+        case $one in
+            accuracy | speed | atlas | peers) write_page "$one" ;;
+            *) echo "make_docs: no page $one" >&2 && exit 2 ;;
+        esac
+    done
+done

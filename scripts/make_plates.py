@@ -5,8 +5,8 @@
     scripts/make_plates.py ALPENGLOW OUT.png [SCENE]
 
 Rows as in chapter 7 of I. R. Hafthorsson, Ambient Occlusion Using Ray-tracing and Texture Blending
-(DTU 2007): number of rays, distance, fall-off, and distribution and cone. docs/plates.md says what
-each picture is.
+(DTU 2007): number of rays, distance, fall-off, and distribution and cone. docs/gallery.md explains
+them. `make gallery` calls it.
 """
 import subprocess
 import sys

@@ -5,11 +5,10 @@ pictures on one sheet.
 
     scripts/make_windows.py ALPENGLOW OUT.png [PATHS]
 
-The story is that of Hugo Elias, Radiosity: what a light reaches by itself, beside all that follows
-from it; and the room after pass 1, 2, 3 and 16. All pictures are exposed alike, so that they
-compare. PATHS are those of a pixel of the large pictures, 1024 without it, by the reference; small
-ones have four times as many, and as little noise to the eye. 1024 take some minutes on a fast
-machine. docs/windows.md says what each picture is.
+The story is that of Hugo Elias, Radiosity: direct light beside all light; and the room after pass 1,
+2, 3 and 16. All pictures have one exposure. PATHS are the paths of a pixel in the large pictures
+(default 1024); small ones have four times as many. 1024 take several minutes. docs/gallery.md explains
+the pictures. `make gallery GALLERY=windows` calls it.
 """
 import subprocess
 import sys
@@ -20,7 +19,7 @@ from png_rows import read_png, write_png
 WIDTH, HEIGHT = 192, 128  # of a small picture; large ones have twice the side
 CAMERA = "-3.8,3.0,2.8,0.55,0.7,-0.8,66"
 EXPOSURE = "1.5"
-# Light as good as none, for a black picture of the night: without a sky what shows nothing is grey.
+# Almost no light, for a black night: without a sky the background is grey.
 NIGHT = "1e-6,1e-6,1e-6"
 LARGE = ["0", "converge"]  # bounces
 SMALL = ["0", "1", "2", "15"]  # passes 1, 2, 3 and 16

@@ -23,7 +23,7 @@ static const option rows[] = {
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "--markdown",
-     .help = "Tables as Markdown, with what they show, as in docs/speed.md."},
+     .help = "Tables as Markdown, with what they show, as in docs/measured/speed.md."},
 
     {.id = OPTION_SEED,
      .commands = RAY_COMMANDS,

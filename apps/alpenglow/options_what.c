@@ -54,7 +54,7 @@ static const option rows[] = {
              "options of maps, of their error and of stopping have no meaning then and are "
              "refused. Warns where triangles are too large for it. blend: charts that overlap "
              "and three coordinate sets, for a shader that blends them by the normal and shows no "
-             "seams (docs/blend.md)."},
+             "seams (docs/manual/blend.md)."},
     {.id = OPTION_ATLAS,
      .commands = IN_RENDER,
      .group = GROUP_WHAT,

@@ -143,7 +143,7 @@ typedef enum alp_emitters {
 
 /// How ALP_MAP_LIGHT is gathered. Without bounces each light by samples of its own (of more than 64
 /// lamps, and suns, one at a time). Blended and transmissive materials filter light on its way, see
-/// docs/conventions.md, "Sides".
+/// docs/conventions.md, "Sides and panes".
 ///
 /// RAYS and HEMICUBE: radiosity. Direct light on every texel (RAYS for an error: on every second,
 /// and others where it is uneven); its reflections are gathered by blocks of 4 × 4 texels of one
@@ -154,7 +154,7 @@ typedef enum alp_emitters {
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
 /// Bias: within a block, light that has bounced is taken as even when it bounces again; docs/
-/// accuracy.md, "Techniques against the truth".
+/// measured/accuracy.md, "Techniques against the truth".
 ///
 /// PATHS: eight neighbouring texels share what their paths find after the first bounce, without
 /// bias. Their errors are then alike: the standard error of a texel holds, that of a mean over many
@@ -369,7 +369,7 @@ typedef struct alp_bake_work {
 } alp_bake_work;
 
 /// Estimates the work of a bake before it: a guess, mostly within ±50 %, and what errs by more is
-/// known (docs/conventions.md, "Limits and estimates"); all 0 with ALP_ATLAS_VERTEX or where there
+/// known (docs/manual/bake.md, "When a bake stops"); all 0 with ALP_ATLAS_VERTEX or where there
 /// is nothing to bake. Lights 128 points, for light, and shades 2,048, for occlusion; makes the
 /// tracer, which the bake takes over unless surfaces are chosen to occlude. What there is to warn
 /// of in lights and sky, the bake tells.
@@ -440,7 +440,7 @@ ALP_API const float *alp_lightmap_map_page(const alp_lightmap *lightmap, alp_map
 ///
 ///     E(n) ≈ π c_00 Y_00 + (2π/3) (c_1−1 Y_1−1(n) + c_10 Y_10(n) + c_11 Y_11(n))
 ///
-/// Bias: docs/conventions.md, "Light by direction".
+/// Bias: docs/conventions.md, "Light maps".
 /// Based on: R. Ramamoorthi, P. Hanrahan. An Efficient Representation for Irradiance Environment
 /// Maps. SIGGRAPH 2001.
 /// @param index 0 to 3

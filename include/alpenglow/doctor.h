@@ -22,8 +22,8 @@ typedef enum alp_severity {
     ALP_SEVERITY_NOTE = 2     ///< worth knowing
 } alp_severity;
 
-/// What was found; docs/doctor.md tells of each what is seen and what to do. Values are never
-/// reused.
+/// What was found; docs/manual/doctor.md tells of each what is seen and what to do. Values are
+/// never reused.
 typedef enum alp_finding_kind {
     ALP_FINDING_MESSAGE = 0, ///< a message of the log of which the doctor knows no more
 
@@ -103,7 +103,7 @@ typedef struct alp_finding {
     uint32_t index;   ///< of the surface, material, light or UV set; else 0
     const char *name; ///< of it, or of the file
     uint64_t count;   ///< how many triangles, surfaces, …; 0 where nothing is counted
-    double value;     ///< what was measured (docs/doctor.md says what); NAN where nothing is
+    double value;     ///< what was measured (docs/manual/doctor.md says what); NAN where nothing is
     const char *what; ///< what is wrong
     const char *seen; ///< what will be seen; "" where nobody knows
     const char *todo; ///< what to do; "" where nobody knows

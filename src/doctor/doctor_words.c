@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the doctor says of each kind of finding: how grave it is, what will be seen, what to do.
-// docs/doctor.md holds the same for people to read; a test compares the two.
+// docs/manual/doctor.md holds the same for people to read; a test compares the two.
 #include "doctor/doctor.h"
 
 #include <string.h>

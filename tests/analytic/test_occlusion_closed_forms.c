@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ambient occlusion against exact answers. At 2^16 stratified rays the sampling error is far below
 // the tolerance of 1e-3, so what is seen here is bias. Oracle numbers are those of
-// docs/accuracy.md.
+// docs/measured/accuracy.md.
 #include "test_scenes.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@ fails is named: exit status 1. Scenes lie below --shared or $ALPENGLOW_SHARED; t
 there are skipped, and so are unwrappers that are not installed: three.js is looked for in --three,
 else in tests/browser (scripts/setup.sh browser), Blender at /usr/bin/blender. With --document the
 tables are written between the markers `<!-- table NAME -->` and `<!-- end NAME -->` of that file,
-and the plot of growth and pictures of pages beside it, as atlas-growth.svg and atlas-pages.png.
+and the plot of growth and pictures of pages as atlas-growth.svg and atlas-pages.png in docs/pictures.
 """
 import argparse
 import json
@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+PICTURES = HERE.parent.parent / "docs/pictures"
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
 from png_rows import read_png, write_png  # noqa: E402
 # (name, file below scenes/ or a scene that the bench makes, side of a page, least utilisation)
@@ -320,13 +321,13 @@ def main():
         failed += more
         take("figures", text)
         if asked.document is not None:
-            draw_pages(asked.bench, shared, asked.document.parent / "atlas-pages.png")
+            draw_pages(asked.bench, shared, PICTURES / "atlas-pages.png")
     if asked.only in (None, "growth"):
         text, more, picture = table_of_growth(asked.bench)
         failed += more
         take("growth", text)
         if asked.document is not None:
-            (asked.document.parent / "atlas-growth.svg").write_text(picture, encoding="utf-8")
+            (PICTURES / "atlas-growth.svg").write_text(picture, encoding="utf-8")
     if asked.only in (None, "peers"):
         take("peers", table_of_peers(asked.bench, shared, asked.three, asked.patience))
     say(f"{failed} fail" if failed else "all good")

@@ -12,7 +12,7 @@
 #include <math.h>
 
 enum { MOST_RAYS = 65536, MOST_FIRST_RAYS = 1024 }; // of a texel; and for an error in one round
-// Measured on the truth table (docs/conventions.md, "Limits and estimates").
+// Measured on the truth table (docs/manual/bake.md, "When a bake stops").
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
 // Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose

@@ -11,7 +11,7 @@
 /// on teapot-room for 1 %: 2 and 4 took longer and erred no less.
 static const float NEAR_REACH = 1.0f;
 /// Of such a path, the ray that arrived among them: in a corner it too meets what is near. What it
-/// brings on windows: docs/radiosity.md, "What is near"; 8 brought no more.
+/// brings on windows: docs/how/light.md, "Near surfaces"; 8 brought no more.
 enum { BOUNCES = 4 };
 
 /// Has rays of texels go on from what is near (near_rays.h). Not

@@ -18,7 +18,7 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
 /// Over eight texels, which hide more: docs/radiosity.md, "Every eighth texel".
 static const float WIDE_BEND_LIMIT = 0.5f, WIDE_SPREAD_LIMIT = 3.0f;
-/// Share of the spread near another surface: docs/radiosity.md, "Borders and corners".
+/// Share of the spread near another surface: docs/how/light.md, "The final gather".
 static const float NEAR_SPREAD = 0.3f;
 /// Share of the limits that is left where maps before missed much by interpolation. By a half the
 /// teapot room gained little (192², for 1 %), by an eighth others traced more than they gained.

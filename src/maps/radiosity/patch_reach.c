@@ -6,7 +6,8 @@
 enum { TEXELS_PER_RANGE = 4096 };
 /// Light of neighbours that differs by this share of the mean of all reaches no farther than a
 /// side; and how many sides the most does. What it brings on windows, where strips of sun are
-/// narrower than texels: docs/radiosity.md, "What is near"; a share of 1 brought as much, .01 less.
+/// narrower than texels: docs/how/light.md, "Near surfaces"; a share of 1 brought as much, .01
+/// less.
 static const float SHARE = 0.1f, LONGEST = 8.0f;
 
 typedef struct reach_job {

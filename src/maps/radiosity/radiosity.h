@@ -62,7 +62,7 @@ typedef struct alpi_radiosity_options {
     alpi_light_layers *layers; // NULL, or filled, but for what the texels gather
 } alpi_radiosity_options;
 
-/// What serves bakes and pictures alike (docs/accuracy.md): all but scene, tracer, lighting,
+/// What serves bakes and pictures alike (docs/measured/accuracy.md): all but scene, tracer, lighting,
 /// filter, gatherer and seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
 /// Of a solution for no error in particular: of a number of bounces none is left out.

@@ -14,7 +14,7 @@
 // (where books and parts of the teapot are a texel or two wide), sphere-plane and torus-plane at
 // 512²: the stitched maps of occlusion and light are nowhere further from the truth than they were.
 // With smaller λ thin charts are drawn away from it, with greater ones seams stay.
-// docs/conventions.md has the figures. Based on: M. Iwanicki. Lighting Technology of The Last of
+// docs/manual/bake.md has the figures. Based on: M. Iwanicki. Lighting Technology of The Last of
 // Us. SIGGRAPH 2013 talks (least squares
 //           over samples along the seams);
 //           S. Sylvan. Fixing seams in lightmaps. 2010;

@@ -3,9 +3,9 @@
 //
 // The error of quasi-Monte Carlo cannot be read off its own samples: parts of one sequence are not
 // independent, and repeating independent shorter sequences instead costs a third more error (docs/
-// accuracy.md). And what interpolation misses is in no sample at all. So some texels, chosen at
-// random, are held out: each gets two estimates y₁, y₂ more, independent of the map's value x and
-// of each other, and
+// measured/accuracy.md). And what interpolation misses is in no sample at all. So some texels,
+// chosen at random, are held out: each gets two estimates y₁, y₂ more, independent of the map's
+// value x and of each other, and
 //
 //     E[(x − y₁)(x − y₂)] = (x − truth)²
 //

@@ -497,7 +497,7 @@ static void the_manual_says_the_same(void **state)
 {
     (void)state;
     size_t size = 0;
-    unsigned char *bytes = test_read_file(ALP_SOURCE_FOLDER "/docs/doctor.md", &size);
+    unsigned char *bytes = test_read_file(ALP_SOURCE_FOLDER "/docs/manual/doctor.md", &size);
     char *text = test_malloc(size + 1);
     memcpy(text, bytes, size);
     text[size] = '\0';
@@ -515,7 +515,7 @@ static void the_manual_says_the_same(void **state)
         snprintf(row, sizeof row, " | %s | %s |\n", w->seen, w->todo[0] != '\0' ? w->todo : "–");
         const char *end = strchr(at, '\n') + 1;
         if (strlen(row) > (size_t)(end - at) || strncmp(end - strlen(row), row, strlen(row)) != 0) {
-            fail_msg("docs/doctor.md says otherwise of %s:%s", w->code, row);
+            fail_msg("docs/manual/doctor.md says otherwise of %s:%s", w->code, row);
         }
         assert_ptr_equal(alpi_finding_words_by_code(w->code), w);
     }

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Makes the pictures of docs/gallery.md.
+
+    scripts/make_gallery.py ALPENGLOW FOLDER [NAME ...]
+
+ALPENGLOW is a release build of the command, FOLDER takes the pictures (docs/pictures). NAMEs are
+those of the table PICTURES below; without them all pictures that take less than two minutes each.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+from png_rows import read_png, write_png
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+WIDTH, HEIGHT = 320, 180  # of one picture of the strip
+SUN = ["--sky", "clear", "--sun", "335,50,60000"]
+# Sun and sky need one exposure, so that direct light and all light compare.
+LIT = ["--with", "lightmap", "--size", "1024", *SUN, "--exposure", "-12.3"]
+STRIP = [
+    ["--with", "constant"],
+    ["--with", "ao", "--ao-samples", "1024"],
+    [*LIT, "--bounces", "0"],
+    [*LIT],
+]
+
+
+def atrium(command, out):
+    """The atrium under sun and sky, in a row: albedo, occlusion, direct light, all light."""
+    pictures = []
+    with tempfile.TemporaryDirectory() as folder:
+        for options in STRIP:
+            picture = folder + "/picture.png"
+            subprocess.run([command, "render", "builtin:atrium", "-o", picture, "-f", "-q",
+                            "--resolution", f"{WIDTH}x{HEIGHT}", "--samples", "64", *options],
+                           check=True)
+            pictures.append(read_png(picture))
+    write_png(out, [b"".join(rows) for rows in zip(*pictures)])
+
+
+def teapot_room(command, out):
+    """The teapot room with its own lamp, as its light map shows it."""
+    subprocess.run([command, "render", "builtin:teapot-room", "-o", out, "-f", "-q", "--with",
+                    "lightmap", "--size", "1024", "--resolution", "640x360", "--samples", "64"],
+                   check=True)
+
+
+def script(name, *arguments):
+    return lambda command, out: subprocess.run(
+        [sys.executable, os.path.join(HERE, name), command, out, *arguments], check=True)
+
+
+PICTURES = {  # name: how it is made, and whether it is quick
+    "atrium": (atrium, True),
+    "teapot-room": (teapot_room, True),
+    "plates": (script("make_plates.py"), True),
+    "blend-borders": (script("make_borders.py"), True),
+    "windows": (script("make_windows.py", "192"), False),
+}
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
+    names = sys.argv[3:] or [name for name, (_, quick) in PICTURES.items() if quick]
+    for name in names:
+        if name not in PICTURES:
+            sys.exit(f"make_gallery: no picture {name}; there are {', '.join(PICTURES)}")
+    os.makedirs(folder, exist_ok=True)
+    for name in names:
+        out = os.path.join(folder, name + ".png")
+        PICTURES[name][0](command, out)
+        print(out, flush=True)
+
+
+main()

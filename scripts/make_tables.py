@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Puts texts and measured tables together, for scripts/make_docs.sh.
+
+    make_tables.py text NAME          prints the text `# NAME` of scripts/captions.md
+    make_tables.py captions           copies a bench's Markdown, each table with its caption
+    make_tables.py peers              copies the tables of scripts/peer_speed.py, each with its caption
+    make_tables.py readme PEERS DOC   writes the table of DOC between its markers, from that page
+
+Captions stand below `### TITLE of the table`. A table without one keeps the bench's own text.
+"""
+import pathlib
+import re
+import sys
+
+CAPTIONS = pathlib.Path(__file__).resolve().parent / "captions.md"
+README_LIGHT = ["cornell", "sphere_plane", "teapot-room", "living_room"]
+README_OCCLUSION = "builtin:teapot-room"
+
+
+def texts():
+    """Texts of captions.md by their headings, without them."""
+    found, name = {}, None
+    for line in CAPTIONS.read_text(encoding="utf-8").splitlines():
+        if re.match(r"(#|###) ", line):
+            name = line.lstrip("# ")
+            found[name] = []
+        elif name:
+            found[name].append(line)
+    return {name: "\n".join(lines).strip() for name, lines in found.items()}
+
+
+def add_captions(lines):
+    captions, skipping, blank = texts(), False, True
+    for line in lines:
+        line = line.rstrip()
+        if line.startswith("### "):
+            caption = captions.get(line[4:])
+            print(f"{line}\n\n{caption}\n" if caption else line)
+            skipping, blank = caption is not None, caption is not None
+            continue
+        skipping = skipping and not line.startswith("|")
+        if not skipping and not (blank and not line):
+            print(line)
+            blank = not line
+
+
+def add_peer_captions(lines):
+    captions = texts()
+    for line in lines:
+        line = line.rstrip()
+        title = {"| scene |": "Occlusion", "| light |": "Light"}.get(line[:9])
+        if title:
+            print(f"\n## {title}\n\n{captions[title]}\n")
+        if line.startswith("|"):
+            print(line)
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def readme_rows(page):
+    light, occlusion = {}, {}
+    table = None
+    for line in page.splitlines():
+        if line.startswith("| scene |"):
+            table = occlusion
+        elif line.startswith("| light |"):
+            table = light
+        elif line.startswith("| ") and table is not None:
+            table[cells(line)[0]] = cells(line)
+    for name in README_LIGHT:
+        if name in light:
+            c = light[name]
+            yield [f"`{name}`, light", c[2].replace("%", " %"), c[6] + " s", c[5] + " s", c[7]]
+    if README_OCCLUSION in occlusion:
+        c = occlusion[README_OCCLUSION]
+        yield ["`teapot-room`, occlusion", c[1], c[6] + " s", c[2] + " s", c[7]]
+
+
+def write_readme(page, document):
+    rows = list(readme_rows(page.read_text(encoding="utf-8")))
+    table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    begin, end = "<!-- table peers -->\n", "<!-- end peers -->"
+    whole = document.read_text(encoding="utf-8")
+    head, rest = whole.split(begin, 1)
+    header = "| scene | error of the mean | ours | Cycles | times |\n|---|--:|--:|--:|--:|\n"
+    document.write_text(head + begin + "\n" + header + table + "\n" + end + rest.split(end, 1)[1],
+                        encoding="utf-8")
+
+
+def main():
+    if sys.argv[1:2] == ["text"] and len(sys.argv) == 3:
+        print(texts()[sys.argv[2]])
+    elif sys.argv[1:] == ["captions"]:
+        add_captions(sys.stdin)
+    elif sys.argv[1:] == ["peers"]:
+        add_peer_captions(sys.stdin)
+    elif sys.argv[1:2] == ["readme"] and len(sys.argv) == 4:
+        write_readme(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    else:
+        sys.exit(__doc__)
+
+
+main()
