@@ -29,13 +29,12 @@ ROOMS = {
              "sh", "base"],
 }
 
-# public header: the lowest room that may include it, which stands for it in the law. Lightmaps,
-# which bake.h declares, live in maps.
+# public header: the lowest room that may include it, which stands for it in the law
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
-    "occlusion": "transport",
-    "bake": "maps", "render": "render", "report": "bake", "doctor": "bake", "compare": "bake",
+    "occlusion": "transport", "lightmap": "maps", "render": "render", "bake": "bake",
+    "report": "bake", "doctor": "bake", "compare": "bake",
     "alpenglow": "bake",
 }
 

@@ -3,7 +3,7 @@
 #ifndef ALPENGLOW_COMPARE_H
 #define ALPENGLOW_COMPARE_H
 
-#include <alpenglow/bake.h>
+#include <alpenglow/lightmap.h>
 #include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS

@@ -4,10 +4,16 @@
 #define ALPENGLOW_DOCTOR_H
 
 #include <alpenglow/image.h>
-#include <alpenglow/report.h>
 #include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS
+
+/// A message of the log as the page shows it; see alp_log_message. NULL counts as "".
+typedef struct alp_report_finding {
+    const char *code, *object, *text;
+} alp_report_finding;
+
+typedef struct alp_diagnosis alp_diagnosis;
 
 typedef enum alp_severity {
     ALP_SEVERITY_ERROR = 0,   ///< cannot be baked
@@ -141,7 +147,7 @@ typedef struct alp_diagnosis_options {
 } alp_diagnosis_options;
 ALP_API alp_diagnosis_options alp_diagnosis_options_default(void);
 
-/// Makes a diagnosis (alp_diagnosis of report.h: immutable, to be destroyed before its scene).
+/// Makes a diagnosis (alp_diagnosis: immutable, to be destroyed before its scene).
 /// Looks for what will go wrong with a bake of the scene: geometry, texture coordinates, materials,
 /// lights, and what was told before (see options). The same scene and options give the same
 /// findings on any number of workers. alp_scene_examine looks at the light that gets in, by rays,

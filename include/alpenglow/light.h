@@ -9,6 +9,9 @@
 
 ALP_BEGIN_DECLS
 
+/// `bounces` of light that goes on as long as it brings anything.
+#define ALP_BOUNCES_CONVERGE UINT32_MAX
+
 typedef enum alp_sky_kind {
     ALP_SKY_NONE = 0,       ///< black
     ALP_SKY_CONSTANT = 1,   ///< radiance `up` from everywhere

@@ -3,11 +3,12 @@
 #ifndef ALPENGLOW_RENDER_H
 #define ALPENGLOW_RENDER_H
 
-#include <alpenglow/bake.h>
 #include <alpenglow/display.h>
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
+#include <alpenglow/lightmap.h>
+#include <alpenglow/occlusion.h>
 #include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS

@@ -4,15 +4,9 @@
 #define ALPENGLOW_REPORT_H
 
 #include <alpenglow/bake.h>
+#include <alpenglow/doctor.h>
 
 ALP_BEGIN_DECLS
-
-/// A message of the log as the page shows it; see alp_log_message. NULL counts as "".
-typedef struct alp_report_finding {
-    const char *code, *object, *text;
-} alp_report_finding;
-
-typedef struct alp_diagnosis alp_diagnosis; // doctor.h
 
 typedef struct alp_report_options {
     size_t struct_size;
