@@ -82,10 +82,12 @@ bool completion_offers(command_id command, const option *o)
 
 void completion_describe(const option *o, char *text, size_t size)
 {
-    // A full stop inside a name such as ao.exr has no blank behind it.
+    // The first sentence. A full stop inside a name such as ao.exr has no blank behind it.
+    size_t length = strcspn(o->help, "\n");
     const char *end = strstr(o->help, ". ");
-    size_t length = end != NULL ? (size_t)(end - o->help) : strlen(o->help);
-    if (end == NULL && length > 0 && o->help[length - 1] == '.') {
+    if (end != NULL && (size_t)(end - o->help) < length) {
+        length = (size_t)(end - o->help);
+    } else if (length > 0 && o->help[length - 1] == '.') {
         length--;
     }
     snprintf(text, size, "%.*s", (int)length, o->help);
