@@ -65,7 +65,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     }
     alp_lightmap_destroy(lightmap);
     if (code == EXIT_DONE && told.cut_off && interrupt_asked()) {
-        failure("interrupted; what there was is written (--keep-partial)");
+        failure("interrupted; the partial result is written (--keep-partial)");
         return EXIT_INTERRUPTED;
     }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
@@ -79,7 +79,7 @@ static int check_report(const command_line *a, const char *output)
         return EXIT_DONE;
     }
     if ((output != NULL && output_is_same(json, output)) || output_is_same(json, a->operands[0])) {
-        return usage_error(COMMAND_BAKE, "--json %s: is the name of %s too; give another", json,
+        return usage_error(COMMAND_BAKE, "--json %s: %s has the same name; give another", json,
                            output != NULL && output_is_same(json, output) ? "-o" : "SCENE");
     }
     return output_check_json(json, a->values[OPTION_FORCE].given);

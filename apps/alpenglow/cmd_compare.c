@@ -123,12 +123,14 @@ static int check_kinds(const command_line *a)
                    {"--points", OPTION_POINTS, true},
                    {"--heatmap", OPTION_HEATMAP, false}};
     if (scenes != compare_is_scene(a->operands[1])) {
-        return usage_error(COMMAND_COMPARE, "%s is a scene and %s is none; give two of a kind",
+        return usage_error(COMMAND_COMPARE,
+                           "%s is a scene and %s is not; give two scenes or two"
+                           " images",
                            a->operands[scenes ? 0 : 1], a->operands[scenes ? 1 : 0]);
     }
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
         if (a->values[options[i].id].given && options[i].of_scenes != scenes) {
-            return usage_error(COMMAND_COMPARE, "%s: has no meaning with two %s", options[i].name,
+            return usage_error(COMMAND_COMPARE, "%s: does not apply to two %s", options[i].name,
                                scenes ? "scenes" : "images");
         }
     }

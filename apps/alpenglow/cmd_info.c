@@ -37,14 +37,14 @@ static void print_unit(const alp_scene *scene, const alp_scene_info *i)
     if (i->unit_stated) {
         printf("unit       %g m, as the file or its format states", i->unit_metres);
     } else {
-        printf("unit       none stated: 1 m is taken");
+        printf("unit       not stated; 1 m is assumed");
     }
     if (i->up_axis != '\0') {
         printf("; %c is up", tolower((unsigned char)i->up_axis));
     }
     for (uint32_t k = 0; k < count; k++) {
         printf("%s%s (longest side %.3g m)",
-               k == 0          ? "; by its size perhaps "
+               k == 0          ? "; by size perhaps "
                : k + 1 < count ? ", "
                                : " or ",
                guesses[k].name, guesses[k].longest_side);

@@ -50,7 +50,7 @@ void findings_print_uv_sets(const alp_diagnosis *diagnosis)
         if (!u.holds_bake) {
             printf("no: %s\n", u.reason);
         } else {
-            puts(u.set == 1 ? "yes" : "yes, but bakes keep set 1 alone");
+            puts(u.set == 1 ? "yes" : "yes, but --atlas keep uses set 1 only");
         }
     }
 }

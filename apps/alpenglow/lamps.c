@@ -39,8 +39,9 @@ static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
     double numbers[4]; // X, Y, Z, CANDELA
     if (!read_numbers(text, numbers, 4, lamp->color) || numbers[3] < 0.0) {
         return usage_error(a->command,
-                           "--lamp: '%s' is no lamp; give X,Y,Z,CANDELA or X,Y,Z,CANDELA,R,G,B: "
-                           "metres, -1e9 to 1e9, candela and linear colour, 0 to 1e9",
+                           "--lamp: '%s' is not a lamp; give X,Y,Z,CANDELA or "
+                           "X,Y,Z,CANDELA,R,G,B: metres, -1e9 to 1e9, candela and linear colour,"
+                           " 0 to 1e9",
                            text);
     }
     place(numbers, lamp->position);
@@ -73,10 +74,10 @@ static int read_spot(const command_line *a, const char *text, alp_lamp *lamp)
     }
     if (!good) {
         return usage_error(a->command,
-                           "--spot: '%s' is no spot; give X,Y,Z,TX,TY,TZ,CANDELA,INNER,OUTER, and "
-                           "R,G,B if it is not white: metres, -1e9 to 1e9, with a target apart "
-                           "from the place, candela and linear colour, 0 to 1e9, and degrees from "
-                           "the axis, 0 to 90, INNER below OUTER",
+                           "--spot: '%s' is not a spot; give X,Y,Z,TX,TY,TZ,CANDELA,INNER,OUTER,"
+                           " and R,G,B if it is not white: position and another point as target "
+                           "in metres, -1e9 to 1e9, candela and linear colour, 0 to 1e9, and "
+                           "degrees from the axis, 0 to 90, INNER below OUTER",
                            text);
     }
     lamp->kind = ALP_LIGHT_SPOT;

@@ -103,7 +103,7 @@ static int dispatch_option(int count, char **words)
 static int dispatch(int count, char **words)
 {
     if (count < 1) {
-        return usage_error(COMMAND_COUNT, "which command? bake, render, info, compare or bench");
+        return usage_error(COMMAND_COUNT, "no command; give bake, render, info, compare or bench");
     }
     if (is_help(words[0])) {
         return help_print();

@@ -224,8 +224,8 @@ static int parse_choice(command_id command, const option *o, const char *text, s
         return EXIT_DONE;
     }
     if (find_choice(o->later_choices, text, length) >= 0) {
-        return usage_error(command, "%s %.*s: not built yet; there is %s", o->name, (int)length,
-                           text, o->choices);
+        return usage_error(command, "%s %.*s: not built yet; give %s", o->name, (int)length, text,
+                           o->choices);
     }
     return usage_error(command, "%s: '%.*s' is not one of %s", o->name, (int)length, text,
                        o->choices);
@@ -354,8 +354,8 @@ static int keep_repeated(command_id command, const option *o, const char *text,
 {
     if (parsed->repeated_count == REPEAT_LIMIT) {
         return usage_error(command,
-                           "%s %s: there are %d before it, lamps and spots, which is the "
-                           "most; more go into the scene",
+                           "%s %s: is one more than %d lamps and spots, the limit; put further "
+                           "ones into the scene",
                            o->name, text, (int)REPEAT_LIMIT);
     }
     parsed->repeated[parsed->repeated_count].id = o->id;
@@ -406,7 +406,7 @@ static void set_defaults(command_id command, command_line *parsed)
 
 static const char *operand_names(command_id command)
 {
-    return command == COMMAND_COMPARE ? "two images, A and B"
+    return command == COMMAND_COMPARE ? "two operands, A and B"
            : command == COMMAND_BENCH ? "one ROOM at most"
                                       : "one SCENE";
 }
@@ -426,11 +426,11 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
                 return code;
             }
         } else if (operands < wanted && words[i][0] == '\0' && command != COMMAND_BENCH) {
-            return usage_error(command, "needs %s; an empty name is none", operand_names(command));
+            return usage_error(command, "needs %s; a name is empty", operand_names(command));
         } else if (operands < wanted) {
             parsed->operands[operands++] = words[i];
         } else {
-            return usage_error(command, "takes %s; what is '%s'?", operand_names(command),
+            return usage_error(command, "takes %s; '%s' is one too many", operand_names(command),
                                words[i]);
         }
     }

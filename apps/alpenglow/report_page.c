@@ -19,7 +19,7 @@ int report_page_check(const command_line *a)
     const char *json = a->values[OPTION_JSON].text;
     const bool is_json = json != NULL && output_is_same(path, json);
     if (is_json || output_is_same(path, a->operands[0])) {
-        return usage_error(COMMAND_BAKE, "--report %s: is the name of %s too; give another", path,
+        return usage_error(COMMAND_BAKE, "--report %s: %s has the same name; give another", path,
                            is_json ? "--json" : "SCENE");
     }
     return output_check(path, a->values[OPTION_FORCE].given);

@@ -298,7 +298,7 @@ static void wrong_images_are_named(void **state)
     (void)state;
     alp_context *context = test_context(1);
     alp_sky_options o = sky_options(ALP_SKY_IMAGE);
-    sky_refuse(context, &o, UP, "there is none");
+    sky_refuse(context, &o, UP, "the image is NULL");
     const struct {
         alp_image_info info;
         const char *word;
