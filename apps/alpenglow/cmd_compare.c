@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// alpenglow compare: how two images differ, or the maps of two baked assets.
+// alpenglow compare: differences of two images, or of the maps of two baked assets.
 #include "compare_assets.h"
 #include "messages.h"
 #include "options.h"
@@ -111,7 +111,7 @@ static int check_outputs(const command_line *arguments)
     return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
 }
 
-/// Options of the one that are given to the other are refused and never ignored.
+/// Refuses options of images for scenes, and the reverse.
 static int check_kinds(const command_line *a)
 {
     const bool scenes = compare_is_scene(a->operands[0]);

@@ -78,7 +78,7 @@ static int read_camera(const char *text, alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// What a method does not look at is refused and never ignored.
+/// Refuses options that a method does not use.
 static int check_method(const command_line *a, const alp_render_options *o)
 {
     enum { HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE, AO = 1 << ALP_RENDER_AO };
@@ -88,7 +88,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
     static const struct {
         const char *name;
         option_id id;
-        unsigned methods; // that read it
+        unsigned methods; // methods that use it
     } read_by[] = {{"--resolution", OPTION_RESOLUTION, (unsigned)PLAIN},
                    {"--samples", OPTION_SAMPLES, (unsigned)PLAIN},
                    {"--show", OPTION_SHOW, HEMICUBE},
@@ -132,7 +132,7 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// How large a cross is, and what it shows.
+/// --hemicube and --show.
 static int read_hemicube(const command_line *a, alp_render_options *o)
 {
     o->hemicube = (uint32_t)a->values[OPTION_HEMICUBE].whole;
@@ -183,7 +183,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
-/// A camera that was asked for by number must be there.
+/// A camera given by number must exist.
 static int check_camera(const session *s, const command_line *a, const alp_render_options *o)
 {
     uint32_t cameras = alp_scene_get_info(s->scene).cameras;
@@ -199,7 +199,7 @@ static int check_camera(const session *s, const command_line *a, const alp_rende
     return EXIT_DONE;
 }
 
-/// @param film what the picture is developed with; comes back with the exposure that was used
+/// @param film options of development; returns the exposure that was used
 static alp_result save(const alp_image *linear, const char *path, bool overwrite,
                        alp_film_options *film)
 {
@@ -215,7 +215,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
-// Of --atlas, in its order.
+// Choices of --atlas, in its order.
 static const struct {
     alp_atlas_mode mode;
     alp_blend blend;
@@ -225,7 +225,7 @@ static const struct {
                {ALP_ATLAS_BLEND, ALP_BLEND_NORMAL},
                {ALP_ATLAS_BLEND, ALP_BLEND_AVERAGE}};
 
-/// The map that --with lightmap shows: irradiance alone, baked as bake --samples does it.
+/// Bakes the map of --with lightmap: irradiance alone, as bake --samples.
 static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
                              alp_lightmap **lightmap)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options that say how a picture is shown: --exposure, --tone and --white-balance.
+// Options of development: --exposure, --tone and --white-balance.
 #include "film.h"
 
 int film_refuse(const command_line *a, const char *output)

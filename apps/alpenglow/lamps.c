@@ -13,7 +13,7 @@ bool color_set(const double numbers[3], float color[3])
     return positive;
 }
 
-/// `count` numbers, and three more for the colour where they are there.
+/// Reads `count` numbers, and three more for an optional colour.
 static bool read_numbers(const char *text, double *numbers, int count, float color[3])
 {
     double rgb[3];
@@ -49,7 +49,7 @@ static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
     return EXIT_DONE;
 }
 
-/// Towards the target, as a unit vector. @return false: it is the place of the lamp
+/// Unit vector towards the target. @return false: the target is the lamp's position
 static bool aim(const double from[3], const double target[3], float direction[3])
 {
     const double to[3] = {target[0] - from[0], target[1] - from[1], target[2] - from[2]};
@@ -70,7 +70,7 @@ static int read_spot(const command_line *a, const char *text, alp_lamp *lamp)
     if (good) {
         lamp->inner_cone = (float)(numbers[7] * radians);
         lamp->outer_cone = (float)(numbers[8] * radians);
-        good = lamp->inner_cone < lamp->outer_cone; // as floats, of which two may be one
+        good = lamp->inner_cone < lamp->outer_cone; // as floats, which may be equal
     }
     if (!good) {
         return usage_error(a->command,

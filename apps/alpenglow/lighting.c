@@ -105,7 +105,7 @@ int lighting_read(const command_line *a, alp_lighting_options *options, lamp_lis
     return code;
 }
 
-/// The library knows a sky's image and not where it is from; a user knows files.
+/// Checks the sky's image, so that messages name its file.
 static int check_picture(const char *path, const alp_image *image)
 {
     const alp_image_info info = alp_image_get_info(image);

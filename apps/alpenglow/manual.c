@@ -59,8 +59,8 @@ static bool is_name(char c)
     return isalnum((unsigned char)c) || c == '-';
 }
 
-/// A usage such as "-o OUT.glb [--size N]": what is typed as it stands is bold, names of values are
-/// slanted, the rest is upright.
+/// Prints a usage such as "-o OUT.glb [--size N]": literal words bold, names of values slanted, the
+/// rest upright.
 static void put_usage(const char *text)
 {
     while (*text != '\0') {
@@ -78,7 +78,7 @@ static void put_usage(const char *text)
     }
 }
 
-/// How many letters of a word, from `*start` on, are an option ("--size", "-o"); 0: it is none.
+/// Length of the option ("--size", "-o") in a word, from `*start` on; 0 without one.
 static size_t option_within(const char *word, size_t length, size_t *start)
 {
     *start = strspn(word, "(");
@@ -194,7 +194,7 @@ static void put_group(command_id command, option_group group)
     }
 }
 
-/// What is refused by name: options, and choices of options that are built.
+/// Prints options and choices that are not built yet.
 static void put_later(command_id command)
 {
     bool any = false;
@@ -279,7 +279,7 @@ static void put_examples(const manual_text *text)
     }
 }
 
-/// The other pages; `own` is the one that this is.
+/// Names the other pages. `own` is this page.
 static void put_see_also(command_id own)
 {
     put_section("SEE ALSO");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: light, where it comes from and how it is found and stored.
+// Rows of the table of options: light, its sources, gathering and storage.
 #include "option_parts.h"
 
 static const option rows[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what is written, and where.
+// Rows of the table of options: outputs.
 #include "option_parts.h"
 
 static const option rows[] = {

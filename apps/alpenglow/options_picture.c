@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what a picture shows, and how.
+// Rows of the table of options: pictures.
 #include "option_parts.h"
 
 static const option rows[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: of bench, and how a command runs.
+// Rows of the table of options: bench, and the run of a command.
 #include "option_parts.h"
 
 static const option rows[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: how well a bake is done, and what ends it.
+// Rows of the table of options: quality and limits.
 #include "option_parts.h"
 
 static const option rows[] = {

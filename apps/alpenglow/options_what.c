@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what is baked, or compared.
+// Rows of the table of options: scene, atlas and comparison.
 #include "option_parts.h"
 
 static const option rows[] = {

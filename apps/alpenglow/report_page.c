@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The --report page of a bake: what the command knows about it, for the library to lay out.
+// The --report page of a bake: collects its contents for the library.
 #include "report_page.h"
 
 #include "output.h"
@@ -25,7 +25,7 @@ int report_page_check(const command_line *a)
     return output_check(path, a->values[OPTION_FORCE].given);
 }
 
-/// How a shell would take one word. `text` has room for four times its length and two more.
+/// Quotes one word for a shell. `text` has room for four times its length and two more.
 static size_t quote(const char *word, char *text)
 {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"

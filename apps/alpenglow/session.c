@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every command that loads a scene has: context, messages, progress, and how it ends.
+// Session of a command that loads a scene: context, messages, progress, exit code.
 #include "session.h"
 
 #include "interrupt.h"
