@@ -67,14 +67,12 @@ SUB_ROOMS = {
     "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["light", "."]},
 }
 
-# public header: the lowest room that may include it, which stands for it in the law. Lightmaps,
-# which bake.h declares, live in maps.
+# public header: the lowest room that may include it, which stands for it in the law
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
-    "occlusion": "transport",
-    "bake": "maps", "render": "render", "doctor": "doctor", "report": "report", "compare": "report",
-    "alpenglow": "report",
+    "occlusion": "transport", "lightmap": "maps", "render": "render", "doctor": "doctor",
+    "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)

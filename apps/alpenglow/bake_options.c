@@ -26,7 +26,7 @@ static int check_output_name(const char *path, alp_lightmap_as as)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb, .gltf, .dae or .obj", path);
 }
 
-/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+/// Refuses options that do not apply to values at vertices, or only to them.
 static int check_vertex_options(const option_value *values)
 {
     static const struct {
@@ -53,13 +53,13 @@ static int check_vertex_options(const option_value *values)
     for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
         if (values[of_maps[i].id].given) {
             return usage_error(COMMAND_BAKE,
-                               "%s: has no meaning with --atlas vertex, which makes no map and "
-                               "sends every vertex all rays",
+                               "%s: not with --atlas vertex, which makes no map and traces all "
+                               "rays at every vertex",
                                of_maps[i].name);
         }
     }
     if (at_vertices && !values[OPTION_OUTPUT].given) {
-        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb or -o OUT.gltf");
+        return usage_error(COMMAND_BAKE, "no output; give -o OUT.glb or -o OUT.gltf");
     }
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
@@ -107,17 +107,22 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     }
     name = find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
     if (name != NULL && !occlusion) {
-        return usage_error(COMMAND_BAKE, "%s: is of occlusion; light has --samples", name);
+        return usage_error(COMMAND_BAKE,
+                           "%s: applies to occlusion only; for light give "
+                           "--samples",
+                           name);
     }
     name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
     if (name != NULL && light) {
-        return usage_error(COMMAND_BAKE, "--maps light: falls on the whole scene; leave out %s",
+        return usage_error(COMMAND_BAKE,
+                           "--maps light: is baked for the whole scene; leave out "
+                           "%s",
                            name);
     }
     return EXIT_DONE;
 }
 
-/// The bits of what --maps lists, whose choices are numbered in their order.
+/// The bits of alp_map of --maps, whose choices are numbered in their order.
 static unsigned listed_maps(unsigned choices)
 {
     static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
@@ -129,7 +134,7 @@ static unsigned listed_maps(unsigned choices)
     return bits;
 }
 
-/// How light goes into the asset, and what that needs.
+/// --lightmap-as with --units and --lightmap-format, and their needs.
 static int read_lightmap(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
@@ -137,7 +142,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     const unsigned maps = listed_maps((unsigned)values[OPTION_MAPS].whole);
     if (!as->given) {
         return units->given || format->given
-                   ? usage_error(COMMAND_BAKE, "%s: is of light in -o; needs --lightmap-as",
+                   ? usage_error(COMMAND_BAKE, "%s: applies to light in -o; needs --lightmap-as",
                                  units->given ? "--units" : "--lightmap-format")
                    : EXIT_DONE;
     }
@@ -145,39 +150,43 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
     o->lightmap_format = (alp_lightmap_format)format->choice;
     if ((maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
-        return usage_error(COMMAND_BAKE, "--lightmap-as: puts light into -o; needs %s",
+        return usage_error(COMMAND_BAKE, "--lightmap-as: writes light into -o; needs %s",
                            o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
     }
     const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
     if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
-        return usage_error(COMMAND_BAKE, "--lightmap-format: is of --lightmap-as extras; %s %s",
-                           as->text, viewer ? "has its own" : "is a PNG inside the asset");
+        return usage_error(COMMAND_BAKE,
+                           "--lightmap-format: applies to --lightmap-as extras; %s"
+                           " %s",
+                           as->text,
+                           viewer ? "has a format of its own" : "stores a PNG in the asset");
     }
     if (units->given && viewer) {
         return usage_error(COMMAND_BAKE,
-                           "--units: has no meaning with --lightmap-as %s, whose "
-                           "viewer takes one kind",
+                           "--units: not with --lightmap-as %s, whose viewer needs fixed units",
                            as->text);
     }
     if (viewer && (maps & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE,
-                           "--maps ao: --lightmap-as %s holds light alone; give "
-                           "--maps-dir DIR",
+                           "--maps ao: --lightmap-as %s stores light alone; give --maps-dir DIR",
                            as->text);
     }
     if (o->ao_into == ALP_AO_INTO_ORM) {
-        return usage_error(COMMAND_BAKE, "--ao-into orm: light has coordinates of its own, which "
-                                         "occlusion shares; leave it out with --lightmap-as");
+        return usage_error(COMMAND_BAKE, "--ao-into orm: not with --lightmap-as, because "
+                                         "occlusion shares the coordinates of the light; leave "
+                                         "one of them out");
     }
     const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
     if (units->given && o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
-        return usage_error(COMMAND_BAKE, "--units %s: what a material emits is radiance",
+        return usage_error(COMMAND_BAKE,
+                           "--units %s: --lightmap-as emissive stores radiance; "
+                           "leave out --units",
                            units->text);
     }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
         strcmp(values[OPTION_DIRECT].text, "off") == 0) {
-        return usage_error(COMMAND_BAKE, "--direct off: the black materials of --lightmap-as "
-                                         "emissive show no direct light; take moz or extras");
+        return usage_error(COMMAND_BAKE, "--direct off: materials of --lightmap-as emissive are "
+                                         "black and reflect no direct light; use moz or extras");
     }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
         return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
@@ -186,13 +195,14 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// What the files of --maps-dir are.
+/// --maps-as: the format of --maps-dir.
 static int read_maps_format(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_MAPS_AS];
     o->maps_format = (alp_maps_format)as->choice;
     if (as->given && o->maps_folder == NULL) {
-        return usage_error(COMMAND_BAKE, "--maps-as: is of the files of --maps-dir; give it too");
+        return usage_error(COMMAND_BAKE, "--maps-as: is the format of --maps-dir; give "
+                                         "--maps-dir DIR too");
     }
     const char *name = (o->maps & ALP_MAP_BENT) != 0        ? "bent"
                        : (o->maps & ALP_MAP_SH) != 0        ? "sh"
@@ -200,14 +210,14 @@ static int read_maps_format(const option_value *values, alp_bake_options *o)
                                                             : NULL;
     if (o->maps_format == ALP_MAPS_HDR && name != NULL) {
         return usage_error(COMMAND_BAKE,
-                           "--maps-as hdr: holds no negative values, and --maps %s has some; take "
+                           "--maps-as hdr: cannot store the negative values of --maps %s; use "
                            "exr16 or ktx2",
                            name);
     }
     return EXIT_DONE;
 }
 
-/// --maps and --ao-bleed, and what cannot stand beside them.
+/// --maps and --ao-bleed, and options that exclude them.
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
     const bool bleed = values[OPTION_AO_BLEED].given;
@@ -216,17 +226,19 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
     const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
     if ((sh || direction) && !light) {
-        return usage_error(COMMAND_BAKE, "--maps %s: is of light; add it: --maps light,%s",
+        return usage_error(COMMAND_BAKE, "--maps %s: needs light; give --maps light,%s",
                            sh ? "sh" : "direction", sh ? "sh" : "direction");
     }
     if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
         return usage_error(COMMAND_BAKE,
-                           "--maps %s: --gather paths does not tell where light comes from; "
-                           "--gather rays or hemicube does",
+                           "--maps %s: --gather paths keeps no directions of light; use --gather"
+                           " rays or hemicube",
                            sh ? "sh" : "direction");
     }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
-        return usage_error(COMMAND_BAKE, "--maps %s: has no meaning with --atlas vertex",
+        return usage_error(COMMAND_BAKE,
+                           "--maps %s: not with --atlas vertex, which bakes ao "
+                           "only",
                            bent ? "bent" : "light");
     }
     const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
@@ -239,24 +251,22 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     }
     if (o->output != NULL && !ao && !lit) {
         return usage_error(
-            COMMAND_BAKE,
-            "-o %s: glTF has no place for what is not ao; %s, or give --maps-dir "
-            "alone",
-            o->output, light ? "say --lightmap-as, bake --maps ao,light" : "bake --maps ao,bent");
+            COMMAND_BAKE, "-o %s: glTF has a place for ao only; give %s, or --maps-dir alone",
+            o->output, light ? "--lightmap-as or --maps ao,light" : "--maps ao,bent");
     }
     if (values[OPTION_EXISTING_AO].given && !ao) {
-        return usage_error(COMMAND_BAKE, "--existing-ao: has no meaning without --maps ao");
+        return usage_error(COMMAND_BAKE, "--existing-ao: needs --maps ao");
     }
     if (bleed && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
         return usage_error(COMMAND_BAKE,
-                           "--ao-bleed: is baked in one go; leave out --time-limit and "
+                           "--ao-bleed: has no partial results; leave out --time-limit and "
                            "--keep-partial");
     }
     return check_light(values, light, ao || bent || bleed);
 }
 
-/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
-/// unless it is given.
+/// --quality, --error and the limits. With a wanted error, --ao-samples is a limit with a high
+/// default.
 static int read_sampling(const command_line *a, alp_bake_options *o)
 {
     enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
@@ -279,8 +289,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
         (values[OPTION_SAMPLES].given || o->light.gather != ALP_GATHER_RAYS ||
          o->light.bounces == 0)) {
         return usage_error(COMMAND_BAKE,
-                           "--%s: light goes for an error by rays, with bounces and without "
-                           "--samples",
+                           "--%s: for light needs --gather rays, bounces, and no --samples",
                            values[OPTION_QUALITY].given ? "quality" : "error");
     }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
@@ -301,7 +310,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// Which surfaces are baked and which occlude them.
+/// --only, --occluders and --ao-self.
 static int read_choice(const option_value *values, alp_bake_options *o)
 {
     o->only = values[OPTION_ONLY].text;
@@ -313,8 +322,8 @@ static int read_choice(const option_value *values, alp_bake_options *o)
     }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (o->ao_self || o->only != NULL)) {
         return usage_error(COMMAND_BAKE,
-                           "%s: with --atlas vertex all surfaces are baked, and "
-                           "together; use --atlas charts",
+                           "%s: not with --atlas vertex, which bakes all surfaces together; use "
+                           "--atlas charts",
                            o->ao_self ? "--ao-self" : "--only");
     }
     return EXIT_DONE;
@@ -323,26 +332,28 @@ static int read_choice(const option_value *values, alp_bake_options *o)
 static int check_layers(const option_value *values, const alp_light_options *o)
 {
     if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
-        return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
+        return usage_error(COMMAND_BAKE, "--layers: --gather paths cannot separate lights; use "
+                                         "rays or hemicube");
     }
     if (o->layers && values[OPTION_ONLY].given) {
-        return usage_error(COMMAND_BAKE, "--layers: are told apart where all surfaces are baked; "
-                                         "leave out --only");
+        return usage_error(COMMAND_BAKE, "--layers: need a bake of all surfaces; leave out "
+                                         "--only");
     }
     if (o->layers && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
-        return usage_error(COMMAND_BAKE, "--layers: are gathered to their end; leave out %s",
+        return usage_error(COMMAND_BAKE, "--layers: have no partial results; leave out %s",
                            values[OPTION_TIME_LIMIT].given ? "--time-limit" : "--keep-partial");
     }
     if (o->layers && o->denoise) {
-        return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
+        return usage_error(COMMAND_BAKE, "--layers: do not add up to a denoised map; leave out "
+                                         "--denoise");
     }
     if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
-        return usage_error(COMMAND_BAKE, "--layers: are files of their own; give --maps-dir DIR");
+        return usage_error(COMMAND_BAKE, "--layers: are written as files; give --maps-dir DIR");
     }
     return EXIT_DONE;
 }
 
-/// What counts emissive surfaces, and what they cannot be told apart for.
+/// --emitters, and options that exclude counted ones.
 static int check_emitters(const option_value *values, const alp_light_options *o)
 {
     if (values[OPTION_EMITTERS].given && (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0)) {
@@ -351,14 +362,14 @@ static int check_emitters(const option_value *values, const alp_light_options *o
     }
     if (o->emitters == ALP_EMITTERS_COUNTED && (o->layers || values[OPTION_ONLY].given)) {
         return usage_error(COMMAND_BAKE,
-                           "--emitters counted: pixels see all emitters together, of "
-                           "all surfaces; leave out %s",
+                           "--emitters counted: counts all emitters together, for all surfaces; "
+                           "leave out %s",
                            o->layers ? "--layers" : "--only");
     }
     return EXIT_DONE;
 }
 
-/// How irradiance is gathered, and which.
+/// --gather, --direct, --bounces, --samples and --denoise.
 static int read_light(const command_line *a, alp_light_options *o)
 {
     enum { DIRECT_ON, DIRECT_OFF, DIRECT_ONLY, DIRECT_APART }; // the choices of --direct
@@ -375,7 +386,8 @@ static int read_light(const command_line *a, alp_light_options *o)
                                          : ALP_DIRECT_ON;
     o->denoise = values[OPTION_DENOISE].choice == 1;
     if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
-        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
+        return usage_error(COMMAND_BAKE, "--denoise on: applies to bounced light of --gather "
+                                         "rays only");
     }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
@@ -386,7 +398,9 @@ static int read_light(const command_line *a, alp_light_options *o)
                            values[OPTION_DIRECT].text);
     }
     if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
-        return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
+        return usage_error(COMMAND_BAKE,
+                           "--direct %s: --gather paths cannot separate direct "
+                           "light; use rays or hemicube",
                            values[OPTION_DIRECT].text);
     }
     if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
@@ -397,7 +411,8 @@ static int read_light(const command_line *a, alp_light_options *o)
     }
     if (o->gather == ALP_GATHER_HEMICUBE && values[OPTION_SAMPLES].given) {
         return usage_error(COMMAND_BAKE,
-                           "--samples: are of rays; hemicubes have pixels, --hemicube N");
+                           "--samples: not with --gather hemicube; set its pixels by --hemicube "
+                           "N");
     }
     const int code = check_emitters(values, o);
     return code == EXIT_DONE ? check_layers(values, o) : code;
@@ -417,7 +432,7 @@ static int read_atlas(const option_value *values, alp_atlas_options *o)
     o->densities = values[OPTION_DENSITY].text;
     o->texels_per_metre = density->choice < 0 ? density->real : 0.0;
     if (o->mode == ALP_ATLAS_KEEP && name != NULL) {
-        return usage_error(COMMAND_BAKE, "%s: is of new charts; leave out --atlas keep", name);
+        return usage_error(COMMAND_BAKE, "%s: needs new charts; leave out --atlas keep", name);
     }
     if (o->size % (1u << o->mips) != 0) {
         return usage_error(COMMAND_BAKE, "--mips %u: --size must be a multiple of %u", o->mips,
@@ -443,8 +458,8 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
         code = read_choice(values, o);
     }
     if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
-        return usage_error(COMMAND_BAKE, "nowhere to write to; give -o OUT.glb, -o OUT.gltf, "
-                                         "-o OUT.dae, -o OUT.obj or --maps-dir DIR");
+        return usage_error(COMMAND_BAKE, "no output; give -o OUT.glb, -o OUT.gltf, -o OUT.dae, "
+                                         "-o OUT.obj or --maps-dir DIR");
     }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of alpenglow bake, and what it says when it is done.
+// The options of alpenglow bake, and its summary.
 #ifndef COMMAND_BAKE_OPTIONS_H
 #define COMMAND_BAKE_OPTIONS_H
 
@@ -9,8 +9,8 @@
 
 #include <alpenglow/alpenglow.h>
 
-/// Reads all of them, and refuses what has no meaning together.
-/// @param lamps what the options borrow; released by the caller, also after a failure
+/// Reads all options, and refuses those that exclude each other.
+/// @param lamps borrowed by the options; the caller releases them, also after a failure
 /// @return EXIT_DONE, or an exit code after a message
 int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lamps);
 

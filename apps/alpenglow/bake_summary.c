@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What alpenglow bake says when it is done.
+// The summary of alpenglow bake.
 #include "bake_options.h"
 #include "output.h"
 #include "report.h"
@@ -24,7 +24,7 @@ static void print_atlas(const alp_atlas_info *atlas)
     printf("%llu texels overlap\n", (unsigned long long)atlas->overlapping_texels);
 }
 
-/// Names of files, .exr as the format of the maps has it.
+/// Prints names of files, with the ending of the maps' format for .exr.
 static void print_files(const alp_bake_options *o, const char *files)
 {
     const char *ending = o->maps_format == ALP_MAPS_HDR    ? ".hdr"
@@ -68,7 +68,7 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
            o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
 }
 
-/// Ends the line of a map. @param p99 that 99 % of the standard errors do not exceed
+/// Ends the line of a map. @param p99 bound for 99 % of the standard errors
 static void print_stated_error(double relative, double p99)
 {
     if (isfinite(relative)) {
@@ -141,7 +141,7 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
 }
 
-/// How far the sides of seams are apart, of one map.
+/// Prints the difference of one map across its seams.
 /// @param noise the map's stated error, over its mean, for comparison; not finite: unknown
 static void print_seam_error(const alp_seam_report *s, const char *map, const alp_seam_error *e,
                              double noise)

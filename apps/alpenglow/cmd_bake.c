@@ -21,7 +21,7 @@ static int write_json(const session *s, const alp_lightmap *lightmap, const alp_
     return code;
 }
 
-/// What was asked for to be told of the bake, with the doctor's findings.
+/// Writes the summary and the reports that were requested, with the doctor's findings.
 static int report(session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                   const command_line *a)
 {
@@ -52,7 +52,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     alp_bake_work work;
     if (!a->values[OPTION_QUIET].given && o->atlas.mode != ALP_ATLAS_VERTEX &&
         alp_bake_estimate(s->scene, o, &work) == ALP_OK && work.texels > 0) {
-        progress_clear(&s->progress); // where it fails, the bake says why
+        progress_clear(&s->progress); // on failure, the bake reports the reason
         work_print(stderr, &work);
     }
     int code = session_end(s, alp_bake(s->scene, o, &lightmap, &told));
@@ -65,13 +65,13 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
     }
     alp_lightmap_destroy(lightmap);
     if (code == EXIT_DONE && told.cut_off && interrupt_asked()) {
-        failure("interrupted; what there was is written (--keep-partial)");
+        failure("interrupted; the partial result is written (--keep-partial)");
         return EXIT_INTERRUPTED;
     }
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 
-/// The report must not take the place of the scene that was read or baked.
+/// The report must not overwrite the scene that was read or baked.
 static int check_report(const command_line *a, const char *output)
 {
     const char *json = a->values[OPTION_JSON].text;
@@ -79,7 +79,7 @@ static int check_report(const command_line *a, const char *output)
         return EXIT_DONE;
     }
     if ((output != NULL && output_is_same(json, output)) || output_is_same(json, a->operands[0])) {
-        return usage_error(COMMAND_BAKE, "--json %s: is the name of %s too; give another", json,
+        return usage_error(COMMAND_BAKE, "--json %s: %s has the same name; give another", json,
                            output != NULL && output_is_same(json, output) ? "-o" : "SCENE");
     }
     return output_check_json(json, a->values[OPTION_FORCE].given);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// alpenglow bench: hands over to alpenglow-bench, a program of its own, since it looks inside the
-// library and calls the ray tracer by itself.
+// alpenglow bench: runs alpenglow-bench, a separate program, which uses internals of the library
+// and calls the ray tracer directly.
 #include "messages.h"
 #include "options.h"
 
@@ -10,7 +10,7 @@
 
 enum { PATH_SIZE = 4096, WORD_LIMIT = 8 };
 
-/// Writes the path of the bench program in `folder`, which is seen from the folder of this program.
+/// Writes the path of the bench program in `folder`, relative to the folder of this program.
 static bool find_beside(const char *folder, char path[PATH_SIZE])
 {
     char self[PATH_SIZE];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// alpenglow compare: how two images differ, or the maps of two baked assets.
+// alpenglow compare: differences of two images, or of the maps of two baked assets.
 #include "compare_assets.h"
 #include "messages.h"
 #include "options.h"
@@ -111,7 +111,7 @@ static int check_outputs(const command_line *arguments)
     return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
 }
 
-/// Options of the one that are given to the other are refused and never ignored.
+/// Refuses options of images for scenes, and the reverse.
 static int check_kinds(const command_line *a)
 {
     const bool scenes = compare_is_scene(a->operands[0]);
@@ -123,12 +123,14 @@ static int check_kinds(const command_line *a)
                    {"--points", OPTION_POINTS, true},
                    {"--heatmap", OPTION_HEATMAP, false}};
     if (scenes != compare_is_scene(a->operands[1])) {
-        return usage_error(COMMAND_COMPARE, "%s is a scene and %s is none; give two of a kind",
+        return usage_error(COMMAND_COMPARE,
+                           "%s is a scene and %s is not; give two scenes or two"
+                           " images",
                            a->operands[scenes ? 0 : 1], a->operands[scenes ? 1 : 0]);
     }
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
         if (a->values[options[i].id].given && options[i].of_scenes != scenes) {
-            return usage_error(COMMAND_COMPARE, "%s: has no meaning with two %s", options[i].name,
+            return usage_error(COMMAND_COMPARE, "%s: does not apply to two %s", options[i].name,
                                scenes ? "scenes" : "images");
         }
     }

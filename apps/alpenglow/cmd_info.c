@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// alpenglow info: what is in a scene.
+// alpenglow info: contents and faults of a scene.
 #include "findings.h"
 #include "output.h"
 #include "pictures.h"
@@ -10,7 +10,7 @@
 #include <ctype.h>
 #include <math.h>
 
-/// So many lamps, and so many emissive surfaces, are told one by one; JSON has them all.
+/// Number of lamps, and of emissive surfaces, that text lists; JSON lists all.
 enum { LIGHTS_TOLD = 16 };
 
 static void print_scene(const char *path, const alp_scene_info *i)
@@ -29,7 +29,7 @@ static void print_scene(const char *path, const alp_scene_info *i)
     printf("area       %.6g m2\n", i->area);
 }
 
-/// What the file states, and what else its unit may be where that is in doubt.
+/// Prints the unit of the file, and other guesses if it is in doubt.
 static void print_unit(const alp_scene *scene, const alp_scene_info *i)
 {
     alp_unit_guess guesses[ALP_UNIT_LIMIT];
@@ -37,14 +37,14 @@ static void print_unit(const alp_scene *scene, const alp_scene_info *i)
     if (i->unit_stated) {
         printf("unit       %g m, as the file or its format states", i->unit_metres);
     } else {
-        printf("unit       none stated: 1 m is taken");
+        printf("unit       not stated; 1 m is assumed");
     }
     if (i->up_axis != '\0') {
         printf("; %c is up", tolower((unsigned char)i->up_axis));
     }
     for (uint32_t k = 0; k < count; k++) {
         printf("%s%s (longest side %.3g m)",
-               k == 0          ? "; by its size perhaps "
+               k == 0          ? "; by size perhaps "
                : k + 1 < count ? ", "
                                : " or ",
                guesses[k].name, guesses[k].longest_side);
@@ -135,7 +135,7 @@ static void print_light_name(const alp_light_info *l, uint32_t index)
     }
 }
 
-/// Where a light is and shines, as far as its kind has it.
+/// Position and direction of a light, as far as its kind has them.
 static void print_place(const alp_light_info *l)
 {
     const double degrees = 180.0 / M_PI;
@@ -176,7 +176,7 @@ static void print_emissive(const alp_surface_info *s)
            (double)s->emission[2]);
 }
 
-/// What was not told one by one.
+/// Counts the lights that were not listed.
 static void print_rest(uint32_t count, const char *what)
 {
     if (count > LIGHTS_TOLD) {
@@ -185,7 +185,7 @@ static void print_rest(uint32_t count, const char *what)
     }
 }
 
-/// What gives light, with units.
+/// Lists lights and emissive surfaces, with units.
 static void print_lights(const alp_scene *scene, const alp_scene_info *info)
 {
     uint32_t emissive = 0;
@@ -241,7 +241,7 @@ static json_t *make_surfaces(const alp_scene *scene, uint32_t count)
     return list;
 }
 
-/// An angle in degrees, null for a light that has none.
+/// An angle in degrees; null for a light without one.
 static json_t *make_angle(bool has, float radians)
 {
     return has ? json_number((double)radians * 180.0 / M_PI) : json_null();
@@ -296,7 +296,7 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
     if (document == NULL) {
         return failure("out of memory");
     }
-    json_dumpf(document, stdout, JSON_STYLE); // main sees whether the stream took it
+    json_dumpf(document, stdout, JSON_STYLE); // main checks the stream
     putchar('\n');
     json_decref(document);
     return EXIT_DONE;
@@ -337,7 +337,7 @@ static int tell(session *s, const command_line *a, const default_work *work,
     return code;
 }
 
-/// Everything that is told, before anything is.
+/// Collects all results before any is printed.
 static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
 {
     int code = session_end(s, alp_scene_examine(s->scene, NULL, session_progress, s));

@@ -70,15 +70,15 @@ static int read_camera(const char *text, alp_render_options *o)
     } else if (result != NUMBER_NONE || !read_numbers(text, numbers, CAMERA_NUMBERS) ||
                !place_camera(numbers, &o->camera)) {
         return usage_error(COMMAND_RENDER,
-                           "--camera: '%s' is no camera; give a number from 0, auto, or "
-                           "PX,PY,PZ,TX,TY,TZ,VFOV with a target apart from the position, metres, "
-                           "and VFOV 0.001 to 179 degrees",
+                           "--camera: '%s' is not a camera; give a number from 0, auto, or "
+                           "PX,PY,PZ,TX,TY,TZ,VFOV: position and another point as target in "
+                           "metres, and VFOV 0.001 to 179 degrees",
                            text);
     }
     return EXIT_DONE;
 }
 
-/// What a method does not look at is refused and never ignored.
+/// Refuses options that a method does not use.
 static int check_method(const command_line *a, const alp_render_options *o)
 {
     enum { HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE, AO = 1 << ALP_RENDER_AO };
@@ -88,7 +88,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
     static const struct {
         const char *name;
         option_id id;
-        unsigned methods; // that read it
+        unsigned methods; // methods that use it
     } read_by[] = {{"--resolution", OPTION_RESOLUTION, (unsigned)PLAIN},
                    {"--samples", OPTION_SAMPLES, (unsigned)PLAIN},
                    {"--show", OPTION_SHOW, HEMICUBE},
@@ -114,7 +114,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         const bool read = (read_by[i].methods >> o->method & 1u) != 0;
         if (!read && a->values[read_by[i].id].given) {
-            return usage_error(COMMAND_RENDER, "%s: has no meaning with --with %s", read_by[i].name,
+            return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
                                a->values[OPTION_WITH].text);
         }
     }
@@ -132,7 +132,7 @@ static int check_hemisphere(const alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// How large a cross is, and what it shows.
+/// --hemicube and --show.
 static int read_hemicube(const command_line *a, alp_render_options *o)
 {
     o->hemicube = (uint32_t)a->values[OPTION_HEMICUBE].whole;
@@ -152,8 +152,8 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     const char *output = a->values[OPTION_OUTPUT].text;
     *o = alp_render_options_default();
     if (output == NULL) {
-        return usage_error(COMMAND_RENDER, "nowhere to write to; give -o IMAGE.png, "
-                                           "-o IMAGE.exr or -o IMAGE.hdr");
+        return usage_error(COMMAND_RENDER, "no output; give -o IMAGE.png, -o IMAGE.exr or -o "
+                                           "IMAGE.hdr");
     }
     bool linear = !path_ends(output, ".png");
     if (linear && !path_ends(output, ".exr") && !path_ends(output, ".hdr")) {
@@ -161,9 +161,8 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
                            output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "by which method? give --with reference, radiosity, "
-                                           "lightmap, ao, constant, hemisphere or "
-                                           "hemicube");
+        return usage_error(COMMAND_RENDER, "no method; give --with reference, radiosity, "
+                                           "lightmap, ao, constant, hemisphere or hemicube");
     }
     o->method = (alp_render_method)a->values[OPTION_WITH].choice;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
@@ -184,7 +183,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
-/// A camera that was asked for by number must be there.
+/// A camera given by number must exist.
 static int check_camera(const session *s, const command_line *a, const alp_render_options *o)
 {
     uint32_t cameras = alp_scene_get_info(s->scene).cameras;
@@ -192,14 +191,15 @@ static int check_camera(const session *s, const command_line *a, const alp_rende
     if (a->values[OPTION_CAMERA].given && numbered && o->camera_index >= cameras) {
         char text[160];
         snprintf(text, sizeof text,
-                 "--camera %u: the scene has %u camera%s, counted from 0; auto shows everything",
+                 "--camera %u: the scene has %u camera%s, counted from 0; auto is a view of "
+                 "everything",
                  o->camera_index, cameras, cameras == 1 ? "" : "s");
         return failure(text);
     }
     return EXIT_DONE;
 }
 
-/// @param film what the picture is developed with; comes back with the exposure that was used
+/// @param film options of development; returns the exposure that was used
 static alp_result save(const alp_image *linear, const char *path, bool overwrite,
                        alp_film_options *film)
 {
@@ -215,7 +215,7 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
-// Of --atlas, in its order.
+// Choices of --atlas, in its order.
 static const struct {
     alp_atlas_mode mode;
     alp_blend blend;
@@ -225,7 +225,7 @@ static const struct {
                {ALP_ATLAS_BLEND, ALP_BLEND_NORMAL},
                {ALP_ATLAS_BLEND, ALP_BLEND_AVERAGE}};
 
-/// The map that --with lightmap shows: irradiance alone, baked as bake --samples does it.
+/// Bakes the map of --with lightmap: irradiance alone, as bake --samples.
 static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
                              alp_lightmap **lightmap)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands and the built-in scenes: everything that the contract names, built or not.
+// The commands and the built-in scenes of the contract, built or not.
 #include "options.h"
 
 #include <stdlib.h>
@@ -7,52 +7,51 @@
 static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_BAKE] =
         {"bake", "SCENE -o OUT.glb|OUT.gltf|OUT.dae|OUT.obj [--maps-dir DIR] [OPTIONS]",
-         "bake ambient occlusion into a scene", 1, command_bake,
-         "Unwraps SCENE into an atlas, computes at every texel how much of the sky above it is "
-         "open, and writes a copy of the scene with that occlusion map attached. What the bake "
-         "does not touch comes out byte for byte as it was."},
+         "bake occlusion and light into a scene", 1, command_bake,
+         "Unwraps SCENE into an atlas, bakes maps of occlusion and light (--maps), and writes a "
+         "copy "
+         "of the scene with these maps attached. All other parts of the scene are copied byte for "
+         "byte."},
     [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|.exr|.hdr --with METHOD [OPTIONS]",
                         "render a picture of a scene", 1, command_render,
                         "Renders SCENE from one of its cameras, or from an automatic one. A .png "
-                        "is for looking at, an .exr or .hdr holds the linear values."},
+                        "is for display; an .exr or .hdr holds linear values."},
     [COMMAND_INFO] = {"info", "SCENE [--json] [--pictures DIR]",
-                      "say what is in a scene, and what is wrong with it", 1, command_info,
-                      "Prints what SCENE holds: triangles, surfaces, materials, lights, cameras, "
-                      "size; which texture coordinate sets can hold a bake; and what is wrong, "
-                      "errors (it cannot be baked) first, then warnings (something will look "
-                      "wrong), then notes: each with what will be seen and what to do. Findings "
-                      "do not change the exit status."},
+                      "list the contents and faults of a scene", 1, command_info,
+                      "Prints the contents of SCENE: triangles, surfaces, materials, lights, "
+                      "cameras, size. States which texture coordinate sets can hold a bake. Lists "
+                      "faults with their visible effect and their remedy: errors (the scene cannot "
+                      "be baked) first, then warnings (the result will have a visible fault), then "
+                      "notes. Findings do not change the exit status."},
     [COMMAND_COMPARE] =
         {"compare", "A B [--scale S] [--max-rmse X] [--heatmap PNG] [--json FILE]",
-         "say how two images or two bakes differ", 2, command_compare,
-         "Compares the images A and B (.exr, .hdr, .png, .jpg) of equal size, over the pixels that "
-         "are "
-         "covered (alpha above one half, or no alpha) in both. Prints the root mean square error "
-         "(rmse), rmse over the mean of B, bias (mean of A - B), the 99th percentile and the "
-         "largest of |A - B| and where it is. Or compares a map of two scenes of the same "
-         "triangles (.glb, .gltf, .dae, .obj) over their surface, each read by its own "
-         "coordinates as a viewer reads it, those of --atlas blend blended."},
+         "measure the difference of two images or two bakes", 2, command_compare,
+         "Compares two images A and B (.exr, .hdr, .png, .jpg) of equal size, over the pixels that "
+         "are covered (alpha above 0.5, or no alpha) in both. Prints the root mean square error "
+         "(rmse), rmse over the mean of B, the bias (mean of A - B), and the 99th percentile and "
+         "maximum of |A - B| with its position. Or compares a map of two scenes of the same "
+         "triangles (.glb, .gltf, .dae, .zae, .obj) over their surface. Each map is read by its "
+         "own coordinates, as in a viewer; those of --atlas blend are blended."},
     [COMMAND_BENCH] =
         {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", -1,
          command_bench,
-         "Measures this machine: in turns, what the hardware and the ray tracer give at most, and "
-         "what alpenglow makes of it, as a ratio of medians. ROOM is trace (building), transport "
-         "(the innermost loop), atlas, maps (error per second), accuracy (stated against true "
-         "errors), truth (each technique against the reference), denoise, bounced (ways to gather "
-         "bounced light), light (its rays against the ray tracer, its bakes by workers and size) "
-         "or formats (reading); without it all are run, which takes more than half an hour. Other "
-         "work on the "
-         "machine makes the figures worse and the "
-         "ratios little."},
+         "Measures this machine: the limit of the hardware or the ray tracer, and alpenglow, in "
+         "turns. Prints the ratio of their medians. Other load on the machine changes the figures "
+         "much and the ratios little. Without ROOM all benches run, which takes more than half an "
+         "hour. ROOM is trace (building), transport (the innermost loop), atlas, maps (error per "
+         "second), accuracy (stated against true errors), truth (each technique against the "
+         "reference), denoise, bounced (methods of gathering bounced light), light (its rays "
+         "against the ray tracer, its bakes by workers and size) or formats (reading)."},
     [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
-                        "bake --maps ao puts light on surfaces"},
+                        "bake --maps light bakes light on surfaces"},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
-                     "bake --maps ao puts light on surfaces"},
-    [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience of a moving scene", 1, NULL,
-                          "bake --maps ao puts light on surfaces"},
-    [COMMAND_SH] = {"sh", "ENV", "spherical harmonics of a sky", 1, NULL, "nothing instead"},
-    [COMMAND_VIEW] = {"view", "SCENE|OUT", "look at a scene", 1, NULL,
-                      "render makes a picture, and any glTF viewer shows what bake writes"},
+                     "bake --maps light bakes light on surfaces"},
+    [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience for a moving camera", 1, NULL,
+                          "bake --maps light bakes light on surfaces"},
+    [COMMAND_SH] = {"sh", "ENV", "spherical harmonics of a sky", 1, NULL,
+                    "there is no other way yet"},
+    [COMMAND_VIEW] = {"view", "SCENE|OUT", "display a scene", 1, NULL,
+                      "render makes a picture, and any glTF viewer displays a bake"},
 };
 
 static const char *const builtin_scenes[] = {

@@ -26,7 +26,7 @@ static const char *map_name(const alp_map_difference *d)
     return d->map == ALP_MAP_AO ? "ao" : "light";
 }
 
-/// Of the object where the difference is largest; "" without any point.
+/// Name of the object with the largest difference; "" without any point.
 static const char *object_name(const assets *s)
 {
     return alp_scene_get_surface(s->a, s->difference.maximum_surface).name;

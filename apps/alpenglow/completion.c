@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a shell may offer at each place of a command line, told by the table of options.
+// Completions for each position of a command line, from the table of options.
 #include "completion.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 static const char small_letters[] = "abcdefghijklmnopqrstuvwxyz";
 static const char capital_letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// Appends a word to a list with blanks between; what does not fit is left out.
+/// Appends a word to a list with blanks between. A word that does not fit is left out.
 static void append(char *list, const char *word, size_t length)
 {
     size_t used = strlen(list);
@@ -48,7 +48,7 @@ completion completion_of_option(const option *o)
         append(c.endings, "json", strlen("json"));
         return c;
     }
-    // Where there are choices, the value's name says no more than they do.
+    // With choices, the value's name adds nothing.
     const char *names = o->choices != NULL ? o->choices : o->value;
     while (o->kind != KIND_FLAG && names != NULL) {
         size_t length = strcspn(names, "|");
@@ -82,10 +82,12 @@ bool completion_offers(command_id command, const option *o)
 
 void completion_describe(const option *o, char *text, size_t size)
 {
-    // A full stop inside a name such as ao.exr has no blank behind it.
+    // The first sentence. A full stop inside a name such as ao.exr has no blank behind it.
+    size_t length = strcspn(o->help, "\n");
     const char *end = strstr(o->help, ". ");
-    size_t length = end != NULL ? (size_t)(end - o->help) : strlen(o->help);
-    if (end == NULL && length > 0 && o->help[length - 1] == '.') {
+    if (end != NULL && (size_t)(end - o->help) < length) {
+        length = (size_t)(end - o->help);
+    } else if (length > 0 && o->help[length - 1] == '.') {
         length--;
     }
     snprintf(text, size, "%.*s", (int)length, o->help);

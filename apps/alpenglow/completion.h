@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a shell may offer at each place of a command line, told by the table of options.
+// Completions for each position of a command line, from the table of options.
 #ifndef COMMAND_COMPLETION_H
 #define COMMAND_COMPLETION_H
 
@@ -7,8 +7,7 @@
 
 enum { COMPLETION_TEXT_SIZE = 512 };
 
-/// What may stand in one place. Words and endings have one blank between them; endings come without
-/// their dot.
+/// Completions of one position. Words and endings have one blank between them; endings have no dot.
 typedef struct completion {
     char words[COMPLETION_TEXT_SIZE];
     char endings[COMPLETION_TEXT_SIZE]; ///< of files; "": no files, unless any_file
@@ -16,9 +15,9 @@ typedef struct completion {
     bool list; ///< several of the words, with commas between
 } completion;
 
-/// What follows an option. Choices that are not built yet are not offered.
+/// Completions of an option's value, without choices that are not built yet.
 completion completion_of_option(const option *option);
-/// What stands for SCENE, or A and B.
+/// Completions of SCENE, or of A and B.
 completion completion_of_operand(command_id command);
 
 /// Whether the command has the option, and it is built.

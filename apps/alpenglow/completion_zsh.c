@@ -43,7 +43,7 @@ static const char tail[] = "        esac\n"
                            "    compdef _alpenglow alpenglow\n"
                            "fi\n";
 
-/// Text inside '...' where a backslash also keeps `special` from meaning something.
+/// Prints text inside '...', with a backslash before the characters `special`.
 static void put_quoted(const char *text, const char *special)
 {
     for (; *text != '\0'; text++) {
@@ -73,7 +73,7 @@ static void put_action(const completion *c)
     if (c->list) {
         printf("_values -s , word %s", c->words);
     } else if (c->words[0] != '\0' && files) {
-        // the blank in front: without it _arguments adds words of its own
+        // without the blank in front _arguments adds its own words
         fputs(" _alpenglow_either \"", stdout);
         put_quoted(c->words, ":");
         fputs("\" \"", stdout);
@@ -90,7 +90,7 @@ static void put_action(const completion *c)
     }
 }
 
-/// An option as _arguments wants it: '(-o --output)'{-o,--output=}'[what it is]:OUT.glb:_files'
+/// An option as _arguments wants it: '(-o --output)'{-o,--output=}'[description]:OUT.glb:_files'
 static void print_option(const option *o)
 {
     char description[DESCRIPTION_SIZE];

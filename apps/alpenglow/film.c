@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options that say how a picture is shown: --exposure, --tone and --white-balance.
+// Options of development: --exposure, --tone and --white-balance.
 #include "film.h"
 
 int film_refuse(const command_line *a, const char *output)
@@ -13,8 +13,8 @@ int film_refuse(const command_line *a, const char *output)
     for (size_t i = 0; i < sizeof of_film / sizeof *of_film; i++) {
         if (a->values[of_film[i].id].given) {
             return usage_error(a->command,
-                               "%s is for pictures to look at, and %s holds linear values; give "
-                               "-o IMAGE.png",
+                               "%s: applies to .png only, and %s holds linear values; give -o "
+                               "IMAGE.png",
                                of_film[i].name, output);
         }
     }

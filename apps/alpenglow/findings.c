@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the doctor finds, as text and as JSON.
+// The doctor's findings, as text and as JSON.
 #include "findings.h"
 
 #include "output.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// So many findings of a kind are told one by one; JSON has them all.
+/// Number of findings of a kind that text lists; JSON lists all.
 enum { FINDINGS_TOLD = 8 };
 
 int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis)
@@ -50,12 +50,12 @@ void findings_print_uv_sets(const alp_diagnosis *diagnosis)
         if (!u.holds_bake) {
             printf("no: %s\n", u.reason);
         } else {
-            puts(u.set == 1 ? "yes" : "yes, but bakes keep set 1 alone");
+            puts(u.set == 1 ? "yes" : "yes, but --atlas keep uses set 1 only");
         }
     }
 }
 
-/// "2 errors, 1 note": what there is none of is left out.
+/// "2 errors, 1 note", without severities that have no finding.
 static void print_tally(const alp_diagnosis *diagnosis)
 {
     uint32_t tally[3] = {0};
@@ -88,7 +88,7 @@ static void print_finding(const alp_finding *f)
     printf("]\n");
 }
 
-/// What is the same for all findings of a kind: said once, after the last of them.
+/// Prints effect and remedy of a kind once, after its last finding.
 static void print_advice(const alp_finding *f, uint32_t left_out)
 {
     if (left_out > 0) {
@@ -106,7 +106,7 @@ static void print_advice(const alp_finding *f, uint32_t left_out)
     }
 }
 
-/// Whether the same is seen of both and to be done about them.
+/// Whether two findings have the same effect and remedy.
 static bool are_alike(const alp_finding *a, const alp_finding *b)
 {
     return strcmp(a->code, b->code) == 0 && strcmp(a->seen, b->seen) == 0 &&
@@ -135,7 +135,7 @@ void findings_print(const alp_diagnosis *diagnosis)
 
 // --- JSON ----------------------------------------------------------------------------------------
 
-/// The worst place of a finding, null where it has none.
+/// The worst place of a finding; null without one.
 static json_t *make_spot(const alp_finding_spot *spot)
 {
     return !spot->known

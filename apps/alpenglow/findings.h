@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the doctor finds, as text and as JSON.
+// The doctor's findings, as text and as JSON.
 #ifndef COMMAND_FINDINGS_H
 #define COMMAND_FINDINGS_H
 
@@ -8,15 +8,15 @@
 #include <jansson.h>
 #include <stdio.h>
 
-/// Looks at the session's scene, with the warnings it heard so far.
-/// @param baked NULL, or the bake that is to be told of: that there is no light is a warning then
-///              where light was asked for, and nobody is asked whether to go on
+/// Diagnoses the session's scene, with its warnings so far.
+/// @param baked NULL, or the report of a bake: a scene without light is then a warning if light was
+///              baked, and the diagnosis cannot be cancelled
 /// @param diagnosis out: NULL unless EXIT_DONE   @return an exit code, after a message
 int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis);
 
-/// The table of texture coordinate sets; nothing where there are none.
+/// Prints the table of texture coordinate sets, if there are any.
 void findings_print_uv_sets(const alp_diagnosis *diagnosis);
-/// Findings by severity, the first of each kind.
+/// Prints findings by severity, the first ones of each kind.
 void findings_print(const alp_diagnosis *diagnosis);
 
 /// [{"code", "severity", "place", "index", "name", "count", "value", "what", "seen", "todo",

@@ -7,12 +7,15 @@
 
 enum { LINE_WIDTH = 80, RANGE_SIZE = 160 };
 
-/// Prints words from `column` on, broken before the line is full; later lines start at `indent`.
+/// Prints words from `column` on, broken at '\n' and before the line is full. Later lines start at
+/// `indent`.
 static void print_wrapped(const char *text, int indent, int *column)
 {
     while (*text != '\0') {
-        int length = (int)strcspn(text, " ");
-        if (*column > indent && *column + 1 + length > LINE_WIDTH) {
+        const bool line_ended = *text == '\n';
+        text += line_ended;
+        const int length = (int)strcspn(text, " \n");
+        if (line_ended || (*column > indent && *column + 1 + length > LINE_WIDTH)) {
             printf("\n%*s", indent, "");
             *column = indent;
         } else if (*column > indent) {
@@ -62,7 +65,7 @@ static void print_option(const option *o)
     }
 }
 
-/// All that is not built yet, in as few lines as it takes; choices one option a line.
+/// Options that are not built yet, in as few lines as possible; choices, one option a line.
 static void print_later(command_id command)
 {
     enum { INDENT = 2 };
@@ -141,7 +144,7 @@ int help_print_command(command_id command)
 int help_print(void)
 {
     printf("Usage: alpenglow COMMAND ...\n\n"
-           "Bakes indirect light into scenes for real-time 3D.\n\nCommands:\n");
+           "Bakes occlusion and indirect light into scenes for real-time 3D.\n\nCommands:\n");
     for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
         printf("  %-8s  %s\n", command_table()[i].name, command_table()[i].summary);
     }
@@ -152,7 +155,7 @@ int help_print(void)
     printf("\n\n  alpenglow COMMAND --help   options of a command\n"
            "  alpenglow --version        version\n"
            "  alpenglow --completion bash|zsh|fish\n"
-           "                             script with which that shell completes a command line\n"
+           "                             completion script for that shell\n"
            "\nExample:\n"
            "  alpenglow bake builtin:teapot-room -o room.glb --maps-dir maps\n");
     return EXIT_DONE;

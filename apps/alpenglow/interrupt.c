@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and SIGTERM: end at once, or ask long work to stop.
+// Ctrl-C and SIGTERM: end at once, or cancel long work.
 #include "interrupt.h"
 
 #include "options.h"

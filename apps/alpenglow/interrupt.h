@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and SIGTERM: end at once, or ask long work to stop.
+// Ctrl-C and SIGTERM: end at once, or cancel long work.
 #ifndef COMMAND_INTERRUPT_H
 #define COMMAND_INTERRUPT_H
 
 #include <stdbool.h>
 
-/// From now on SIGINT and SIGTERM end the program at once with 130.
+/// Sets SIGINT and SIGTERM to end the program at once with 130.
 void interrupt_install(void);
-/// From now on the first one only makes interrupt_asked() true; the second ends at once.
+/// Sets the first signal to make interrupt_asked() true, and the second to end at once.
 void interrupt_defer(void);
 bool interrupt_asked(void);
 

@@ -13,7 +13,7 @@ bool color_set(const double numbers[3], float color[3])
     return positive;
 }
 
-/// `count` numbers, and three more for the colour where they are there.
+/// Reads `count` numbers, and three more for an optional colour.
 static bool read_numbers(const char *text, double *numbers, int count, float color[3])
 {
     double rgb[3];
@@ -39,8 +39,9 @@ static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
     double numbers[4]; // X, Y, Z, CANDELA
     if (!read_numbers(text, numbers, 4, lamp->color) || numbers[3] < 0.0) {
         return usage_error(a->command,
-                           "--lamp: '%s' is no lamp; give X,Y,Z,CANDELA or X,Y,Z,CANDELA,R,G,B: "
-                           "metres, -1e9 to 1e9, candela and linear colour, 0 to 1e9",
+                           "--lamp: '%s' is not a lamp; give X,Y,Z,CANDELA or "
+                           "X,Y,Z,CANDELA,R,G,B: metres, -1e9 to 1e9, candela and linear colour,"
+                           " 0 to 1e9",
                            text);
     }
     place(numbers, lamp->position);
@@ -48,7 +49,7 @@ static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
     return EXIT_DONE;
 }
 
-/// Towards the target, as a unit vector. @return false: it is the place of the lamp
+/// Unit vector towards the target. @return false: the target is the lamp's position
 static bool aim(const double from[3], const double target[3], float direction[3])
 {
     const double to[3] = {target[0] - from[0], target[1] - from[1], target[2] - from[2]};
@@ -69,14 +70,14 @@ static int read_spot(const command_line *a, const char *text, alp_lamp *lamp)
     if (good) {
         lamp->inner_cone = (float)(numbers[7] * radians);
         lamp->outer_cone = (float)(numbers[8] * radians);
-        good = lamp->inner_cone < lamp->outer_cone; // as floats, of which two may be one
+        good = lamp->inner_cone < lamp->outer_cone; // as floats, which may be equal
     }
     if (!good) {
         return usage_error(a->command,
-                           "--spot: '%s' is no spot; give X,Y,Z,TX,TY,TZ,CANDELA,INNER,OUTER, and "
-                           "R,G,B if it is not white: metres, -1e9 to 1e9, with a target apart "
-                           "from the place, candela and linear colour, 0 to 1e9, and degrees from "
-                           "the axis, 0 to 90, INNER below OUTER",
+                           "--spot: '%s' is not a spot; give X,Y,Z,TX,TY,TZ,CANDELA,INNER,OUTER,"
+                           " and R,G,B if it is not white: position and another point as target "
+                           "in metres, -1e9 to 1e9, candela and linear colour, 0 to 1e9, and "
+                           "degrees from the axis, 0 to 90, INNER below OUTER",
                            text);
     }
     lamp->kind = ALP_LIGHT_SPOT;

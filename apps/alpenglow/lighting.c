@@ -46,18 +46,19 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
     if (strcmp(value->text, "clear") == 0) {
         sky->kind = ALP_SKY_CLEAR;
         if (!a->values[OPTION_SUN].given) {
-            return usage_error(a->command, "--sky clear: stands about a sun; give --sun AZ,EL,LUX");
+            return usage_error(a->command, "--sky clear: needs a sun; give --sun AZ,EL,LUX");
         }
     } else if (names_picture(value->text)) {
         sky->kind = ALP_SKY_IMAGE;
     } else if (!read_colors(value->text, sky)) {
         return usage_error(a->command,
-                           "--sky: '%s' is no sky; give a .hdr or .exr file, R,G,B, R,G,B/R,G,B "
-                           "(above and below the horizon), numbers 0 to 1e9, or clear",
+                           "--sky: '%s' is not a sky; give a .hdr or .exr file, R,G,B, "
+                           "R,G,B/R,G,B (above and below the horizon), numbers 0 to 1e9, or "
+                           "clear",
                            value->text);
     }
     if (sky->kind != ALP_SKY_IMAGE && a->values[OPTION_SKY_TURN].given) {
-        return usage_error(a->command, "--sky-turn: turns the picture of a sky, and there is none");
+        return usage_error(a->command, "--sky-turn: needs a sky image; give --sky FILE.hdr");
     }
     return EXIT_DONE;
 }
@@ -74,8 +75,8 @@ static int read_sun(const command_line *a, alp_sun_options *sun)
     if (end == NULL || *end != '\0' || fabs(numbers[0]) > 360.0 || fabs(numbers[1]) > 90.0 ||
         numbers[2] < 0.0) {
         return usage_error(a->command,
-                           "--sun: '%s' is no sun; give AZ,EL,LUX: degrees from +Z towards +X, "
-                           "degrees above the horizon, and lux, 0 to 1e9",
+                           "--sun: '%s' is not a sun; give AZ,EL,LUX: degrees from +Z towards "
+                           "+X, degrees above the horizon, and lux, 0 to 1e9",
                            value->text);
     }
     sun->azimuth = (float)(numbers[0] * radians);
@@ -104,15 +105,15 @@ int lighting_read(const command_line *a, alp_lighting_options *options, lamp_lis
     return code;
 }
 
-/// The library knows a sky's image and not where it is from; a user knows files.
+/// Checks the sky's image, so that messages name its file.
 static int check_picture(const char *path, const alp_image *image)
 {
     const alp_image_info info = alp_image_get_info(image);
     char text[1024] = "";
     if (info.component != ALP_COMPONENT_FLOAT) {
         snprintf(text, sizeof text,
-                 "%.700s: has 8 bits a channel, whatever its name says, which hold no radiance; "
-                 "give --sky a picture in floats (Radiance .hdr, OpenEXR)",
+                 "%.700s: has 8 bits per channel, whatever its name, which cannot hold radiance;"
+                 " give --sky a float image (Radiance .hdr, OpenEXR)",
                  path);
     } else if (info.channels < 3) {
         snprintf(text, sizeof text, "%.700s: has %u channel%s; a sky needs R, G and B", path,

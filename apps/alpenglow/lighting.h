@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The options that say what light falls on a scene: --sky, --sun and theirs, and lamps.
+// Options of light: --sky, --sun, their settings, and lamps.
 #ifndef COMMAND_LIGHTING_H
 #define COMMAND_LIGHTING_H
 
 #include "lamps.h"
 
-/// What the arguments say, apart from the picture of the sky.
-/// @param lamps out: what `options` borrows
+/// Reads the arguments, except the image of the sky.
+/// @param lamps out: borrowed by `options`
 /// @return EXIT_DONE, or EXIT_USAGE after a message
 int lighting_read(const command_line *arguments, alp_lighting_options *options, lamp_list *lamps);
 
-/// Loads the picture of the sky, if --sky names one, for `options` to borrow.
-/// @param image out: NULL, or what the caller destroys after the work
+/// Loads the image of the sky, if --sky names one. `options` borrows it.
+/// @param image out: NULL, or the image, which the caller destroys after the work
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int lighting_load_sky(session *s, const command_line *arguments, alp_lighting_options *options,
                       alp_image **image);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command: finds which one is meant, and hands over.
+// The main program: finds the command and runs it.
 #include "options.h"
 
 #include <alpenglow/alpenglow.h>
@@ -62,7 +62,7 @@ static int run_command(int count, char **words)
     return code == EXIT_DONE ? c->run(&parsed) : code;
 }
 
-/// The page of a command, or of alpenglow itself. The build makes the installed pages by this.
+/// Prints the manual page of a command, or of alpenglow itself. The build installs these pages.
 static int print_manual(int count, char **words)
 {
     command_id id = count > 0 ? find_command(words[0]) : COMMAND_COUNT;
@@ -72,7 +72,7 @@ static int print_manual(int count, char **words)
     return count > 0 ? manual_print_command(id) : manual_print();
 }
 
-/// The commands that are built, a line each, for the build.
+/// Prints the commands that are built, a line each, for the build.
 static int print_commands(void)
 {
     for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
@@ -81,7 +81,7 @@ static int print_commands(void)
     return EXIT_DONE;
 }
 
-/// Options that stand in the place of a command; those that --help does not name are for the build.
+/// Options without a command. Those that --help leaves out are for the build.
 static int dispatch_option(int count, char **words)
 {
     if (strcmp(words[0], "--version") == 0) {
@@ -103,7 +103,7 @@ static int dispatch_option(int count, char **words)
 static int dispatch(int count, char **words)
 {
     if (count < 1) {
-        return usage_error(COMMAND_COUNT, "which command? bake, render, info, compare or bench");
+        return usage_error(COMMAND_COUNT, "no command; give bake, render, info, compare or bench");
     }
     if (is_help(words[0])) {
         return help_print();
@@ -117,8 +117,8 @@ static int dispatch(int count, char **words)
     return dispatch_option(count, words);
 }
 
-/// What is closed from the start would be given to the first file that is opened, and messages
-/// written into it. In its place stands what cannot be used: that is told as any other fault.
+/// Opens standard streams that are closed. Else the first file that is opened would get their
+/// number, and messages would be written into it. Using the stream fails, and is reported as usual.
 static void reserve_streams(void)
 {
     for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++) {
@@ -133,7 +133,7 @@ int main(int count, char **words)
     reserve_streams();
     signal(SIGXFSZ, SIG_IGN); // a file that gets too large is a failed write, not the end
     int code = dispatch(count > 0 ? count - 1 : 0, words + 1);
-    // A full disk or a closed pipe shows only now.
+    // A full disk or a closed pipe is detected only now.
     if (fflush(stdout) != 0 || ferror(stdout)) {
         fprintf(stderr, "alpenglow: cannot write to standard output\n");
         code = code == EXIT_DONE ? EXIT_FAILED : code;

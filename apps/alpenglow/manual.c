@@ -12,7 +12,7 @@ enum { LINE_WIDTH = 76 };
 
 // --- roff ----------------------------------------------------------------------------------------
 
-/// Text that roff takes for nothing else: hyphens that can be copied, no request at a line's start.
+/// Escapes text for roff: hyphens can be copied, and no line starts with a request.
 static void put_escaped(const char *text, size_t length, bool line_begins)
 {
     if (line_begins && length > 0 && text[0] == '.') {
@@ -59,8 +59,8 @@ static bool is_name(char c)
     return isalnum((unsigned char)c) || c == '-';
 }
 
-/// A usage such as "-o OUT.glb [--size N]": what is typed as it stands is bold, names of values are
-/// slanted, the rest is upright.
+/// Prints a usage such as "-o OUT.glb [--size N]": literal words bold, names of values slanted, the
+/// rest upright.
 static void put_usage(const char *text)
 {
     while (*text != '\0') {
@@ -78,7 +78,7 @@ static void put_usage(const char *text)
     }
 }
 
-/// How many letters of a word, from `*start` on, are an option ("--size", "-o"); 0: it is none.
+/// Length of the option ("--size", "-o") in a word, from `*start` on; 0 without one.
 static size_t option_within(const char *word, size_t length, size_t *start)
 {
     *start = strspn(word, "(");
@@ -106,16 +106,20 @@ static void put_word(const char *word, size_t length, bool line_begins)
     put_escaped(word + start + letters, length - start - letters, false);
 }
 
-/// Prose, options in it bold. A sentence begins on a line of its own, as roff wants it.
+/// Prints prose with bold options. A sentence begins on its own line, as roff wants it. '\n' breaks
+/// the line on the page.
 static void put_prose(const char *text)
 {
     size_t column = 0;
     bool sentence_ended = false;
     while (*text != '\0') {
-        size_t length = strcspn(text, " ");
-        bool breaks = column > 0 && (sentence_ended || column + 1 + length > LINE_WIDTH);
+        const bool line_ended = *text == '\n';
+        text += line_ended;
+        const size_t length = strcspn(text, " \n");
+        const bool full = sentence_ended || column + 1 + length > LINE_WIDTH;
+        const bool breaks = column > 0 && (line_ended || full);
         if (column > 0) {
-            putchar(breaks ? '\n' : ' ');
+            fputs(line_ended ? "\n.br\n" : breaks ? "\n" : " ", stdout);
         }
         put_word(text, length, column == 0 || breaks);
         column = breaks || column == 0 ? length : column + 1 + length;
@@ -190,7 +194,7 @@ static void put_group(command_id command, option_group group)
     }
 }
 
-/// What is refused by name: options, and choices of options that are built.
+/// Prints options and choices that are not built yet.
 static void put_later(command_id command)
 {
     bool any = false;
@@ -222,8 +226,7 @@ static void put_scenes(void)
     const char *const *names = builtin_scene_names(&count);
     fputs(".PP\n", stdout);
     put_usage("SCENE");
-    fputs("\nis a .gltf, .glb, .dae, .zae or .obj file, or one of these, which need none:\n",
-          stdout);
+    fputs("\nis a .gltf, .glb, .dae, .zae or .obj file, or a built-in scene:\n", stdout);
     for (size_t i = 0; i < count; i++) {
         put_font('B', names[i], strlen(names[i]));
         fputs(i + 1 < count ? ",\n" : ".\n", stdout);
@@ -240,10 +243,10 @@ static void put_exit_statuses(const manual_text *text, bool interruptible)
 {
     put_section("EXIT STATUS");
     put_status(EXIT_DONE, "Done.");
-    put_status(EXIT_FAILED, text->failed ? text->failed : "Failed; a message says why.");
-    put_status(EXIT_USAGE, "Wrong usage; nothing was begun.");
+    put_status(EXIT_FAILED, text->failed ? text->failed : "Failed. A message gives the reason.");
+    put_status(EXIT_USAGE, "Wrong usage. Nothing was started.");
     if (interruptible) {
-        put_status(EXIT_INTERRUPTED, "Interrupted, as by Ctrl-C.");
+        put_status(EXIT_INTERRUPTED, "Interrupted, for example by Ctrl-C.");
     }
 }
 
@@ -256,15 +259,13 @@ static void put_files(const manual_text *text)
     if (text->files[0].name != NULL) {
         fputs(".PP\n", stdout);
     }
-    put_prose("What is written is written to a temporary file beside its place, which takes that "
-              "place when it is complete.");
+    put_prose("Every file is written under a temporary name and renamed when it is complete.");
 }
 
 static void put_environment(const manual_text *text)
 {
     put_section("ENVIRONMENT");
-    put_prose(text->environment ? text->environment
-                                : "No variable of the environment changes what it does.");
+    put_prose(text->environment ? text->environment : "No environment variable has an effect.");
 }
 
 static void put_examples(const manual_text *text)
@@ -278,7 +279,7 @@ static void put_examples(const manual_text *text)
     }
 }
 
-/// The other pages; `own` is the one that this is.
+/// Names the other pages. `own` is this page.
 static void put_see_also(command_id own)
 {
     put_section("SEE ALSO");
@@ -354,14 +355,15 @@ int manual_print(void)
     size_t count = 0;
     const option *table = program_option_table(&count);
     put_title(NULL);
-    put_prose("bake indirect light into scenes for real-time 3D");
+    put_prose("bake occlusion and indirect light into scenes for real-time 3D");
     put_section("SYNOPSIS");
     fputs("\\fBalpenglow\\fR \\fICOMMAND\\fR ...\n.br\n", stdout);
     fputs("\\fBalpenglow\\fR \\fICOMMAND\\fR \\fB\\-\\-help\\fR\n", stdout);
     put_section("DESCRIPTION");
-    put_prose("Computes light that arrives indirectly, once, and hands it to viewers and engines "
-              "that show it at no cost. Results go to standard output, messages to standard error. "
-              "Nothing is overwritten unless asked.");
+    put_prose(
+        "Computes occlusion and indirect light once, and writes them into assets that viewers "
+        "and engines display at no cost. Results go to standard output, messages to standard "
+        "error. Existing files are kept unless -f is given.");
     put_commands();
     put_section("OPTIONS");
     for (size_t i = 0; i < count; i++) {

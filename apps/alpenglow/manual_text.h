@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a manual page says that the table of options does not know.
+// Texts of the manual pages beside the table of options.
 #ifndef COMMAND_MANUAL_TEXT_H
 #define COMMAND_MANUAL_TEXT_H
 
@@ -7,15 +7,15 @@
 
 enum { MANUAL_PAIRS = 6 };
 
-/// A file and what it is; or a command line and, first, what it is for.
+/// A file and its description; or the purpose of a command line, and the line.
 typedef struct manual_pair {
     const char *name, *text;
 } manual_pair;
 
 typedef struct manual_text {
-    const char *failed;              ///< when the exit status is 1, or NULL: the usual
+    const char *failed;              ///< causes of exit status 1, or NULL: a general text
     manual_pair files[MANUAL_PAIRS]; ///< up to the first without a name
-    const char *environment;         ///< or NULL: nothing in it matters
+    const char *environment;         ///< or NULL: no variable has an effect
     manual_pair examples[MANUAL_PAIRS];
 } manual_text;
 

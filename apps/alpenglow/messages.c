@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the library tells: printed at once, warnings kept for the report.
+// Messages of the library: printed at once; warnings are kept for the report.
 #include "messages.h"
 
 #include "options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the library tells: printed at once, warnings kept for the report.
+// Messages of the library: printed at once; warnings are kept for the report.
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
@@ -15,7 +15,7 @@ typedef struct message {
 
 typedef struct message_log {
     bool quiet;                 // notes are not printed
-    bool held;                  // nor are warnings: the command tells them in its own way
+    bool held;                  // warnings are not printed: the command reports them itself
     progress_display *progress; // its line is cleared first; NULL = none
     message *warnings;          // [warning_count]
     size_t warning_count, capacity;
@@ -23,7 +23,7 @@ typedef struct message_log {
 
 /// An alp_log_fn; `user` is a message_log.
 void messages_log(void *user, const alp_log_message *logged);
-/// Prints the warnings that were held, where the command cannot tell them after all.
+/// Prints the warnings that were held, if the command cannot report them.
 void messages_print_held(message_log *messages);
 void messages_release(message_log *messages);
 
@@ -33,7 +33,7 @@ void print_clean(FILE *stream, const char *text);
 /// Prints "alpenglow: text". @return EXIT_FAILED
 int failure(const char *text);
 
-/// Memory or the end of the program, with a message.
+/// Allocates memory, or ends the program with a message.
 void *allocate_or_exit(void *old, size_t size);
 
 #endif

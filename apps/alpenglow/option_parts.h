@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts that the table of options is put together from, each in a file of its own.
+// Parts of the table of options, one file each.
 #ifndef COMMAND_OPTION_PARTS_H
 #define COMMAND_OPTION_PARTS_H
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The table of options, put together from its parts: everything that the contract names.
+// The table of options, from its parts: every option of the contract.
 #include "option_parts.h"
 
-/// In the order in which help and completion show them.
+/// In the order of help and completion.
 static const option_part *const parts[] = {
     &option_part_output, &option_part_what, &option_part_stop, &option_part_picture,
     &option_part_light,  &option_part_ao,   &option_part_run,  &option_part_later,
 };
 
-/// What alpenglow itself takes in the place of a command.
+/// Options of alpenglow itself, without a command.
 static const option program_options[] = {
     {.id = OPTION_HELP,
      .kind = KIND_FLAG,
@@ -21,13 +21,13 @@ static const option program_options[] = {
      .name = "--completion",
      .value = "bash|zsh|fish",
      .choices = "bash|zsh|fish",
-     .help = "Print a script with which that shell completes commands, options and file names."},
+     .help = "Print a completion script for that shell: commands, options and file names."},
 };
 
 static const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "What",
+    [GROUP_OUTPUT] = "Output",   [GROUP_WHAT] = "Main",
     [GROUP_PICTURE] = "Picture", [GROUP_AO] = "Ambient occlusion",
-    [GROUP_LIGHT] = "Light",     [GROUP_STOP] = "When to stop",
+    [GROUP_LIGHT] = "Light",     [GROUP_STOP] = "Quality and limits",
     [GROUP_RUN] = "Run",         [GROUP_LATER] = "Not built yet (refused by name)",
 };
 

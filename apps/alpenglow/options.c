@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Understanding a command line by the table: strict numbers, stated ranges, near misses.
+// Parsing a command line by the table: strict numbers, ranges, suggestions for misspelt words.
 #include "options.h"
 
 #include <errno.h>
@@ -63,7 +63,7 @@ number_result number_parse_size(const char *text, uint64_t *number)
 
 number_result number_parse_real(const char *text, double *number)
 {
-    // strtod alone would take blanks in front, hexadecimal, nan and inf.
+    // strtod alone would accept leading blanks, hexadecimal, nan and inf.
     if (*text == '\0' || text[strspn(text, "0123456789+-.eE")] != '\0') {
         return NUMBER_NONE;
     }
@@ -98,7 +98,7 @@ const char *number_parse_list(const char *text, double *numbers, int count)
 
 void option_range(const option *o, char *text, size_t size)
 {
-    // %.16g shows whole numbers as they are, and 1e-06 short.
+    // %.16g prints whole numbers in full, and 1e-06 short.
     int length = snprintf(text, size, "%.16g to %.16g", o->minimum, o->maximum);
     if (o->unit != NULL && length > 0 && (size_t)length < size) {
         length += snprintf(text + length, size - (size_t)length, " %s", o->unit);
@@ -150,7 +150,8 @@ static size_t edit_distance(const char *a, const char *b)
     return last[b_length];
 }
 
-/// How far a known word is from what was written; a word that was begun rightly is near.
+/// Distance of a known word from the written one. It is 1 if the known one begins with the written
+/// one, of 4 letters or more.
 static size_t word_distance(const char *written, const char *known)
 {
     size_t length = strlen(written);
@@ -224,8 +225,8 @@ static int parse_choice(command_id command, const option *o, const char *text, s
         return EXIT_DONE;
     }
     if (find_choice(o->later_choices, text, length) >= 0) {
-        return usage_error(command, "%s %.*s: not built yet; there is %s", o->name, (int)length,
-                           text, o->choices);
+        return usage_error(command, "%s %.*s: not built yet; give %s", o->name, (int)length, text,
+                           o->choices);
     }
     return usage_error(command, "%s: '%.*s' is not one of %s", o->name, (int)length, text,
                        o->choices);
@@ -260,7 +261,7 @@ static int parse_number(command_id command, const option *o, const char *text, o
         bool negative =
             text[0] == '-' && number_parse_whole(text + 1, &value->whole) != NUMBER_NONE;
         result = negative ? NUMBER_TOO_LARGE : number_parse_whole(text, &value->whole);
-        // as whole numbers: a double does not know all of them
+        // as whole numbers: a double cannot hold all of them
         outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
     } else if (o->kind == KIND_SIZE) {
         result = number_parse_size(text, &value->whole);
@@ -348,14 +349,14 @@ static int refuse_unknown(command_id command, const char *word, size_t length)
     return usage_error(command, "unknown option %s", name);
 }
 
-/// Keeps what an option is given that may come again.
+/// Keeps one value of an option that may be repeated.
 static int keep_repeated(command_id command, const option *o, const char *text,
                          command_line *parsed)
 {
     if (parsed->repeated_count == REPEAT_LIMIT) {
         return usage_error(command,
-                           "%s %s: there are %d before it, lamps and spots, which is the "
-                           "most; more go into the scene",
+                           "%s %s: is one more than %d lamps and spots, the limit; put further "
+                           "ones into the scene",
                            o->name, text, (int)REPEAT_LIMIT);
     }
     parsed->repeated[parsed->repeated_count].id = o->id;
@@ -364,7 +365,7 @@ static int keep_repeated(command_id command, const option *o, const char *text,
     return EXIT_DONE;
 }
 
-/// Reads the option at words[*at], and its value where it has one; *at ends on its last word.
+/// Reads the option at words[*at] and its value, if it has one. *at ends on its last word.
 static int parse_option(command_id command, int count, char **words, int *at, command_line *parsed)
 {
     const char *word = words[*at];
@@ -406,7 +407,7 @@ static void set_defaults(command_id command, command_line *parsed)
 
 static const char *operand_names(command_id command)
 {
-    return command == COMMAND_COMPARE ? "two images, A and B"
+    return command == COMMAND_COMPARE ? "two operands, A and B"
            : command == COMMAND_BENCH ? "one ROOM at most"
                                       : "one SCENE";
 }
@@ -426,11 +427,11 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
                 return code;
             }
         } else if (operands < wanted && words[i][0] == '\0' && command != COMMAND_BENCH) {
-            return usage_error(command, "needs %s; an empty name is none", operand_names(command));
+            return usage_error(command, "needs %s; a name is empty", operand_names(command));
         } else if (operands < wanted) {
             parsed->operands[operands++] = words[i];
         } else {
-            return usage_error(command, "takes %s; what is '%s'?", operand_names(command),
+            return usage_error(command, "takes %s; '%s' is one too many", operand_names(command),
                                words[i]);
         }
     }

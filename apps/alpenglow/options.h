@@ -16,7 +16,7 @@ typedef enum command_id {
     COMMAND_INFO,
     COMMAND_COMPARE,
     COMMAND_BENCH,
-    COMMAND_BUILT_COUNT, // what follows is in the contract and not built yet
+    COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
     COMMAND_PROBES = COMMAND_BUILT_COUNT,
     COMMAND_LPV,
     COMMAND_AMBIENCE,
@@ -111,7 +111,7 @@ typedef enum option_id {
     OPTION_WARNINGS_AS_ERRORS,
     OPTION_QUIET,
     OPTION_FORCE,
-    OPTION_HELP, // seen before all others
+    OPTION_HELP, // has precedence over all others
     OPTION_COUNT,
     OPTION_LATER
 } option_id;
@@ -130,7 +130,7 @@ typedef enum option_group {
 
 typedef enum option_kind {
     KIND_FLAG,   // no value
-    KIND_TEXT,   // anything but nothing
+    KIND_TEXT,   // any text that is not empty
     KIND_CHOICE, // one of `choices`
     KIND_LIST,   // some of `choices`, with commas between
     KIND_WHOLE,  // a whole number in [minimum, maximum], or one of `choices`
@@ -146,16 +146,16 @@ typedef struct option {
     bool repeats;              // may be given several times (KIND_TEXT): command_line.repeated
     const char *name;          // "--size"
     const char *alias;         // a second spelling, or NULL
-    const char *value;         // what its value is called, NULL for a flag
+    const char *value;         // name of its value, NULL for a flag
     const char *choices;       // "auto|keep|charts", or NULL
     const char *later_choices; // choices of the contract that are not built yet, or NULL
     double minimum, maximum;
     const char *unit;    // "metres", or NULL
-    const char *initial; // the value when it is not given, read like a given one; or NULL
-    const char *help;    // for options not built yet: what exists instead
+    const char *initial; // the default, parsed like a given value; or NULL
+    const char *help;    // for options not built yet: the alternative
 } option;
 
-/// What an option was given. A number has choice −1; a list has bit i of `whole` for its choice i.
+/// The value of an option. A number has choice −1; a list has bit i of `whole` for its choice i.
 typedef struct option_value {
     bool given;
     const char *text;
@@ -166,7 +166,7 @@ typedef struct option_value {
 
 enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
 
-/// A command line that was understood.
+/// A parsed command line.
 typedef struct command_line {
     command_id command;
     char **words; // [word_count] as they were given, after the command's name
@@ -186,20 +186,20 @@ typedef struct command_entry {
     const char *summary;
     int operand_count;                         // −n: up to n, none is needed
     int (*run)(const command_line *arguments); // NULL: not built yet
-    const char *help; // paragraph under the synopsis; not built: what exists
+    const char *help; // paragraph under the synopsis; not built: the alternative
 } command_entry;
 
 const command_entry *command_table(void);          ///< [COMMAND_COUNT]
 const option *program_option_table(size_t *count); ///< of alpenglow itself, before any command
 const char *const *builtin_scene_names(size_t *count);
-const char *builtin_scene_settings(void); ///< lines that say which scenes take settings
+const char *builtin_scene_settings(void); ///< lines with the settings of built-in scenes
 const char *option_group_title(option_group group);
 /// The options that a command has, in order: the one after `last`, or the first (NULL).
 /// @return NULL after the last one
 const option *option_after(command_id command, const option *last);
-/// The same of one group.
+/// The same within one group.
 const option *option_next(command_id command, option_group group, const option *last);
-/// How many operands a command takes at most.
+/// Largest number of operands of a command.
 int command_operand_limit(command_id command);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
 bool command_interruptible(command_id command);
@@ -208,14 +208,14 @@ bool command_interruptible(command_id command);
 const option *option_find(command_id command, const char *name, size_t length);
 /// Writes the range of a numeric option, such as "1 to 64 texels, or auto".
 void option_range(const option *option, char *text, size_t size);
-/// Writes "Range 1 to 64 texels. Default 2.", as far as there is something to say, else nothing.
+/// Writes "Range 1 to 64 texels. Default 2.", as far as the option has them.
 void option_facts(const option *option, char *text, size_t size);
-enum { OPTION_FACTS_SIZE = 256 }; ///< what option_facts may need
-/// The known option or command nearest to a misspelt one, or NULL when nothing is near.
+enum { OPTION_FACTS_SIZE = 256 }; ///< size for option_facts
+/// The known option or command nearest to a misspelt one, or NULL if none is near.
 const char *option_nearest(command_id command, const char *name);
 const char *command_nearest(const char *name);
 
-/// Understands what follows the command's name. @return EXIT_DONE, or EXIT_USAGE after a message.
+/// Parses the words after the command's name. @return EXIT_DONE, or EXIT_USAGE after a message.
 int arguments_parse(command_id command, int count, char **words, command_line *parsed);
 
 /// Strict numbers: the whole text, no blanks, no hexadecimal, no NaN, no infinity.
@@ -224,10 +224,10 @@ number_result number_parse_whole(const char *text, uint64_t *number);
 number_result number_parse_size(const char *text, uint64_t *number);
 number_result number_parse_real(const char *text, double *number);
 /// Exactly `count` numbers of at most 1e9 with commas between; a slash ends a list too.
-/// @return where the last one ends, or NULL
+/// @return the end of the last one, or NULL
 const char *number_parse_list(const char *text, double *numbers, int count);
 
-/// Prints "alpenglow COMMAND: message" and where help is, to stderr. @return EXIT_USAGE
+/// Prints "alpenglow COMMAND: message" and a hint to --help, to stderr. @return EXIT_USAGE
 int usage_error(command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 int help_print(void);                       ///< of the whole program, to stdout

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what the contract names and is not built yet.
+// Rows of the table of options: options of the contract that are not built yet.
 #include "option_parts.h"
 
 #define LATER(commands_, name_, value_, instead_)                                                  \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what a picture shows, and how.
+// Rows of the table of options: pictures.
 #include "option_parts.h"
 
 static const option rows[] = {
@@ -11,18 +11,23 @@ static const option rows[] = {
      .value = "reference|radiosity|lightmap|ao|constant|hemisphere|hemicube",
      .choices = "ao|constant|hemisphere|reference|lightmap|radiosity|hemicube",
      .later_choices = "probes|ambience|lpv|cube",
-     .help =
-         "reference: all light by path tracing. radiosity: direct light at each pixel, and what "
-         "surfaces reflect gathered from a radiosity on texels; less noise than reference in "
-         "as many --samples. lightmap: bakes --maps light and shows it as a viewer does, emission "
-         "+ albedo / pi x irradiance, with its texels; the backs of double-sided surfaces show "
-         "their fronts' map. These three see through blended and transmissive surfaces, which "
-         "the others cut at an alpha of one half or take for opaque. ao: accessibility, "
-         "from the scene's occlusion maps, and by rays where it has none. constant: uniform "
-         "light of radiance 1, which shows the albedo: base colour x (1 - metallic), at most "
-         "0.95. hemisphere: the two colours of --sky (without it 1,1,1 above and 0,0,0 below), "
-         "nothing in their way. hemicube: the five faces of half a cube about the camera's place, "
-         "as a texel there sees them that faces the target (--show, --hemicube). Needed."},
+     .help = "Method of rendering, required. The first three see through blended and "
+             "transmissive surfaces; the others cut them at alpha 0.5 or take them as "
+             "opaque.\n"
+             "reference: all light by path tracing.\n"
+             "radiosity: direct light at each pixel, bounced light from a radiosity on "
+             "texels. Less noise than reference at equal --samples.\n"
+             "lightmap: bakes --maps light and displays it like a viewer, emission + "
+             "albedo / pi x irradiance. Backs of double-sided surfaces use the map of "
+             "their fronts.\n"
+             "ao: accessibility from the scene's occlusion maps; by rays for surfaces "
+             "without one.\n"
+             "constant: uniform light of radiance 1, so the albedo, base colour x (1 - "
+             "metallic), at most 0.95.\n"
+             "hemisphere: unoccluded light of the two colours of --sky (default 1,1,1 "
+             "above, 0,0,0 below).\n"
+             "hemicube: the five faces of half a cube at the camera, as a texel there "
+             "sees them if it faces the target (--show, --hemicube)."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -30,10 +35,12 @@ static const option rows[] = {
      .name = "--camera",
      .value = "N|auto|PX,PY,PZ,TX,TY,TZ,VFOV",
      .initial = "0",
-     .help =
-         "Camera of the scene, from 0; or position and target in metres and the vertical "
-         "field of view in degrees, 0.001 to 179. auto (and a scene without cameras): a view of "
-         "everything."},
+     .help = "Camera of the picture.\n"
+             "N: camera of the scene, from 0.\n"
+             "PX,...: position and target in metres, and the vertical field of view in "
+             "degrees, 0.001 to 179.\n"
+             "auto: a view of everything; also the default for a scene without "
+             "cameras."},
     {.id = OPTION_RESOLUTION,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -52,9 +59,9 @@ static const option rows[] = {
      .maximum = 65536,
      .unit = "camera rays per pixel",
      .initial = "16",
-     .help = "More smooth the edges; time grows with N. With reference and radiosity each is a "
-             "path, N is rounded up to a multiple of 16, and the noise falls as 1 over the root of "
-             "N."},
+     .help = "Rays per pixel; more give smoother edges. Time grows with N. For "
+             "reference and radiosity they are paths, rounded up to a multiple of 16, "
+             "with noise of 1 / sqrt(N)."},
     {.id = OPTION_SHOW,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -63,10 +70,13 @@ static const option rows[] = {
      .value = "seen|product|weight|perspective|lambert",
      .choices = "seen|product|weight|perspective|lambert",
      .initial = "seen",
-     .help = "Of --with hemicube. seen: radiance of surfaces and sky, by a radiosity on texels; no "
-             "lamps, which light them. weight: what each pixel counts for, 1 straight ahead. "
-             "product: seen x weight; 4 / (N N) times the sum of its pixels is the irradiance. "
-             "perspective, lambert: the two cosines that weight is made of."},
+     .help = "Picture of --with hemicube.\n"
+             "seen: radiance of surfaces and sky, from a radiosity on texels. Lamps "
+             "are not visible.\n"
+             "product: seen x weight. 4 / (N N) times the sum of its pixels is the "
+             "irradiance.\n"
+             "weight: weight of each pixel, 1 straight ahead.\n"
+             "perspective, lambert: the two cosines in weight."},
     {.id = OPTION_HEMICUBE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -77,8 +87,8 @@ static const option rows[] = {
      .maximum = 1024,
      .unit = "pixels",
      .initial = "256",
-     .help = "Of --with hemicube: edge of its front face, an even number. The picture is the "
-             "unfolded cross of 2 N x 2 N, in the place of --resolution."},
+     .help = "Edge of the front face of --with hemicube, an even number. The picture "
+             "is the unfolded cross of 2 N x 2 N, instead of --resolution."},
     {.id = OPTION_EXPOSURE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -89,10 +99,10 @@ static const option rows[] = {
      .minimum = -64,
      .maximum = 64,
      .unit = "EV",
-     .help = "What a .png shows: values times 2^EV; 0 shows 1 as 1, each +1 is twice as bright. "
-             "auto: the geometric mean of the brightness of pixels that are not black, without "
-             "the darkest and brightest 5 % of them, becomes 18 % grey; the EV used is printed. "
-             "Default 0 for ao, constant and the multipliers of --show, else auto."},
+     .help = "Exposure of a .png: values times 2^EV. Default 0 for ao, constant and "
+             "the weights of --show, else auto.\n"
+             "auto: the geometric mean of the luminance becomes 18 % grey, without "
+             "black pixels and the darkest and brightest 5 %. The EV is printed."},
     {.id = OPTION_TONE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -100,9 +110,12 @@ static const option rows[] = {
      .name = "--tone",
      .value = "film|reinhard|filmic|none",
      .choices = "film|reinhard|filmic|none",
-     .help = "Curve from exposed light L to a .png. film: 1 - e^-L. reinhard: L (1 + L/16) / "
-             "(1 + L), white at 4. filmic: Hable's, more contrast, white at 5.6. none: cut off at "
-             "1. Default none for ao, constant and the multipliers of --show, else film."},
+     .help = "Curve from exposed light L to a .png. Default none for ao, constant and "
+             "the weights of --show, else film.\n"
+             "film: 1 - e^-L\n"
+             "reinhard: L (1 + L/16) / (1 + L), white at 4\n"
+             "filmic: Hable's curve, more contrast, white at 5.6\n"
+             "none: clipped at 1"},
     {.id = OPTION_WHITE_BALANCE,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -114,8 +127,10 @@ static const option rows[] = {
      .maximum = 25000,
      .unit = "kelvin",
      .initial = "off",
-     .help = "Which light is white in a .png. K: light of this colour temperature; low ones make "
-             "the picture bluer. auto: the mean of the picture. off: D65, as it is."},
+     .help = "Light that becomes white in a .png.\n"
+             "K: light of this colour temperature. Low ones make the picture bluer.\n"
+             "auto: the mean of the picture.\n"
+             "off: D65, no change."},
 };
 
 const option_part option_part_picture = {rows, sizeof rows / sizeof *rows};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: of bench, and how a command runs.
+// Rows of the table of options: bench, and the run of a command.
 #include "option_parts.h"
 
 static const option rows[] = {
@@ -8,22 +8,23 @@ static const option rows[] = {
      .group = GROUP_WHAT,
      .kind = KIND_FLAG,
      .name = "--quick",
-     .help =
-         "Small sizes and one round, in a second: shows that it runs. The figures mean nothing."},
+     .help = "Small sizes and one round, for a test of the program. The figures have "
+             "no meaning."},
     {.id = OPTION_BENCH_SCENE,
      .commands = IN_BENCH,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--scene",
      .value = "SCENE",
-     .help = "This scene in the place of those that the benches bring, which are built-in ones and "
-             "hills:N, a field of hills of N triangles."},
+     .help = "Scene to measure, instead of those of each bench. Built-in scenes "
+             "include hills:N, a field of hills of N triangles."},
     {.id = OPTION_MARKDOWN,
      .commands = IN_BENCH,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "--markdown",
-     .help = "Tables as Markdown, with what they show, as in docs/measured/speed.md."},
+     .help = "Print tables as Markdown with their captions, as in "
+             "docs/measured/speed.md."},
 
     {.id = OPTION_SEED,
      .commands = RAY_COMMANDS,
@@ -34,8 +35,8 @@ static const option rows[] = {
      .minimum = 0,
      .maximum = 9007199254740992.0,
      .initial = "0",
-     .help = "Another seed gives other noise of the same size. The same seed gives the same bits "
-             "with any number of threads."},
+     .help = "Seed of the noise. The same seed gives the same bits for any number of "
+             "threads."},
     {.id = OPTION_THREADS,
      .commands = RAY_COMMANDS,
      .group = GROUP_RUN,
@@ -46,7 +47,8 @@ static const option rows[] = {
      .minimum = 1,
      .maximum = 1024,
      .initial = "auto",
-     .help = "auto: one per core. Changes the time and never the result."},
+     .help = "Number of threads, which changes the time and never the result. auto: "
+             "one per core."},
     {.id = OPTION_PROGRESS,
      .commands = RAY_COMMANDS,
      .group = GROUP_RUN,
@@ -55,8 +57,11 @@ static const option rows[] = {
      .value = "auto|plain|json|off",
      .choices = "auto|plain|json|off",
      .initial = "auto",
-     .help = "On standard error. auto: one updating line on a terminal, else a line every 5 "
-             "seconds. plain: a line at every stage and every 5 seconds. json: one object a line."},
+     .help = "Progress on standard error.\n"
+             "auto: one updating line on a terminal, else a line every 5 seconds.\n"
+             "plain: a line at every stage and every 5 seconds.\n"
+             "json: one object a line.\n"
+             "off: none."},
     {.id = OPTION_WARNINGS_AS_ERRORS,
      .commands = RAY_COMMANDS,
      .group = GROUP_RUN,
@@ -69,8 +74,8 @@ static const option rows[] = {
      .kind = KIND_FLAG,
      .name = "-q",
      .alias = "--quiet",
-     .help = "No summary, no notes, no progress. Warnings and errors stay, and so does what info "
-             "and compare are asked for."},
+     .help = "No summary, notes or progress. Warnings and errors stay, and so do the "
+             "results of info and compare."},
 
     {.id = OPTION_HELP,
      .commands = SCENE_COMMANDS | IN_COMPARE | IN_BENCH,
@@ -78,7 +83,7 @@ static const option rows[] = {
      .kind = KIND_FLAG,
      .name = "-h",
      .alias = "--help",
-     .help = "Print this."},
+     .help = "Print this help."},
 };
 
 const option_part option_part_run = {rows, sizeof rows / sizeof *rows};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: how well a bake is done, and what ends it.
+// Rows of the table of options: quality and limits.
 #include "option_parts.h"
 
 static const option rows[] = {
@@ -10,7 +10,7 @@ static const option rows[] = {
      .name = "--quality",
      .value = "preview|medium|high",
      .choices = "preview|medium|high",
-     .help = "The same as --error 4, 1 or 0.4."},
+     .help = "Preset of --error: preview is 4, medium is 1, high is 0.4."},
     {.id = OPTION_ERROR,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -20,12 +20,12 @@ static const option rows[] = {
      .minimum = 0.01,
      .maximum = 100.0,
      .unit = "percent",
-     .help = "Bake in rounds of more and more rays until the stated error (root mean square of the "
-             "standard errors, over the mean of the map) is at most this, and its 99th percentile "
-             "at most four times this. --ao-samples is then the most rays a texel may get, 65536 "
-             "when it is not given. Half the error takes about 2.7 times the rays. Light that "
-             "bounces, gathered by rays, is held to both too, and goes for 1 percent with neither "
-             "this nor --samples; half the error takes four times the rays."},
+     .help = "Wanted error: root mean square of the standard errors over the mean of "
+             "the map. Rounds of more and more rays run until it is reached and the "
+             "99th percentile is at most four times it. --ao-samples is then the limit "
+             "of rays per texel, default 65536. Half the error takes about 2.7 times "
+             "the rays of occlusion, and four times those of light. Light by --gather "
+             "rays has a default of 1, unless --samples is given."},
     {.id = OPTION_TIME_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -35,11 +35,12 @@ static const option rows[] = {
      .minimum = 0.001,
      .maximum = 1e9,
      .unit = "seconds",
-     .help = "End sampling after this time with what there is. Such a bake is not reproducible, "
-             "says so, and states the error it has. Light keeps the rounds that were whole; "
-             "with occlusion it has half of the time, and what occlusion leaves. Without --error "
-             "it uses all of it. Not with --ao-bleed, nor with light by hemicubes, by paths or "
-             "without bounces, which are baked in one go."},
+     .help = "End sampling after this time, with the results so far. The bake states "
+             "its error, and that it is not reproducible. Light keeps complete rounds; "
+             "with occlusion it has half of the time, and the rest that occlusion "
+             "leaves. Without --error all of the time is used. Not with --ao-bleed, "
+             "light by hemicubes or paths, or light without bounces, which have no "
+             "rounds."},
     {.id = OPTION_MEMORY_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -49,10 +50,10 @@ static const option rows[] = {
      .minimum = 1048576.0,
      .maximum = 1e15,
      .unit = "bytes; K, M and G stand for 1024, 1024^2 and 1024^3",
-     .help =
-         "Refuse a bake whose maps need more than this, before its rays are sent. The scene and "
-         "the ray tracer's structure are not counted. Without it: nine tenths of the machine's. "
-         "Light keeps the rays of its passes in what is left, else it traces them again."},
+     .help = "Refuse a bake whose maps need more memory, before any rays are traced. "
+             "The scene and the ray tracer's structure do not count. Default: nine "
+             "tenths of the machine's memory. Light keeps the rays of its passes in "
+             "the rest, or traces them again."},
     {.id = OPTION_ADAPTIVE,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -63,12 +64,13 @@ static const option rows[] = {
      .maximum = 0.9999,
      .choices = "auto|off",
      .initial = "auto",
-     .help =
-         "Which texels are interpolated instead of traced. auto: those between traced ones that "
-         "agree within their noise; no error is added that the noise does not hide. A number: "
-         "those whose neighbours d texels apart differ by no more than 1 - A^d; 0.5 is a draft, "
-         "0.98 careful. off: none. Of light it is bounced light that is interpolated, by auto for "
-         "any number."},
+     .help = "Interpolation of texels between traced ones; for light, of bounced "
+             "light.\n"
+             "auto: if the traced ones agree within their noise, so that the added "
+             "error is below the noise.\n"
+             "A: if traced texels d texels apart differ by at most 1 - A^d. 0.5 is a "
+             "draft, 0.98 careful. For light the same as auto.\n"
+             "off: every texel is traced."},
     {.id = OPTION_STITCH,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
@@ -77,17 +79,19 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "on",
-     .help = "on: values beside seams are moved by least squares until both sides show the same, "
-             "across charts and from one object to the next where they touch and their normals "
-             "agree. Those of noisy texels are moved first; away from seams nothing changes. off: "
-             "the steps at seams are told alone."},
+     .help = "Agreement of both sides of a seam.\n"
+             "on: values beside seams change by least squares until both sides agree, "
+             "across charts and touching objects with equal normals. Noisy texels "
+             "change most; away from seams nothing changes.\n"
+             "off: the steps at seams are only reported."},
     {.id = OPTION_KEEP_PARTIAL,
      .commands = IN_BAKE,
      .group = GROUP_STOP,
      .kind = KIND_FLAG,
      .name = "--keep-partial",
-     .help = "Ctrl-C ends sampling and writes what there is, instead of nothing; exit code 130. "
-             "Light has nothing before its first round is whole, and is not denoised any more."},
+     .help = "Write the results so far at Ctrl-C, instead of nothing; exit status 130. "
+             "Light has no result before its first round ends, and is then not "
+             "denoised."},
 };
 
 const option_part option_part_stop = {rows, sizeof rows / sizeof *rows};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the table of options: what is baked, or compared.
+// Rows of the table of options: scene, atlas and comparison.
 #include "option_parts.h"
 
 static const option rows[] = {
@@ -13,7 +13,7 @@ static const option rows[] = {
      .maximum = 16384,
      .unit = "texels",
      .initial = "1024",
-     .help = "Side of a page of the atlas. Time and memory grow with its square."},
+     .help = "Side of an atlas page. Time and memory grow with its square."},
     {.id = OPTION_SIZE,
      .commands = IN_RENDER,
      .group = GROUP_LIGHT,
@@ -24,9 +24,8 @@ static const option rows[] = {
      .maximum = 16384,
      .unit = "texels",
      .initial = "512",
-     .help = "Of --with lightmap, radiosity and hemicube: side of a page of the atlas. Time and "
-             "memory grow "
-             "with its square."},
+     .help = "Side of an atlas page, for --with lightmap, radiosity and hemicube. Time "
+             "and memory grow with its square."},
     {.id = OPTION_TEXELS_PER_METRE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -38,8 +37,8 @@ static const option rows[] = {
      .maximum = 1e6,
      .unit = "texels per metre",
      .initial = "auto",
-     .help = "Density of the map; pages are added as needed. auto: the highest density at which "
-             "all fits one page. Time grows with its square."},
+     .help = "Texel density; pages are added as needed. Time grows with its square.\n"
+             "auto: the highest density at which everything fits on one page."},
     {.id = OPTION_ATLAS,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -48,13 +47,15 @@ static const option rows[] = {
      .value = "auto|keep|charts|vertex|blend",
      .choices = "auto|keep|charts|vertex|blend",
      .initial = "auto",
-     .help = "keep: use the scene's second UV set, which must lie in range and not overlap. "
-             "charts: unwrap anew. auto: keep where it is valid, else charts. vertex: no map, but "
-             "a value at each vertex, the best for linear interpolation over its triangles; "
-             "options of maps, of their error and of stopping have no meaning then and are "
-             "refused. Warns where triangles are too large for it. blend: charts that overlap "
-             "and three coordinate sets, for a shader that blends them by the normal and shows no "
-             "seams (docs/manual/blend.md)."},
+     .help = "Layout of the maps.\n"
+             "auto: keep if the second UV set is valid, else charts.\n"
+             "keep: the scene's second UV set, inside [0, 1] and without overlaps.\n"
+             "charts: new charts.\n"
+             "vertex: no map, but a value at each vertex, fitted for linear "
+             "interpolation over the triangles. Warns of triangles that are too large "
+             "for it. Options of maps, errors and limits are refused.\n"
+             "blend: overlapping charts in three coordinate sets, for a shader that "
+             "blends them by the normal, without seams (docs/manual/blend.md)."},
     {.id = OPTION_ATLAS,
      .commands = IN_RENDER,
      .group = GROUP_WHAT,
@@ -63,8 +64,8 @@ static const option rows[] = {
      .value = "auto|keep|charts|blend|average",
      .choices = "auto|keep|charts|blend|average",
      .initial = "auto",
-     .help = "Of --with lightmap: the map's layout, as in bake. average: the charts of blend, each "
-             "that a triangle is in counting alike, for comparison."},
+     .help = "Layout of the map, for --with lightmap, as in bake.\n"
+             "average: the charts of blend with equal weights, for comparison."},
     {.id = OPTION_STITCH,
      .commands = IN_RENDER,
      .group = GROUP_WHAT,
@@ -73,7 +74,7 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "on",
-     .help = "Of --with lightmap: whether the map is stitched, as in bake."},
+     .help = "Stitch the map at its seams, for --with lightmap, as in bake."},
     {.id = OPTION_VERTEX_ATTRIBUTE,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -82,10 +83,10 @@ static const option rows[] = {
      .value = "color|occlusion",
      .choices = "color|occlusion",
      .initial = "color",
-     .help = "Where --atlas vertex writes its values, 16 bits. color: COLOR_0, which viewers "
-             "multiply into the base colour; colours that are there already are multiplied, "
-             "alpha stays. occlusion: the attribute _OCCLUSION, for shaders that read it; "
-             "COLOR_0 stays as it is."},
+     .help = "Attribute for the values of --atlas vertex, 16 bits.\n"
+             "color: COLOR_0, which viewers multiply into the base colour. Colours "
+             "already there are multiplied; alpha stays.\n"
+             "occlusion: _OCCLUSION, for custom shaders. COLOR_0 stays."},
     {.id = OPTION_PADDING,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -96,8 +97,9 @@ static const option rows[] = {
      .maximum = 64,
      .unit = "texels",
      .initial = "2",
-     .help = "Free texels between neighbouring charts, filled with the nearest value. More keeps "
-             "smaller mip levels clean, and leaves less of the page for charts."},
+     .help = "Free texels between neighbouring charts, filled with the nearest value. "
+             "More keeps smaller mip levels clean, and leaves less of the page for "
+             "charts."},
     {.id = OPTION_BLOCK,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -108,8 +110,8 @@ static const option rows[] = {
      .maximum = 64,
      .unit = "texels",
      .initial = "1",
-     .help = "No block of N x N texels holds two charts, so that compressed textures keep them "
-             "apart: 4 for BC and ETC, 4 to 12 for ASTC. Makes new charts."},
+     .help = "Side of a block of texture compression. No block of N x N texels holds "
+             "two charts. Use 4 for BC and ETC, 4 to 12 for ASTC. Makes new charts."},
     {.id = OPTION_MIPS,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
@@ -120,54 +122,55 @@ static const option rows[] = {
      .maximum = 8,
      .unit = "levels",
      .initial = "0",
-     .help = "Keep charts so far apart that bilinear look-ups at the first N mip levels read no "
-             "texel of another chart; --size must be a multiple of 2^N. Makes new charts."},
+     .help = "Mip levels to keep clean. Bilinear reads at the first N levels take no "
+             "texel of another chart. --size must be a multiple of 2^N. Makes new "
+             "charts."},
     {.id = OPTION_DENSITY,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--density",
      .value = "GLOB=FACTOR",
-     .help =
-         "Surfaces with more texels per metre than others, or fewer: patterns of names as in "
-         "--only, or material:GLOB for names of materials, each with its factor in "
-         "[0.001, 1000]; several with commas between, whose factors are multiplied, the product in "
-         "the same range. Makes new charts."},
+     .help = "Factors on the texel density of surfaces, in [0.001, 1000]. GLOB is a "
+             "pattern of names as in --only, or material:GLOB for names of materials. "
+             "Put commas between several. Factors of all matches are multiplied, in "
+             "the same range. Makes new charts."},
     {.id = OPTION_ONLY,
      .commands = IN_BAKE,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--only",
      .value = "GLOB",
-     .help =
-         "Bake only the surfaces whose node's name matches (its mesh's, where it has none; info "
-         "lists them): * any characters, ? one, [a-z] one of these, [!a-z] one that is not; "
-         "several patterns with commas between, and \\ before a comma or another sign that is "
-         "meant. Each must match something. All other surfaces come out as they were, and "
-         "still occlude. Not with --atlas vertex."},
+     .help = "Bake only surfaces whose name matches. A surface has the name of its "
+             "node, else of its mesh; info lists them. * is any characters, ? one, "
+             "[a-z] one of a set, [!a-z] one outside it. Put commas between patterns; "
+             "\\ makes the next character literal. Each pattern must match. Other "
+             "surfaces are written unchanged and still occlude. Not with --atlas "
+             "vertex."},
     {.id = OPTION_OCCLUDERS,
      .commands = RAY_COMMANDS,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--occluders",
      .value = "GLOB",
-     .help = "Only surfaces whose name matches occlude, patterns as in bake --only; rays pass all "
-             "others."},
+     .help = "Only surfaces whose name matches occlude; rays pass all others. Patterns "
+             "as in bake --only."},
     {.id = OPTION_SCENE,
      .commands = SCENE_COMMANDS,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--scene",
      .value = "N|NAME",
-     .help = "Which scene of a .gltf or .glb that holds several: its number from 0, or its name. "
-             "Without it the one that viewers show first."},
+     .help = "Scene of a .gltf or .glb that holds several: its number from 0, or its "
+             "name. Default: the scene that viewers open first."},
     {.id = OPTION_ALLOW_OUTSIDE,
      .commands = SCENE_COMMANDS,
      .group = GROUP_WHAT,
      .kind = KIND_FLAG,
      .name = "--allow-outside",
-     .help = "SCENE may name buffers, pictures and materials anywhere: by \"..\", absolute paths "
-             "and file: addresses. Without it only what lies below its own folder is read."},
+     .help = "Allow SCENE to name files outside its own folder: by \"..\", absolute "
+             "paths and file: addresses. Default: only files below its folder are "
+             "read."},
     {.id = OPTION_SCALE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -177,7 +180,7 @@ static const option rows[] = {
      .minimum = -1e9,
      .maximum = 1e9,
      .initial = "1",
-     .help = "Multiply A by S first."},
+     .help = "Factor on A before the comparison."},
     {.id = OPTION_MAX_RMSE,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -186,8 +189,8 @@ static const option rows[] = {
      .value = "X",
      .minimum = 0,
      .maximum = 1e9,
-     .help = "Exit with 1 when rmse is above X, or when no pixel (of scenes: point) is covered in "
-             "both."},
+     .help = "Exit with 1 if rmse is above X. Also if no pixel, or no point of two "
+             "scenes, is covered in both."},
     {.id = OPTION_MAP,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -195,11 +198,11 @@ static const option rows[] = {
      .name = "--map",
      .value = "ao|light",
      .choices = "ao|light",
-     .help =
-         "Of two scenes: which map. ao: what occlusion textures say. light: MOZ_lightmap or the "
-         "file of extras.lightmap (.exr, .hdr), times its intensity, else what materials with "
-         "an emission texture emit; each as the file has it (--units). Without it ao where "
-         "both have it, else light."},
+     .help = "Map to compare, for two scenes. Default: ao if both have it, else light.\n"
+             "ao: the occlusion textures.\n"
+             "light: MOZ_lightmap or the file of extras.lightmap (.exr, .hdr), times "
+             "its intensity; else the emission of materials with an emission texture. "
+             "In the units of the file (--units)."},
     {.id = OPTION_POINTS,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,
@@ -209,8 +212,8 @@ static const option rows[] = {
      .minimum = 1,
      .maximum = 16777216,
      .initial = "262144",
-     .help = "Of two scenes: at how many places of the surface they are read, each of the same "
-             "area."},
+     .help = "Number of points to compare, for two scenes. Each stands for an equal "
+             "area of the surface."},
 };
 
 const option_part option_part_what = {rows, sizeof rows / sizeof *rows};

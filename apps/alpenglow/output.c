@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that the command itself writes: checked before the work, complete or not there after it.
+// Files that the command itself writes: checked before the work, written completely or not at all.
 #include "output.h"
 
 #include "messages.h"
@@ -46,7 +46,7 @@ static char *folder_of(const char *path)
     return folder;
 }
 
-/// What the link `path` names, malloc'ed; NULL with errno.
+/// Target of the link `path`, malloc'ed; NULL with errno.
 static char *read_link(const char *path)
 {
     char text[LINK_SIZE];
@@ -66,7 +66,8 @@ static char *read_link(const char *path)
     return target;
 }
 
-/// Follows links from `path` to what is none, there or not; malloc'ed. NULL with errno.
+/// Follows links from `path` to the first that is not a link, existing or not; malloc'ed. NULL with
+/// errno.
 static char *follow_links(const char *path)
 {
     struct stat about;
@@ -110,7 +111,7 @@ int output_check(const char *path, bool overwrite)
             return fail_path(path, "exists already and would be overwritten; force it (-f) or name "
                                    "another file");
         }
-        if (!S_ISREG(about.st_mode)) { // a rename would put a file in the place of a device
+        if (!S_ISREG(about.st_mode)) { // a rename would replace a device by a file
             return fail_path(path, "is not an ordinary file");
         }
     } else if (errno == ENAMETOOLONG) {
@@ -163,7 +164,7 @@ static bool write_all(FILE *file, const char *text)
     return fclose(file) == 0 && good;
 }
 
-/// @param path as it was given; `end` is where that leads
+/// @param path as given; `end` is the target of its links
 static int write_beside(const char *text, const char *path, const char *end, const char *temporary)
 {
     int descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -184,7 +185,7 @@ static int write_beside(const char *text, const char *path, const char *end, con
     return EXIT_DONE;
 }
 
-/// A link stays: the file that it names is written.
+/// A link stays: its target is written.
 static int write_and_rename(const char *text, const char *path)
 {
     char *end = follow_links(path);
@@ -211,7 +212,7 @@ int output_write_json(const json_t *document, const char *path, bool overwrite)
     if (text == NULL) {
         return failure("out of memory");
     }
-    if (output_is_stdout(path)) { // whether it got there is seen when the command ends
+    if (output_is_stdout(path)) { // main checks the stream at the end
         puts(text);
     } else {
         code = write_and_rename(text, path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that the command itself writes: checked before the work, complete or not there after it.
+// Files that the command itself writes: checked before the work, written completely or not at all.
 #ifndef COMMAND_OUTPUT_H
 #define COMMAND_OUTPUT_H
 
@@ -24,15 +24,15 @@ bool output_is_same(const char *a, const char *b);
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int output_write_json(const json_t *document, const char *path, bool overwrite);
 
-/// A JSON number, null where it is not finite. A JSON text, '?' for bytes that are not UTF-8.
+/// A JSON number, null if it is not finite. A JSON text, '?' for bytes that are not UTF-8.
 json_t *json_number(double number);
 json_t *json_text(const char *text);
-/// How documents are written: "key": value, 2 blanks a level, 9 digits.
+/// Style of documents: "key": value, 2 blanks a level, 9 digits.
 enum { JSON_STYLE = JSON_INDENT(2) | JSON_REAL_PRECISION(9) };
 
-/// A guess or a measure with two digits that count: "110", "0.0012"; by %g.
+/// A number with two significant digits: "110", "0.0012"; by %g.
 double two_digits(double value);
-/// A share as percent with two digits: "1.2 %", "110 %"; "under 0.001 %" for what nobody sees.
+/// A share as percent with two digits: "1.2 %", "110 %"; "under 0.001 %" for less.
 void print_percent(FILE *stream, double share);
 
 /// Whether the path ends so, in any case of letters.

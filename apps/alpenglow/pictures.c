@@ -60,7 +60,7 @@ int pictures_write(session *s, const alp_diagnosis *diagnosis, const command_lin
         return EXIT_DONE;
     }
     int code = make_folder(folder);
-    for (int pass = 0; pass < 2; pass++) { // nothing is drawn before all may be written
+    for (int pass = 0; pass < 2; pass++) { // all are checked before any is drawn
         for (uint32_t i = 0; i < count && code == EXIT_DONE; i++) {
             char *path = make_path(folder, alp_diagnosis_picture_name(diagnosis, i));
             if (pass == 0) {

@@ -7,8 +7,8 @@
 
 #include <jansson.h>
 
-/// Writes the pictures of a diagnosis into the folder that was asked for, which is made if missing;
-/// does nothing where none was.
+/// Writes the pictures of a diagnosis into the folder of --pictures, which is made if missing. Does
+/// nothing without the option.
 /// @param paths out: [path]; the caller's, also after a failure
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int pictures_write(session *s, const alp_diagnosis *diagnosis, const command_line *arguments,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far long work is, shown on standard error.
+// Progress of long work, on standard error.
 #include "progress.h"
 
 #include <jansson.h>
@@ -49,7 +49,7 @@ static void format_line(const alp_progress *state, char *text, size_t size)
     }
     format_time_left(state->seconds_left, left, sizeof left);
     if (state->total > 0) {
-        // Rounded down, so that 100 % is only said when all is done.
+        // Rounded down, so that 100 % is printed only at the end.
         double share = (double)state->done / (double)state->total;
         unsigned percent = share >= 1.0 ? 100 : (unsigned)(100.0 * share);
         snprintf(text, size, "%s %3u %%%s%s", state->stage, percent, speed, left);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far long work is, shown on standard error.
+// Progress of long work, on standard error.
 #ifndef COMMAND_PROGRESS_H
 #define COMMAND_PROGRESS_H
 
@@ -7,8 +7,8 @@
 
 /// In the order of the choices of --progress.
 typedef enum progress_mode {
-    PROGRESS_AUTO,  // a line that is written over on a terminal, else one now and then
-    PROGRESS_PLAIN, // one at every stage, and now and then
+    PROGRESS_AUTO,  // one updating line on a terminal, else a line at intervals
+    PROGRESS_PLAIN, // a line at every stage and at intervals
     PROGRESS_JSON,
     PROGRESS_OFF
 } progress_mode;
@@ -18,7 +18,7 @@ typedef struct progress_display {
     bool terminal;   // AUTO: the line is written over
     bool line_open;  // the terminal's line holds text
     double interval; // seconds between two lines
-    double last;     // when something was shown, seconds
+    double last;     // time of the last line, seconds
     char stage[32];
 } progress_display;
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Bounds in texture coordinates of what one surface has on one page.
+/// Bounds of one surface on one page, in texture coordinates.
 typedef struct rectangle {
     bool used;
     float u0, v0, u1, v1;
@@ -43,7 +43,7 @@ static void add_surface(json_t *objects, const alp_atlas *atlas, const alp_surfa
     alp_atlas_info info = alp_atlas_get_info(atlas);
     const float *uvs = alp_atlas_corner_uvs(atlas);
     const uint32_t *triangle_pages = alp_atlas_triangle_pages(atlas);
-    // Charts go into the first free set; keep uses the second that is there.
+    // Charts go into the first free set; keep uses the second set.
     uint32_t uv_set = info.mode == ALP_ATLAS_KEEP ? 1 : surface->uv_sets;
     uint32_t first = info.pages, last = 0;
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
@@ -62,7 +62,7 @@ static void add_surface(json_t *objects, const alp_atlas *atlas, const alp_surfa
     }
 }
 
-/// Without an atlas: how many values each surface has.
+/// Without an atlas: number of values of each surface.
 static json_t *make_vertex_objects(const alp_scene *scene, const alp_lightmap *lightmap)
 {
     json_t *objects = json_array();
@@ -141,7 +141,7 @@ static json_t *make_seconds(const alp_bake_report *r, double load)
                      json_number(r->seconds_write), "total", json_number(load + r->seconds_total));
 }
 
-/// Texels by how they got their value, and whether sampling came to its end.
+/// Texels by the source of their value, and whether sampling was completed.
 static json_t *make_sampling(const alp_bake_report *r)
 {
     return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:b}", "samples", (json_int_t)r->ao_samples,
@@ -160,7 +160,7 @@ static json_t *make_layers(const alp_lightmap *lightmap)
     return names;
 }
 
-/// Where the light goes, in W.
+/// Energy balance of the light, in W.
 static json_t *make_energy(const alp_light_energy *e)
 {
     return json_pack("{s:o, s:o, s:o, s:o, s:o}", "emitted", json_number(e->emitted), "absorbed",
@@ -187,7 +187,7 @@ static json_t *make_light(const alp_bake_report *r)
     return light;
 }
 
-/// @param noise the map's stated error, over its mean, which seams stand beside; not finite: null
+/// @param noise the map's stated error over its mean, for comparison; not finite: null
 static void add_seam_error(json_t *maps, const char *map, bool stitched, const alp_seam_error *e,
                            double noise)
 {
@@ -203,7 +203,7 @@ static void add_seam_error(json_t *maps, const char *map, bool stitched, const a
     json_object_set_new(maps, map, object);
 }
 
-/// How far the sides of seams are apart, over the mean of each map.
+/// Difference across seams, over the mean of each map.
 static json_t *make_seams(const alp_bake_report *r)
 {
     json_t *maps = json_object();
@@ -224,7 +224,7 @@ static json_t *make_seams(const alp_bake_report *r)
 json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                     const alp_diagnosis *diagnosis)
 {
-    // 64 bits do not survive readers that keep numbers as doubles, so the hash is text.
+    // Readers that keep numbers as doubles lose bits of 64, so the hash is text.
     char hash[24];
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)r->input_hash);
     json_t *document = json_pack(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The --report page of a bake: what the command knows about it, for the library to lay out.
+// The --report page of a bake: collects its contents for the library.
 #include "report_page.h"
 
 #include "output.h"
@@ -19,13 +19,13 @@ int report_page_check(const command_line *a)
     const char *json = a->values[OPTION_JSON].text;
     const bool is_json = json != NULL && output_is_same(path, json);
     if (is_json || output_is_same(path, a->operands[0])) {
-        return usage_error(COMMAND_BAKE, "--report %s: is the name of %s too; give another", path,
+        return usage_error(COMMAND_BAKE, "--report %s: %s has the same name; give another", path,
                            is_json ? "--json" : "SCENE");
     }
     return output_check(path, a->values[OPTION_FORCE].given);
 }
 
-/// How a shell would take one word. `text` has room for four times its length and two more.
+/// Quotes one word for a shell. `text` has room for four times its length and two more.
 static size_t quote(const char *word, char *text)
 {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"

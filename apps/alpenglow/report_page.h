@@ -5,7 +5,7 @@
 
 #include "session.h"
 
-/// Whether the page can be written, before long work; it must not take the place of the scene.
+/// Checks before long work that the page can be written; it must not overwrite the scene.
 /// @return EXIT_DONE, or EXIT_USAGE or EXIT_FAILED after a message
 int report_page_check(const command_line *arguments);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every command that loads a scene has: context, messages, progress, and how it ends.
+// Session of a command that loads a scene: context, messages, progress, exit code.
 #include "session.h"
 
 #include "interrupt.h"
@@ -80,7 +80,7 @@ int session_end(session *s, alp_result result)
 
 int session_judge_warnings(const session *s)
 {
-    return has_failed_by_warning(s) ? failure("a warning is an error (--warnings-as-errors)")
+    return has_failed_by_warning(s) ? failure("stopped at a warning (--warnings-as-errors)")
                                     : EXIT_DONE;
 }
 

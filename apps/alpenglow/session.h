@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every command that loads a scene has: context, messages, progress, and how it ends.
+// Session of a command that loads a scene: context, messages, progress, exit code.
 #ifndef COMMAND_SESSION_H
 #define COMMAND_SESSION_H
 
@@ -18,20 +18,20 @@ typedef struct session {
     double load_seconds;
 } session;
 
-/// Makes the context that the arguments ask for. `s` must stay where it is.
+/// Makes the context of the arguments. `s` must not move in memory.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
 int session_open(session *s, const command_line *arguments);
-/// Loads operand 0, of it what --scene says. @return EXIT_DONE, or EXIT_FAILED after a message
+/// Loads operand 0, or its scene of --scene. @return EXIT_DONE, or EXIT_FAILED after a message
 int session_load(session *s, const command_line *arguments);
 void session_close(session *s);
 
 /// An alp_progress_fn; `user` is a session. False on Ctrl-C, and on a warning that is an error.
 bool session_progress(void *user, const alp_progress *state);
 
-/// Prints why a call failed. @return the exit code that the result stands for
+/// Prints the message of a failed call. @return the exit code of the result
 int session_end(session *s, alp_result result);
 
-/// Whether a warning makes the command fail; says so if it does.
+/// Whether a warning makes the command fail; prints a message if so.
 int session_judge_warnings(const session *s);
 
 /// The --ao-… options. @return EXIT_DONE, or EXIT_USAGE after a message

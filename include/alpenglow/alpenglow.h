@@ -12,6 +12,7 @@
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
+#include <alpenglow/lightmap.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/render.h>
 #include <alpenglow/report.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An atlas: which texel of which page belongs to which point of which triangle.
+// An atlas: the map from points of triangles to texels of pages.
 #ifndef ALPENGLOW_ATLAS_H
 #define ALPENGLOW_ATLAS_H
 
@@ -8,85 +8,95 @@
 
 ALP_BEGIN_DECLS
 
+/// An atlas. Opaque; made by alp_atlas_create.
 typedef struct alp_atlas alp_atlas;
 
 typedef enum alp_atlas_mode {
-    ALP_ATLAS_AUTO = 0, ///< keep a valid second UV set, else (and where block, mips or densities
-                        ///< ask for them) charts
-    ALP_ATLAS_KEEP =
-        1, ///< the scene's second UV set (TEXCOORD_1); an error when it cannot hold a bake
-    ALP_ATLAS_CHARTS = 2, ///< new charts, packed into pages
-    /// No pages: values at the vertices. alp_bake only; the other atlas options have no meaning.
+    /// KEEP if the second UV set can hold a bake, and `block`, `mips` and `densities` are default;
+    /// else CHARTS.
+    ALP_ATLAS_AUTO = 0,
+    /// The scene's second UV set (TEXCOORD_1); an error if it cannot hold a bake. Not with
+    /// `block`, `mips` and `densities`.
+    ALP_ATLAS_KEEP = 1,
+    /// New charts, packed into pages.
+    ALP_ATLAS_CHARTS = 2,
+    /// No pages: values at the vertices. alp_bake only; the other atlas options are ignored.
     ALP_ATLAS_VERTEX = 3,
-    /// Overlapping charts and three coordinate sets, one for each axis of the object (of the world,
-    /// where the scene or what is written has no objects): set k has the triangles whose normals
-    /// have a part of axis k, up to 87° from it, projected along it. A shader reads all three and
-    /// adds them up weighted by the squares of the unit normal's components, which sum to 1
+    /// Overlapping charts in three coordinate sets, one for each axis of the object. If the scene
+    /// or the output has no objects, they are axes of the world. Set k holds the triangles whose
+    /// normals are up to 87° from axis k, projected along it. A shader reads all three sets and
+    /// blends them by the squares of the unit normal's components, which sum to 1:
     ///
     ///     value = Σ_k n_k² · L(uv_k),   n = the interpolated normal in the object's frame, unit
     ///
-    /// so that a chart is seen least where it ends. Where a triangle is none of set k it has there
-    /// the coordinates of its strongest axis: each set alone is a map of everything, with seams.
-    /// Texels: up to three halves of those of CHARTS. KEEP's and CHARTS' max_angle is not read.
+    /// So a chart has least weight at its border. A triangle that is not in set k has the
+    /// coordinates of its strongest axis there. Each set alone is thus a complete map, with seams.
+    /// It takes up to 1.5 times the texels of CHARTS. `max_angle` is ignored.
     /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
     /// 2007, chapters 5.4, 7.3 and 7.5.
     ALP_ATLAS_BLEND = 4
 } alp_atlas_mode;
 
-/// How the three values of ALP_ATLAS_BLEND become one.
+/// Weights of the three values of ALP_ATLAS_BLEND.
 typedef enum alp_blend {
-    ALP_BLEND_NORMAL = 0, ///< by the squares of the normal's components (default)
-    ALP_BLEND_AVERAGE = 1 ///< each chart that the triangle is in counts alike: for comparison, it
-                          ///< shows steps where charts end
+    ALP_BLEND_NORMAL = 0, ///< the squares of the normal's components (default)
+    ALP_BLEND_AVERAGE = 1 ///< equal for each chart that the triangle is in. For comparison only:
+                          ///< steps appear at the borders of charts.
 } alp_blend;
 
 typedef struct alp_atlas_options {
     size_t struct_size;
     alp_atlas_mode mode;
     uint32_t size; ///< side of a page in texels, [1, 16384]; default 1024
-    /// Texel density; 0 (default) = the highest at which all fits one page. Charts larger than a
-    /// page are cut, and where less than 3/4 of several pages is used and cuts save one, others.
+    /// Texel density; 0 (default) = the highest at which everything fits on one page. Charts larger
+    /// than a page are cut. If less than 3/4 of several pages is used and cuts save a page, other
+    /// charts are cut too.
     double texels_per_metre;
     uint32_t padding; ///< free texels between neighbouring charts, [0, 64]; default 2
-    /// Radians between a triangle and the plane that it is projected on, (0, 1.2]; default π/4.
-    /// Below 0.35 charts stay as they are projected; else those that meet where the surface is
-    /// smooth, and tiny ones, are merged and unfolded together.
+    /// Largest angle between a triangle and the plane of its projection, radians, (0, 1.2]; default
+    /// π/4. At 0.35 or more, charts that meet on smooth surface, and tiny ones, are merged and
+    /// unfolded together. Below 0.35 they stay as projected. KEEP ignores it.
     float max_angle;
     alp_progress_fn *progress;
     void *progress_user;
-    /// Side of the blocks of a texture compression, [1, 64]; default 1: none. No block of
-    /// block × block texels, counted from the corner of a page, holds texels of two charts: their
-    /// colours never share a block's palette. 4 for BC and ETC, 4 to 12 for ASTC.
+    /// Side of a block of texture compression in texels, [1, 64]; default 1: none. No block,
+    /// counted from the corner of a page, holds texels of two charts, so they never share a block's
+    /// palette. Use 4 for BC and ETC, 4 to 12 for ASTC.
     uint32_t block;
-    /// Mip levels (means of 2 × 2) that must stay clean, [0, 8]; default 0. At levels 1 … mips no
-    /// bilinear look-up at a point of a chart, held at the page's border, reads a mip texel that
-    /// texels of another chart went into. With cells of 2^(mips − 1) texels, halves of that level's
-    /// texels, two free cells between the cells of two charts are what that takes: a look-up reads
-    /// its own texel and the next one on the side of its own half, so two halves beyond its half,
-    /// and each lower level reads less. `size` must be a multiple of 2^mips.
+    /// Number of mip levels (means of 2 × 2) that must stay clean, [0, 8]; default 0. At levels 1
+    /// to `mips`, a bilinear read at a point of a chart takes no texel that holds another chart.
+    /// Reads are clamped to the page. `size` must be a multiple of 2^mips.
+    ///
+    /// Method: two free cells of 2^(mips − 1) texels lie between the cells of two charts. A cell is
+    /// half a texel of level `mips`. A read takes its own texel and the neighbour on its own side.
+    /// So it reaches two cells beyond its own; lower levels reach less far.
     uint32_t mips;
-    /// Factors by which surfaces have more texels per metre: "PATTERN=FACTOR" with commas between,
-    /// patterns as in alp_bake_options.only, "material:PATTERN" for names of materials; where
-    /// several match, their product. Factors and products in [0.001, 1000]; each pattern must match
-    /// something.
-    /// Charts hold surfaces of one factor. NULL (default): all alike. Instances that share a map
-    /// have the factor of the one that is baked.
+    /// Factors on the texel density of surfaces: "PATTERN=FACTOR" with commas between. Patterns are
+    /// those of alp_bake_options.only; "material:PATTERN" matches names of materials. Factors of
+    /// all matches are multiplied. Factors and products are in [0.001, 1000]. Each pattern must
+    /// match. A chart holds surfaces of one factor. Instances that share a map have the factor of
+    /// the one that is baked. NULL (default): 1 for all.
     const char *densities;
 } alp_atlas_options;
 ALP_API alp_atlas_options alp_atlas_options_default(void);
 
-/// Makes an atlas: adjacency by position → clusters whose normals stay within max_angle of their
-/// plane, with short outlines that lie in creases → planar projection → clusters that meet are
-/// unfolded together, as rigid as possible, where no triangle flips or lies over another, none has
-/// an L2 stretch above 1.75 (Sander et al. 2001, each chart having the area of its triangles) and
-/// their box does not grow → turned to the tightest box → packed pages. Charts are packed by their
-/// shapes, turned by quarters and never mirrored, into holes too. The same scene and options give
-/// the same atlas on any number of workers.
+/// Makes an atlas. The steps of CHARTS:
+///   1. Triangles are joined by position, and grouped into clusters. Normals of a cluster
+///      stay within max_angle of its plane; outlines are short and lie in creases.
+///   2. Each cluster is projected onto its plane.
+///   3. Clusters that meet are unfolded together, as rigidly as possible. No triangle may flip or
+///      overlap another. None may have an L2 stretch above 1.75 (Sander et al. 2001, each chart
+///      having the area of its triangles). Their box may not grow.
+///   4. Charts are turned to the tightest box and packed by their shapes, into holes too. They are
+///      turned by quarters and never mirrored.
+///
+/// The same scene and options give the same atlas for any number of workers.
 /// @param scene must outlive the atlas
+/// @param atlas out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
 ///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
-///         4096 pages; a triangle that is larger than a page: the message has its numbers);
-///         OUT_OF_MEMORY; CANCELLED
+///         4096 pages; a triangle larger than a page: the message has its numbers); OUT_OF_MEMORY;
+///         CANCELLED
 /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
 /// 2007; M. Garland, A. Willmott, P. S. Heckbert. Hierarchical Face Clustering on Polygonal
 /// Surfaces. I3D, 2001; L. Liu, L. Zhang, Y. Xu, C. Gotsman, S. J. Gortler. A Local/Global Approach
@@ -96,48 +106,51 @@ ALP_API ALP_NODISCARD alp_result alp_atlas_create(const alp_scene *scene,
                                                   alp_atlas **atlas);
 ALP_API void alp_atlas_destroy(alp_atlas *atlas); ///< NULL does nothing
 
+/// Figures of an atlas. With VERTEX all but `mode` is 0.
 typedef struct alp_atlas_info {
-    alp_atlas_mode mode; ///< what was done: KEEP, CHARTS or BLEND; VERTEX: all else is 0
+    alp_atlas_mode mode; ///< the mode used: KEEP, CHARTS, BLEND or VERTEX
     uint32_t pages, width, height;
     uint32_t charts;
-    uint64_t texels; ///< covered: with area of a chart inside
-    /// Share of all pages' texels that are in use. CHARTS: covered texels and free ones within
-    /// `padding` texels of a covered one, rows and columns counted alike. KEEP: covered texels.
-    /// Every page counts whole, the last one too, however little it holds.
+    uint64_t texels; ///< covered texels: those with area of a chart inside
+    /// Share of the texels of all pages that are in use. CHARTS: covered texels and free ones
+    /// within `padding` rows and columns of a covered one. KEEP: covered texels. Every page counts
+    /// whole, the last one too.
     double utilisation;
     double texels_per_metre;   ///< mean over the area, √(texel area / world area)
-    uint32_t shared_triangles; ///< too small or thin to have a texel's receiver on them
-    /// L2 stretch √((Γ² + γ²) / 2) of the map from texels to the surface, Γ ≥ γ its singular
-    /// values, times texels_per_metre: 1 = the mean density without shear. The mean is the root of
-    /// the mean square over the area; both leave slivers out, and are 1 without others. Based on:
-    /// P. V. Sander et al. Texture Mapping Progressive Meshes. SIGGRAPH 2001. With `densities` a
-    /// triangle of factor f is measured against what is asked of it, f times the density of factor
-    /// 1, √(texel area / Σ f² · area); and the mean is over f² · area.
+    uint32_t shared_triangles; ///< triangles too small or thin to hold the receiver of a texel
+    /// L2 stretch √((Γ² + γ²) / 2) × texels_per_metre of the map from texels to the surface. Γ ≥ γ
+    /// are its singular values. 1 is the mean density without shear. The mean is the root of the
+    /// mean square over the area. Slivers are left out of both; without other triangles they are 1.
+    /// With `densities`, a triangle of factor f is measured against f × the density of factor 1,
+    /// √(texel area / Σ f² · area). The mean is then over f² · area.
+    /// Based on: P. V. Sander et al. Texture Mapping Progressive Meshes. SIGGRAPH 2001.
     double stretch_mean, stretch_worst;
-    /// 99th over 1st percentile, by area, of triangles' texels per metre; with `densities` over
-    /// their factors, by f² · area.
+    /// Ratio of the 99th to the 1st percentile of triangles' texels per metre, by area. With
+    /// `densities` these are divided by the factors, by f² · area.
     double density_spread;
-    /// Whose corners run clockwise on the page, or which have no area there. CHARTS: none, ever.
-    /// KEEP: of islands that are mirrored too.
+    /// Triangles whose corners run clockwise on the page, or have no area there. CHARTS: always 0.
+    /// KEEP: triangles of mirrored islands count too.
     uint32_t flipped_triangles;
-    /// Lower than 1/64 of a texel at the density asked of them, so that coordinates do not hold
-    /// their shape: they count as flipped only beyond their rounding.
+    /// Triangles lower than 1/64 texel at their density: coordinates cannot hold their shape. They
+    /// count as flipped only beyond their rounding.
     uint32_t sliver_triangles;
-    uint64_t overlapping_texels; ///< in which triangles cover one place; 0 but of pages of 1 texel
+    uint64_t overlapping_texels; ///< texels in which triangles overlap; 0 except for 1-texel pages
 } alp_atlas_info;
 ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 
-/// Texture coordinates [triangles][3][2] of every triangle's corners, v = 0 at row 0; and page
-/// [triangles]. Unusable triangles have coordinates too (one point inside a chart). In the atlas of
-/// a bake of some surfaces only, triangles of the others have page UINT32_MAX. Owned by the atlas.
+/// Texture coordinates of the corners of every triangle, [triangles][3][2], v = 0 at row 0. An
+/// unusable triangle has one point inside a chart. Owned by the atlas.
 ALP_API const float *alp_atlas_corner_uvs(const alp_atlas *atlas);
+/// Page of every triangle, [triangles]. UINT32_MAX for triangles that a bake of some surfaces
+/// leaves out. Owned by the atlas.
 ALP_API const uint32_t *alp_atlas_triangle_pages(const alp_atlas *atlas);
-/// The three sets of ALP_ATLAS_BLEND, [triangles][set][corner][2], all three of a triangle on its
-/// page; else NULL. alp_atlas_corner_uvs are then those of each triangle's strongest axis. Owned by
-/// the atlas.
+/// The three sets of ALP_ATLAS_BLEND, [triangles][set][corner][2], all three on the triangle's
+/// page; NULL in other modes. alp_atlas_corner_uvs then holds the set of each triangle's strongest
+/// axis. Owned by the atlas.
 ALP_API const float *alp_atlas_blend_uvs(const alp_atlas *atlas);
 
-/// A picture of one page: every chart in a colour of its own on black.
+/// Draws a page: every chart in its own colour on black.
+/// @param image out, which the caller destroys
 ALP_API ALP_NODISCARD alp_result alp_atlas_picture(const alp_atlas *atlas, uint32_t page,
                                                    alp_image **image);
 

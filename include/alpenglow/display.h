@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Linear light as a screen shows it.
+// Linear images as 8-bit sRGB pictures.
 #ifndef ALPENGLOW_DISPLAY_H
 #define ALPENGLOW_DISPLAY_H
 
@@ -7,8 +7,10 @@
 
 ALP_BEGIN_DECLS
 
-/// 8-bit sRGB picture of a linear float image (values clamped to [0,1]), over a grey background
-/// where alpha is 0.
+/// Converts a linear float image to an 8-bit sRGB picture. Values are clamped to [0, 1]. Alpha
+/// below 1 mixes in a grey background (byte 96). The same as alp_film_develop with default options.
+/// @param display out: 3 channels of 8 bits, which the caller destroys; NULL on failure
+/// @return as alp_film_develop
 ALP_API ALP_NODISCARD alp_result alp_image_to_display(const alp_image *linear, alp_image **display);
 
 ALP_END_DECLS

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is visible outside the shared library: everything marked ALP_API and nothing else.
+// Visibility of symbols: the shared library exports everything marked ALP_API and nothing else.
 #ifndef ALPENGLOW_EXPORT_H
 #define ALPENGLOW_EXPORT_H
 

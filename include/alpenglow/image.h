@@ -7,14 +7,14 @@
 
 ALP_BEGIN_DECLS
 
-/// What one component of a pixel is.
+/// Type of one component of a pixel.
 typedef enum alp_component {
     ALP_COMPONENT_U8 = 0,    ///< 0…255 stands for 0…1; colour is sRGB-encoded, data is linear
     ALP_COMPONENT_FLOAT = 1, ///< 32-bit float, linear
 } alp_component;
 
-/// Width × height pixels of 1 to 4 interleaved components, rows from the top (row 0 is v = 0),
-/// no padding between rows.
+/// An image: width × height pixels of 1 to 4 interleaved components. Rows run from the top (row 0
+/// is v = 0), without padding.
 typedef struct alp_image alp_image;
 
 typedef struct alp_image_info {
@@ -23,55 +23,63 @@ typedef struct alp_image_info {
     alp_component component;
 } alp_image_info;
 
-/// A black image. Limits: each side in [1, 65536], 1 to 4 channels. Destroy with alp_image_destroy.
+/// Makes a black image. Each side is in [1, 65536] pixels, with 1 to 4 channels.
+/// @param image out, which the caller destroys
 /// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_create(alp_context *context, alp_image_info info,
                                                   alp_image **image);
 ALP_API void alp_image_destroy(alp_image *image); ///< NULL does nothing
 ALP_API alp_image_info alp_image_get_info(const alp_image *image);
 
-/// Pixels [height][width][channels]; the wrong component type gives NULL. Owned by the image.
+/// Pixels [height][width][channels], owned by the image. NULL for an image of the other component
+/// type.
 ALP_API uint8_t *alp_image_bytes(alp_image *image);
 ALP_API float *alp_image_floats(alp_image *image);
 
-/// Reads a .png, .jpg, .exr or .hdr; the kind is known by its first bytes, not its name. PNG of 16
-/// bits is rounded to 8; a palette is expanded. EXR: one part, channels R G B A or Y, half or
-/// float, any compression but DWAA and DWAB. HDR (Radiance RGBE): flat or in runs, any orientation;
-/// an EXPOSURE or COLORCORR of its header is taken out again, and so is the alpenglowScale of an
-/// EXR that we wrote.
-/// @return ALP_OK; IO; INVALID_DATA (not such a file, or broken); UNSUPPORTED (an EXR or HDR of
+/// Reads an image from a .png, .jpg, .exr or .hdr file. The first bytes decide the format, not the
+/// name.
+///   PNG   16 bits are rounded to 8; a palette is expanded.
+///   EXR   one part, channels R G B A or Y, half or float, any compression but DWAA and DWAB. Our
+///         own attribute alpenglowScale is applied.
+///   HDR   Radiance RGBE, flat or run-length encoded, any orientation. EXPOSURE and COLORCORR in
+///         the header are divided out.
+/// @return ALP_OK; IO; INVALID_DATA (another format, or broken); UNSUPPORTED (an EXR or HDR of
 ///         another kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_load(alp_context *context, const char *path,
                                                 alp_image **image);
 
-/// Writes a .png (8-bit images only), .exr (float images only: scanline, ZIP, 32-bit float) or .hdr
-/// (float images only: RGBE, to about 0.4 % of a pixel's largest channel, without alpha; negative
-/// values become 0, with a warning, hdr-range), by the ending of `path`; written to a temporary
-/// file that is renamed when complete.
+/// Writes an image in the format that the ending of `path` names. The file is written under a
+/// temporary name and renamed when complete.
+///   .png  8-bit images only
+///   .exr  float images only: scanlines, ZIP, 32-bit float
+///   .hdr  float images only: RGBE, accurate to about 0.4 % of a pixel's largest channel, without
+///         alpha. Negative values become 0, with a warning (hdr-range).
 /// @param overwrite false: an existing file is an error
 /// @return ALP_OK; INVALID_ARGUMENT (ending or component does not fit); IO; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_save(const alp_image *image, const char *path,
                                                 bool overwrite);
 
-/// How two images differ, over the pixels that are covered (alpha > ½, or no alpha) in both.
+/// Differences between two images, over the pixels that are covered in both. Covered means alpha
+/// above ½, or no alpha.
 typedef struct alp_image_difference {
-    uint64_t pixels;      ///< compared
-    uint64_t only_first;  ///< covered in the first image only
-    uint64_t only_second; ///< covered in the second image only
-    double rmse;          ///< √ mean of (s·a − b)² over pixels and colour channels
+    uint64_t pixels;      ///< number of pixels compared
+    uint64_t only_first;  ///< pixels covered in the first image only
+    uint64_t only_second; ///< pixels covered in the second image only
+    double rmse;          ///< √(mean of (s·a − b)²) over pixels and colour channels
     double relative_rmse; ///< rmse / mean_second
     double bias;          ///< mean of s·a − b
     double mean_first, mean_second;
     double p99;                    ///< 99th percentile of |s·a − b|
     double maximum;                ///< largest |s·a − b|
-    uint32_t maximum_x, maximum_y; ///< where
+    uint32_t maximum_x, maximum_y; ///< the pixel of it
 } alp_image_difference;
 
-/// Compares a and b; a is multiplied by `scale` first. Grey is compared as R = G = B.
-/// @param heatmap NULL, or out: an 8-bit RGB picture of |s·a − b| (black 0, white = p99 and above;
-///        magenta: covered in one only; dark blue: in none), which the caller destroys
+/// Compares two images of one size and component type. Grey is compared as R = G = B.
+/// @param scale   s: image a is multiplied by it first
+/// @param heatmap NULL, or out: an 8-bit RGB picture of |s·a − b|, which the caller destroys. Black
+///        is 0, white is p99 and above. Magenta is covered in one image only, dark blue in none.
 /// @return ALP_OK; INVALID_ARGUMENT (sizes or component types differ); INVALID_DATA (a NaN or
-///         infinity, named by its pixel); OUT_OF_MEMORY
+///         infinity; the message names its pixel); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_compare(const alp_image *a, const alp_image *b,
                                                    double scale, alp_image_difference *difference,
                                                    alp_image **heatmap);

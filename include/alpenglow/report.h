@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page about a bake, for people to read.
+// The HTML page about a bake.
 #ifndef ALPENGLOW_REPORT_H
 #define ALPENGLOW_REPORT_H
 
@@ -10,33 +10,35 @@ ALP_BEGIN_DECLS
 
 typedef struct alp_report_options {
     size_t struct_size;
-    const char *command;                ///< how the bake was asked for; NULL (default) = not shown
-    const alp_report_finding *findings; ///< [finding_count], what the context's log heard; the
-                                        ///< first 200 are shown
-    uint32_t finding_count;             ///< default 0
-    const alp_diagnosis *diagnosis; ///< of the scene, made with those messages: what it found is
-                                    ///< shown in their place, with what is seen and what to do;
-                                    ///< NULL (default) = the messages alone
-    bool overwrite;                 ///< default false: an existing file is an error
+    const char *command; ///< command line of the bake; NULL (default): not printed
+    /// Messages of the context's log, [finding_count]. The first 200 are printed.
+    const alp_report_finding *findings;
+    uint32_t finding_count; ///< default 0
+    /// Diagnosis of the scene, made with the same messages. Its findings then replace them, each
+    /// with its visible effect and its remedy. NULL (default): the messages alone.
+    const alp_diagnosis *diagnosis;
+    bool overwrite; ///< default false: an existing file is an error
 } alp_report_options;
 ALP_API alp_report_options alp_report_options_default(void);
 
-/// Writes one self-contained HTML page (which is well-formed XML too) about a bake: figures,
-/// findings, the maps, heat maps of their standard errors, change per bounce of a radiosity,
-/// time per stage, and the objects on the atlas. It loads nothing and runs no script, and all text
-/// from files is escaped; what is not UTF-8 in it shows as U+FFFD.
+/// Writes one self-contained HTML page about a bake, which is well-formed XML too. It holds
+/// figures, findings, the maps, heat maps of their standard errors and the objects on the atlas. It
+/// also has the change of each bounce of a radiosity and the time of each stage.
 ///
-/// Pictures have at most 1024 pixels a side: each is the mean over covered texels of a square of
-/// them. Occlusion, bent normals (n / 2 + 1/2) and obscurance are shown as bytes of their linear
-/// values; irradiance as 1 − e^(−2^x E) in sRGB, x such that its mean luminance becomes 0.18 (as
-/// alp_film_meter says; the page states x). Heat maps show the standard error over the map's mean.
-/// The first 16 pages are shown. With ALP_ATLAS_VERTEX there are no pictures.
-/// @param lightmap of alp_bake; that of ALP_ATLAS_VERTEX too
-/// @param report   of the same call; set seconds_load to have loading among the stages
+/// The page loads nothing and runs no script. All text from files is escaped. Bytes that are not
+/// UTF-8 become U+FFFD.
+///
+/// Pictures have at most 1024 pixels a side. Each pixel is the mean over the covered texels of a
+/// square. Occlusion, bent normals (n / 2 + 1/2) and obscurance are bytes of linear values.
+/// Irradiance is 1 − e^(−2^x E) in sRGB. The exposure x makes its mean luminance 0.18, as
+/// alp_film_meter measures it; the page states x. Heat maps hold the standard error over the map's
+/// mean. The first 16 pages are printed; with ALP_ATLAS_VERTEX there are no pictures.
+/// @param lightmap of alp_bake; vertex values too
+/// @param report   of the same call; set seconds_load to list loading among the stages
 /// @param options  NULL = defaults
-/// @param path     written to a temporary file that is renamed when complete
+/// @param path     written under a temporary name and renamed when complete
 /// @return ALP_OK; INVALID_ARGUMENT (NULL, options not from the default); IO; OUT_OF_MEMORY
-/// Cost: about as much as writing the maps as PNG; memory of one page's pictures.
+/// Cost: about that of writing the maps as PNG, and memory for the pictures of one page.
 ALP_API ALP_NODISCARD alp_result alp_bake_write_report(const alp_scene *scene,
                                                        const alp_lightmap *lightmap,
                                                        const alp_bake_report *report,

@@ -7,33 +7,37 @@
 
 ALP_BEGIN_DECLS
 
-/// Metres, right-handed, +Y up; triangles wind counter-clockwise seen from outside. Calls that take
-/// a scene run on the context it was made with: one at a time.
+/// Metres, right-handed, +Y up. Triangles wind counter-clockwise seen from outside. Calls that take
+/// a scene run on the context that made it: one at a time.
 typedef struct alp_scene alp_scene;
 
-/// Reads a scene file (.gltf, .glb, .obj, .dae, .zae) or makes a built-in one ("builtin:cornell",
+/// Reads a scene file (.gltf, .glb, .obj, .dae, .zae) or makes a built-in scene: "builtin:cornell",
 /// "builtin:furnace", "builtin:bowl", "builtin:sphere-plane", "builtin:torus-plane",
-/// "builtin:teapot-room", "builtin:windows", "builtin:atrium", "builtin:terrain"). Two can be made
-/// of any size, to 15 %: "builtin:atrium,triangles=N", 20000 to 4000000, default 50000;
-/// "builtin:terrain,triangles=N", 5000 to 4000000, default 60000, with `,trees=N`, 0 to 20000,
-/// default by size. What is odd but readable is told through the context's log.
+/// "builtin:teapot-room", "builtin:windows", "builtin:atrium", "builtin:terrain".
+///
+/// Two built-in scenes take a size, met to 15 %:
+///   "builtin:atrium,triangles=N"    20000 to 4000000, default 50000
+///   "builtin:terrain,triangles=N"   5000 to 4000000, default 60000; `,trees=N` is 0 to 20000,
+///                                   default by size
+/// Faults of the file that can be repaired are warned of in the context's log.
 /// @return ALP_OK; IO; INVALID_ARGUMENT (no such built-in scene or setting); INVALID_DATA
-/// (malformed: names file, object and fault); UNSUPPORTED (a
-///         required extension, a file kind that is not read yet); LIMIT; OUT_OF_MEMORY
+///         (malformed: names file, object and fault); UNSUPPORTED (a required extension, or a file
+///         format that is not read); LIMIT; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char *path,
                                                 alp_scene **scene);
 
-/// The same with one of the scenes of a file that holds several: `choice` is its number from 0, or
-/// its name; NULL takes the one that the file shows first, as alp_scene_load does.
-/// @return also INVALID_ARGUMENT: no such scene (the message lists them), or a file of one scene
+/// Reads one of the scenes of a file that holds several.
+/// @param choice its number from 0, or its name; NULL = the file's default scene, as alp_scene_load
+/// @return as alp_scene_load; INVALID_ARGUMENT also for no such scene (the message lists them), or
+///         a choice in a file of one scene
 ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
                                                        const char *choice, alp_scene **scene);
 
-/// A mesh handed over as arrays, already in world space.
+/// A mesh as arrays, in world space.
 typedef struct alp_mesh {
     const char *name;        ///< NULL = "mesh N"
     const float *positions;  ///< [vertex_count][3] metres
-    const float *normals;    ///< [vertex_count][3] unit, or NULL: flat, from the triangles
+    const float *normals;    ///< [vertex_count][3] unit, or NULL: flat normals of the triangles
     const float *uvs;        ///< [vertex_count][2] lightmap coordinates in [0,1], or NULL
     const uint32_t *indices; ///< [triangle_count][3], each < vertex_count
     uint32_t vertex_count;
@@ -42,8 +46,8 @@ typedef struct alp_mesh {
     bool double_sided;
 } alp_mesh;
 
-/// Makes a scene from arrays (copied). `uvs` become the scene's second UV set, so that
-/// ALP_ATLAS_KEEP can use them.
+/// Makes a scene from arrays, which are copied. `uvs` become the scene's second UV set, for
+/// ALP_ATLAS_KEEP.
 /// @return ALP_OK; INVALID_ARGUMENT (NULL array); INVALID_DATA (index out of range); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *context,
                                                               const alp_mesh *meshes,
@@ -52,27 +56,27 @@ ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *conte
 
 ALP_API void alp_scene_destroy(alp_scene *scene); ///< NULL does nothing
 
-/// What is in a scene.
+/// Counts, bounds and unit of a scene.
 typedef struct alp_scene_info {
-    uint32_t triangles;        ///< all, degenerate ones included
-    uint32_t usable_triangles; ///< with area and finite coordinates
-    uint32_t surfaces;         ///< one per node × primitive
-    uint32_t vertices;         ///< in world space, after flat normals were made
+    uint32_t triangles;        ///< all triangles, degenerate ones included
+    uint32_t usable_triangles; ///< triangles with area and finite coordinates
+    uint32_t surfaces;         ///< one for each pair of node and primitive
+    uint32_t vertices;         ///< in world space, with those of generated flat normals
     uint32_t materials, images, cameras, lights;
-    float bounds_min[3], bounds_max[3]; ///< metres, over usable triangles; zeros if there are none
+    float bounds_min[3], bounds_max[3]; ///< metres, over usable triangles; 0 without any
     double area;                        ///< square metres, one side, over usable triangles
-    double unit_metres; ///< of one unit of the file, by which its lengths were multiplied
-    bool unit_stated;   ///< the file or its format says so; else metres were assumed
-    char up_axis; ///< 'X', 'Y' or 'Z' where a COLLADA states it; 0 = not stated. Scenes are y up
+    double unit_metres; ///< metres of one unit of the file; lengths were multiplied by it
+    bool unit_stated;   ///< the file or its format states the unit; else metres were assumed
+    char up_axis; ///< of a COLLADA: 'X', 'Y' or 'Z'; 0 = not stated. The scene itself is +Y up.
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 
 /// One surface: a primitive placed in the world by a node.
 typedef struct alp_surface_info {
-    const char *name;     ///< of its node, else its mesh; owned by the scene
-    const char *material; ///< name, "" when the primitive has none
+    const char *name;     ///< name of its node, else of its mesh; owned by the scene
+    const char *material; ///< name of its material, "" without one; owned by the scene
     uint32_t first_triangle, triangle_count;
-    uint32_t uv_sets; ///< how many texture coordinate sets it has
+    uint32_t uv_sets; ///< number of its texture coordinate sets
     bool double_sided, mirrored, normals_generated;
     float emission[3]; ///< radiance of its material, W·sr⁻¹·m⁻², before its texture
 } alp_surface_info;
@@ -91,11 +95,11 @@ typedef struct alp_light_info {
     alp_light_kind kind;
     float intensity;                 ///< candela or lux by kind, per channel times `color`
     float color[3];                  ///< linear
-    float position[3], direction[3]; ///< metres; unit, where the light travels
+    float position[3], direction[3]; ///< metres; unit, the way light travels
     float range;                     ///< metres, INFINITY = none
-    float inner_cone, outer_cone;    ///< of a spot: radians from its axis
-    float size; ///< of a directional light: radians, full angle of its disk; 0 = a point, which
-                ///< alp_lighting_options.file_sun_size may widen
+    float inner_cone, outer_cone;    ///< spot: radians from its axis
+    float size; ///< directional: full angle of its disk, radians; 0 = a point, unless
+                ///< alp_lighting_options.file_sun_size widens it
 } alp_light_info;
 /// @param index < lights, else a zeroed struct with an empty name
 ALP_API alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index);
@@ -107,10 +111,11 @@ typedef struct alp_camera {
     float up[3];        ///< not parallel to the view axis
     float vertical_fov; ///< full angle in radians, (0, π)
 } alp_camera;
-/// Camera `index` of the scene; with index ≥ cameras the usual view of a thing or a room: from
-/// above a corner of the bounding box towards its centre, or, where more area faces the centre than
-/// faces away, from inside it. What stands between is not looked at, so an open box may show little
-/// from there: alp_render tries more places, and may take another. Cost: a look at each triangle.
+/// Camera `index` of the scene. With index ≥ cameras, the usual view of an object: from above a
+/// corner of the bounding box towards its centre. If more area faces the centre than faces away, it
+/// is a room, and the camera is inside the box. Surfaces in the way are ignored, so the view into
+/// an open box may be blocked; alp_render tries more places and may choose another. Cost: one pass
+/// over the triangles.
 ALP_API alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index);
 
 ALP_END_DECLS

@@ -56,7 +56,7 @@ static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
     }
     if (o->mode == ALP_ATLAS_KEEP && (o->block > 1 || o->mips > 0 || o->densities != NULL)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "coordinates that are kept cannot have %s: make new charts",
+                         "kept coordinates cannot have %s; make new charts",
                          o->densities != NULL ? "other densities"
                          : o->mips > 0        ? "gaps for mip levels"
                                               : "gaps for blocks");
@@ -219,7 +219,7 @@ static alp_result choose(alp_atlas *atlas, const uint32_t (*neighbours)[3], alpi
         if (result == ALP_ERROR_INVALID_DATA && mode == ALP_ATLAS_KEEP) {
             alpi_fail(atlas->context, result, "%s", reason);
         } else if (result == ALP_ERROR_INVALID_DATA) {
-            alpi_note(atlas->context, "atlas-charts", NULL, "%s: that is done now", reason);
+            alpi_note(atlas->context, "atlas-charts", NULL, "%s: charts are made", reason);
         }
         alpi_release(atlas->context, reason);
         if (result != ALP_ERROR_INVALID_DATA || mode == ALP_ATLAS_KEEP) {

@@ -37,7 +37,7 @@ static alp_result check_options(const alpi_bake_job *job)
     }
     if ((int)o->ao_into < ALP_AO_INTO_SEPARATE || o->ao_into > ALP_AO_INTO_ORM) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
+                         "bake: unknown destination %d of occlusion", (int)o->ao_into);
     }
     if (o->ao_into == ALP_AO_INTO_ORM && o->atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,

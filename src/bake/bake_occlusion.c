@@ -38,8 +38,8 @@ void alpi_bake_warn_of_darkness(const alpi_bake_job *job)
         bool limited = isfinite(job->report.ao_distance);
         alpi_warn(job->context, "dark", job->scene->name, "the mean accessibility is %.1f %%: %s",
                   100.0 * job->report.ao_mean,
-                  limited ? "nearly everything is closed within the distance limit; a shorter one "
-                            "(--ao-distance) shows more"
+                  limited ? "nearly everything is closed within the distance limit; use a "
+                            "shorter one (--ao-distance)"
                           : "a closed room is dark without a distance limit; give one "
                             "(--ao-distance auto, or metres)");
     }
@@ -55,13 +55,13 @@ static void warn_of_error(const alpi_bake_job *job, bool cut_off)
     }
     if (cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
-                  "sampling ended before its time, after a round of %u rays a texel; the error is "
-                  "%s, %llu texels have no value of their own, and another run gives other bits",
+                  "sampling was cut off after a round of %u rays per texel; the error is %s, "
+                  "%llu texels have no value of their own, and another run gives other bits",
                   r->ao_samples, error, (unsigned long long)r->unknown);
     } else if (wanted > 0.0 && r->ao_relative_error > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
-                  "the stated error is %.2g %% after %u rays a texel, wanted %.2g %%; allow more "
-                  "rays (--ao-samples)",
+                  "the stated error is %.2g %% after %u rays per texel, wanted %.2g %%; allow "
+                  "more rays (--ao-samples)",
                   100.0 * r->ao_relative_error, r->ao_samples, 100.0 * wanted);
     }
 }

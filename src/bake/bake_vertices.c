@@ -25,29 +25,28 @@ alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job)
                          (int)o->vertex_attribute);
     }
     if (!at_vertices && o->vertex_attribute != ALP_VERTEX_COLOR) {
-        return alpi_fail(job->context, code,
-                         "bake: a vertex attribute needs the atlas mode for vertices");
+        return alpi_fail(job->context, code, "bake: a vertex attribute needs ALP_ATLAS_VERTEX");
     }
     if (at_vertices && o->maps_folder != NULL) {
         return alpi_fail(job->context, code,
-                         "%s: a bake at vertices has no maps to write; give an output alone",
-                         o->maps_folder);
+                         "%s: a bake at vertices has no maps; give an output only", o->maps_folder);
     }
     if (at_vertices && (o->only != NULL || o->ao_self)) {
         return alpi_fail(job->context, code,
-                         "bake: at vertices all surfaces are baked, and together: no only and no "
+                         "bake: at vertices all surfaces are baked together; leave out only and "
                          "ao_self");
     }
     const alp_sampling_options *sampling = &o->sampling;
     if (at_vertices && (sampling->accuracy > 0.0f || sampling->error != 0.0f ||
                         sampling->time_limit != 0.0 || sampling->keep_partial)) {
         return alpi_fail(job->context, code,
-                         "bake: at vertices every receiver gets all its rays: no accuracy, wanted "
-                         "error, time limit or partial result");
+                         "bake: at vertices every receiver gets all rays; leave out accuracy, "
+                         "error, time_limit and keep_partial");
     }
     if (at_vertices && o->existing_ao != ALP_EXISTING_AO_REPLACE) {
         return alpi_fail(job->context, code,
-                         "bake: a bake at vertices leaves the materials' occlusion maps alone");
+                         "bake: a bake at vertices keeps the materials' occlusion maps; set "
+                         "existing_ao to REPLACE");
     }
     return ALP_OK;
 }
@@ -92,9 +91,8 @@ static void warn_of_surface(const alpi_bake_job *job, const char *name,
                             const alpi_vertex_detail *detail)
 {
     alpi_warn(job->context, "coarse-vertices", name,
-              "triangles are too large for the occlusion on them: between the vertices it is off "
-              "by %.2f (root mean square); subdivide to edges of about %.2g m, or use --atlas "
-              "charts",
+              "triangles are too large for their occlusion: between the vertices it errs by %.2f"
+              " (root mean square); subdivide to edges of about %.2g m, or use --atlas charts",
               sqrt(detail->square), advised_edge(detail));
 }
 
@@ -131,7 +129,7 @@ static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details
     }
     if (more > 0) {
         alpi_warn(job->context, "coarse-vertices", job->scene->name,
-                  "objects with triangles as large, not named here: %u", more);
+                  "further objects with triangles too large: %u", more);
     }
     if (small.point_count >= POINTS_LEAST && small.weight > 0.0) {
         small.square /= small.point_count;
@@ -254,8 +252,7 @@ static void tell_of_maps(const alpi_bake_job *job)
     }
     if (count > 0) {
         alpi_note(job->context, "occlusion-twice", scene->name,
-                  "objects whose material has an occlusion map too, which stays and is applied "
-                  "besides: %u",
+                  "objects whose material also has an occlusion map, which viewers apply too: %u",
                   count);
     }
 }

@@ -20,16 +20,15 @@ alp_result alpi_bake_check_layers(const alpi_bake_job *job)
     }
     if ((o->maps & ALP_MAP_LIGHT) == 0) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: layers are of light; bake ALP_MAP_LIGHT too");
+                         "bake: layers need ALP_MAP_LIGHT");
     }
     if (o->light.denoise) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: what is denoised is no sum of layers; leave one of them out");
+                         "bake: layers do not add up to a denoised map; leave one of the two out");
     }
     if (o->light.gather == ALP_GATHER_PATHS && o->light.bounces > 0) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: paths gather all light together; rays or hemicubes tell layers "
-                         "apart");
+                         "bake: paths cannot separate layers; gather by rays or hemicubes");
     }
     return ALP_OK;
 }
@@ -177,8 +176,8 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job)
     ALP_TRY(alpi_bake_find_layers(job, &lights));
     if (lights > ALPI_LAYER_LIMIT) {
         alpi_warn(job->context, "many-layers", job->scene->name,
-                  "%u lights make %d layers: the last %u of them are together in \"others\"",
-                  lights, ALPI_LAYER_LIMIT, lights - ALPI_LAYER_LIMIT + 1);
+                  "%u lights exceed %d layers: the last %u lights are summed in \"others\"", lights,
+                  ALPI_LAYER_LIMIT, lights - ALPI_LAYER_LIMIT + 1);
     }
     return ALP_OK;
 }

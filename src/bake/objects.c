@@ -46,8 +46,8 @@ static void note_sizes(const alpi_bake_job *job)
     if (count > 0 && !isinf(job->options.occlusion.distance)) {
         alpi_note(
             job->context, "instance-size", scene->surfaces[first].name,
-            "%.3g times as large as the instance of its mesh that is baked (%s), whose map it "
-            "shows; %u surface%s of this kind: the distance limit is that of the baked one",
+            "%.3g times as large as the baked instance of its mesh (%s), whose map and distance "
+            "limit it uses; %u surface%s of this kind",
             factor, scene->surfaces[job->originals[first]].name, count, count == 1 ? "" : "s");
     }
 }
@@ -57,8 +57,8 @@ alp_result alpi_bake_choose(alpi_bake_job *job)
     const alp_bake_options *o = &job->options;
     if (o->ao_self && o->occluders != NULL) {
         return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: objects that are alone (ao_self) have no other occluders; leave "
-                         "one of the two out");
+                         "bake: ao_self bakes each object alone, without other occluders; leave "
+                         "out ao_self or occluders");
     }
     ALP_TRY(alpi_scene_select(job->scene, o->only, &job->only));
     ALP_TRY(alpi_scene_select(job->scene, o->occluders, &job->occluders));

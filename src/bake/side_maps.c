@@ -34,14 +34,12 @@ static alp_result check_emitters(const alpi_bake_job *job)
         return ALP_OK;
     }
     if (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0) {
-        return alpi_fail(job->context, code,
-                         "bake: emitters are counted by the pixels of hemicubes, and with bounces");
+        return alpi_fail(job->context, code, "bake: counted emitters need hemicubes and bounces");
     }
     if (o->layers || job->options.only != NULL) {
         return alpi_fail(
             job->context, code,
-            "bake: pixels do not tell emitters apart, and count them for all surfaces; "
-            "leave out %s",
+            "bake: counted emitters are counted together, for all surfaces; leave out %s",
             o->layers ? "layers" : "the choice of surfaces");
     }
     return ALP_OK;
@@ -58,12 +56,11 @@ static alp_result check_light(const alpi_bake_job *job)
     }
     if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
         return alpi_fail(job->context, code,
-                         "bake: paths gather all light together; rays or hemicubes tell direct "
-                         "light apart");
+                         "bake: paths cannot separate direct light; gather by rays or hemicubes");
     }
     if ((job->options.maps & BY_DIRECTION) != 0 && o->gather == ALP_GATHER_PATHS) {
         return alpi_fail(job->context, code,
-                         "bake: paths do not tell where light comes from; rays or hemicubes do");
+                         "bake: paths keep no directions of light; gather by rays or hemicubes");
     }
     if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
         return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
@@ -72,16 +69,15 @@ static alp_result check_light(const alpi_bake_job *job)
     if (o->layers && (s->time_limit > 0.0 || s->keep_partial)) {
         return alpi_fail(
             job->context, code,
-            "bake: layers are gathered to their end: no time limit, no partial result");
+            "bake: layers have no partial results; leave out time_limit and keep_partial");
     }
     if (o->layers && job->options.only != NULL) {
         return alpi_fail(job->context, code,
-                         "bake: layers are told apart where all surfaces are baked; leave out the "
-                         "choice of surfaces, or the layers");
+                         "bake: layers need a bake of all surfaces; leave out the choice of "
+                         "surfaces, or the layers");
     }
     if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
-        return alpi_fail(job->context, code,
-                         "bake: only bounced light that rays gather can be denoised");
+        return alpi_fail(job->context, code, "bake: denoise applies to bounced light of rays only");
     }
     if (o->gather == ALP_GATHER_HEMICUBE &&
         (o->hemicube < 2 || o->hemicube > 1024 || o->hemicube % 2 != 0)) {
@@ -106,8 +102,8 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
     if (o->output != NULL && (o->maps & ALP_MAP_AO) == 0 &&
         o->lightmap_as == ALP_LIGHTMAP_AS_NONE) {
         return alpi_fail(job->context, code,
-                         "%s: glTF has a place for occlusion alone, and for light as lightmap_as "
-                         "says; bake one of them too, or give no output",
+                         "%s: glTF has a place only for occlusion, and for light with "
+                         "lightmap_as; bake one of them too, or give no output",
                          o->output);
     }
     const bool in_one_go = (o->maps & ALP_MAP_OBSCURANCE) != 0;
@@ -116,27 +112,25 @@ alp_result alpi_bake_check_maps(const alpi_bake_job *job)
     if ((in_one_go || light_in_one_go) &&
         (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
         return alpi_fail(job->context, code,
-                         "bake: %s gathered in one go: no time limit, no partial result",
+                         "bake: %s gathered in one round; leave out time_limit and keep_partial",
                          in_one_go                             ? "coloured obscurance is"
                          : o->light.bounces == 0               ? "direct light alone is"
                          : o->light.gather == ALP_GATHER_PATHS ? "light by paths is"
                                                                : "light by hemicubes is");
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0 && o->occluders != NULL) {
-        return alpi_fail(job->context, code,
-                         "bake: light falls on all surfaces: no occluders are chosen for it");
+        return alpi_fail(job->context, code, "bake: light takes no occluders; leave them out");
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0 && o->ao_self) {
         return alpi_fail(job->context, code,
-                         "bake: light falls on the whole scene, not on each object alone");
+                         "bake: light is baked for the whole scene; leave out ao_self");
     }
     if ((o->maps & BY_DIRECTION) != 0 && (o->maps & ALP_MAP_LIGHT) == 0) {
-        return alpi_fail(job->context, code,
-                         "bake: light by direction is of the irradiance; bake ALP_MAP_LIGHT too");
+        return alpi_fail(job->context, code, "bake: light by direction needs ALP_MAP_LIGHT");
     }
     ALP_TRY(check_light(job));
     if ((o->maps & ALP_MAP_LIGHT) != 0 && (o->light.samples < 1 || o->light.samples > PATH_LIMIT)) {
-        return alpi_fail(job->context, code, "bake: %u paths of a texel, need 1 to %d",
+        return alpi_fail(job->context, code, "bake: %u samples of light, need 1 to %d",
                          o->light.samples, PATH_LIMIT);
     }
     return ALP_OK;

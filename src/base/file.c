@@ -265,7 +265,9 @@ alp_result alpi_file_place(alpi_file_writer *writer)
 {
     if (!writer->overwrite && access(writer->path, F_OK) == 0) {
         return alpi_fail(writer->context, ALP_ERROR_IO,
-                         "%s: appeared while we worked and would be overwritten", writer->path);
+                         "%s: was created meanwhile and would be overwritten; force it (-f) or "
+                         "name another file",
+                         writer->path);
     }
     if (rename(writer->temporary, writer->path) != 0) {
         return fail_io(writer->context, "rename to", writer->path);

@@ -77,8 +77,8 @@ static alp_result tell(alp_diagnosis *d, const alpi_doctor_points *points, const
         const alpi_finding_facts facts = {ALP_FINDING_BACKS_SEEN, ALP_PLACE_SURFACE, most, 0,
                                           share};
         result = alpi_diagnosis_add(d, facts,
-                                    "%.3g %% of what surfaces see of others are backs of "
-                                    "single-sided ones, this one most of all",
+                                    "%.3g %% of the surface in view of other surfaces is the "
+                                    "back of a single-sided one, most often of this one",
                                     100.0 * share);
         if (result == ALP_OK) {
             alpi_diagnosis_mark_triangle(d, first[most]);

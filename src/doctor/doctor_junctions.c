@@ -422,8 +422,8 @@ static alp_result tell(alp_diagnosis *d, const search *s)
         const alpi_finding_facts facts = {ALP_FINDING_T_JUNCTIONS, ALP_PLACE_SURFACE, worst[i],
                                           edges, s->longest[worst[i]]};
         ALP_TRY(alpi_diagnosis_add(d, facts,
-                                   "%s%llu open edge%s a vertex of another triangle within, the "
-                                   "longest (%.3g m) of triangle %u",
+                                   "%s%llu open edge%s a vertex of another triangle inside; the "
+                                   "longest (%.3g m) belongs to triangle %u",
                                    s->looks > LOOK_LIMIT ? "at least " : "",
                                    (unsigned long long)edges, edges == 1 ? " has" : "s have",
                                    s->longest[worst[i]], half / 3 - surface->first_triangle));

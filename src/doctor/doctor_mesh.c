@@ -170,9 +170,9 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.kind = ALP_FINDING_DUPLICATES;
             facts.count = w->same[s];
             facts.value = (double)w->same[s] / surface->triangle_count;
-            ALP_TRY(alpi_diagnosis_add(
-                d, facts, "%u of %u triangle%s in the very place of others, of %s", w->same[s],
-                surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
+            ALP_TRY(alpi_diagnosis_add(d, facts, "%u of %u triangle%s exactly on others, of %s",
+                                       w->same[s], surface->triangle_count,
+                                       surface->triangle_count == 1 ? " lies" : "s lie", with));
             alpi_diagnosis_mark_triangle(d, w->first[0][s]);
         }
         if (w->opposite[s] > 0) {
@@ -246,7 +246,7 @@ static alp_result look_for_reversed(alp_diagnosis *d)
                                               count, share};
             ALP_TRY(alpi_diagnosis_add(d, facts,
                                        "the normals of %u of %u triangles, %.3g %% of the area, "
-                                       "look to their backs",
+                                       "point to their backs",
                                        count, surface->triangle_count, 100.0 * share));
             alpi_diagnosis_mark_triangle(d, largest);
         }

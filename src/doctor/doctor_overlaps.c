@@ -399,8 +399,8 @@ static alp_result tell(alp_diagnosis *d, const search *s, uint32_t *counts)
                                           counts[surface], s->areas[surface]};
         ALP_TRY(alpi_diagnosis_add(
             d, facts,
-            "%s%u of %u triangle%s partly in the plane and place of others, of %s, %.2g "
-            "m² at most",
+            "%s%u of %u triangle%s in one plane with others and overlap them in part, of %s, by "
+            "%.2g m² at most",
             s->all ? "" : "at least ", counts[surface], d->scene->surfaces[surface].triangle_count,
             d->scene->surfaces[surface].triangle_count == 1 ? " lies" : "s lie",
             with == surface ? "itself" : alpi_doctor_label(d->scene, with).text,

@@ -143,10 +143,10 @@ static alp_result tell_overlaps(alp_diagnosis *d, const alpi_uv_set_facts *f)
     const spot at = spot_of(d->scene, f->first_overlap);
     const alpi_finding_facts facts = {shared ? ALP_FINDING_UV_SHARED : ALP_FINDING_UV_OVERLAP,
                                       ALP_PLACE_UV_SET, ALPI_KEPT_SET, f->overlapping, f->overlap};
-    ALP_TRY(
-        alpi_diagnosis_add(d, facts, "triangles %s on %.3g %% of its texels, such as %u of %.60s",
-                           shared ? "lie in the place of the same ones of another node" : "overlap",
-                           100.0 * f->overlap, at.triangle, at.surface));
+    ALP_TRY(alpi_diagnosis_add(d, facts,
+                               "triangles %s on %.3g %% of its texels, such as %u of %.60s",
+                               shared ? "coincide with the same ones of another node" : "overlap",
+                               100.0 * f->overlap, at.triangle, at.surface));
     mark_in_set(d, f->first_overlap, NULL);
     return ALP_OK;
 }
@@ -232,7 +232,7 @@ static alp_result tell_stretch(alp_diagnosis *d, const alpi_uv_quality *q)
     const alpi_finding_facts facts = {ALP_FINDING_UV_STRETCH, ALP_PLACE_UV_SET, ALPI_KEPT_SET, 0,
                                       q->stretch};
     ALP_TRY(alpi_diagnosis_add(d, facts,
-                               "%.60s is stretched %.3g times (L2; 1 = evenly), its triangle %u "
+                               "%.60s is stretched %.3g times (L2; 1 = even), its triangle %u "
                                "%.3g times",
                                at.surface, q->stretch, at.triangle, q->own_stretch));
     mark_in_set(d, q->stretched_worst, NULL);

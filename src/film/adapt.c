@@ -21,7 +21,7 @@ static const char *find_fault(const alp_film_adaptation *state, double seconds)
         return "the time constants of an adaptation must be 0 or more";
     }
     if (state->adapted && !isfinite(state->log2_luminance)) {
-        return "the luminance adapted to is not finite";
+        return "the adapted luminance is not finite";
     }
     return seconds >= 0.0 ? NULL : "the time between pictures must be 0 seconds or more";
 }

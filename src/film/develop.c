@@ -126,8 +126,7 @@ alp_result alp_film_develop(const alp_image *linear, const alp_film_options *opt
     }
     ALP_TRY(alpi_film_check(linear, options));
     if (display == NULL) {
-        return alpi_fail(linear->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "film: the place for the picture is NULL");
+        return alpi_fail(linear->context, ALP_ERROR_INVALID_ARGUMENT, "film: `display` is NULL");
     }
     development d = {.options = options != NULL ? *options : alp_film_options_default()};
     ALP_TRY(prepare(&d, linear));

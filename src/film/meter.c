@@ -188,7 +188,7 @@ alp_result alp_film_meter(const alp_image *linear, const alp_film_options *optio
     const alp_film_options o = options != NULL ? *options : alp_film_options_default();
     if (log2_luminance == NULL) {
         return alpi_fail(linear->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "film: the place for the luminance is NULL");
+                         "film: `log2_luminance` is NULL");
     }
     alpi_matrix3 balance;
     bool balanced = false;

@@ -16,7 +16,7 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
     }
     if (path == NULL || scene == NULL || path[0] == '\0') {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "alp_scene_load needs a path and a place for the scene");
+                         "alp_scene_load needs a path and an output pointer");
     }
     if (strncmp(path, builtin, sizeof builtin - 1) == 0) {
         return alpi_builtin_create(context, path + sizeof builtin - 1, scene);
@@ -44,7 +44,7 @@ alp_result alp_scene_load_choice(alp_context *context, const char *path, const c
     }
     if (one) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "%s: holds one scene; \"%.100s\" can be chosen of a .gltf or .glb alone",
+                         "%s: has one scene; \"%.100s\" can be chosen only in a .gltf or .glb",
                          path, choice);
     }
     return alpi_gltf_read_choice(context, path, choice, scene);

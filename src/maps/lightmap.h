@@ -8,7 +8,7 @@
 #include "maps/texels/lattice.h"
 #include "transport/surface_light.h"
 
-#include <alpenglow/bake.h>
+#include <alpenglow/lightmap.h>
 
 struct alp_lightmap {
     alp_context *context;

@@ -87,7 +87,7 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     const bool has_light = o->lightmap != NULL && o->lightmap->irradiance_pages != NULL;
     if (o->method == ALP_RENDER_LIGHTMAP && !has_light) {
         return alpi_fail(scene->context, code,
-                         "render: there is no map of light to show; bake with ALP_MAP_LIGHT");
+                         "render: there is no map of light; bake with ALP_MAP_LIGHT");
     }
     return alpi_occlusion_check(scene, &o->occlusion);
 }
@@ -140,8 +140,8 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
     if (lights &&
         alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
-                  "the camera, at %g %g %g m, stands inside something or behind a wall: it sees "
-                  "the backs of single-sided surfaces, which are black; move it (--camera)",
+                  "the camera, at %g %g %g m, is inside something or behind a wall: it sees the "
+                  "backs of single-sided surfaces, which are black; move it (--camera)",
                   (double)job->view.origin.x, (double)job->view.origin.y,
                   (double)job->view.origin.z);
     }

@@ -198,7 +198,7 @@ static alp_result read_point(comparison *c, alp_map map, uint32_t index, int whi
     if (!isfinite(rgb[0]) || !isfinite(rgb[1]) || !isfinite(rgb[2])) {
         const alp_scene *scene = s->scene;
         return alpi_fail(scene->context, ALP_ERROR_INVALID_DATA,
-                         "compare: %s: the map of \"%s\" holds a value that is no number",
+                         "compare: %s: the map of \"%s\" holds a value that is not finite",
                          scene->name, scene->surfaces[scene->triangle_surface[at.triangle]].name);
     }
     memcpy(pixel, rgb, (channels - 1) * sizeof *pixel);

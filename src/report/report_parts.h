@@ -6,6 +6,8 @@
 #include "maps/lightmap.h"
 #include "report/html_writer.h"
 
+#include <alpenglow/bake.h>
+
 enum { ALPI_REPORT_PAGES = 16, ALPI_REPORT_SIDE = 1024, ALPI_REPORT_OBJECTS = 200 };
 enum { ALPI_REPORT_NAME = 120 }; // characters of a name that are shown
 

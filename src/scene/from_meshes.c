@@ -180,7 +180,7 @@ alp_result alp_scene_create_from_meshes(alp_context *context, const alp_mesh *me
     }
     if (scene == NULL || (meshes == NULL && mesh_count > 0)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT, "scene from meshes: %s is NULL",
-                         scene == NULL ? "the place for the scene" : "the array of meshes");
+                         scene == NULL ? "the output pointer" : "the array of meshes");
     }
     for (uint32_t i = 0; i < mesh_count; i++) {
         ALP_TRY(check_mesh(context, &meshes[i], i));

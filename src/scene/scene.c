@@ -178,7 +178,7 @@ static void repair_normals(alp_scene *scene)
         }
         if (bad > 0 && !surface->normals_generated) {
             alpi_warn(scene->context, "bad-normals", surface->name,
-                      "%u normals are zero or not finite: the triangle's own is used", bad);
+                      "%u normals are zero or not finite: the triangle's normal is used", bad);
         }
     }
     for (uint32_t v = 0; v < scene->vertex_count; v++) { // vertices of no usable triangle
@@ -242,9 +242,8 @@ static void warn_of_metal(const alp_scene *scene)
     if (metal > POINTS / 2) {
         alpi_warn(
             scene->context, "metal", scene->name,
-            "%.0f %% of the surface is metal, which is what glTF takes a material for that does "
-            "not say: it has no diffuse colour, is black to a bake and will bounce no light; give "
-            "what is no metal a metallicFactor of 0",
+            "%.0f %% of the surface is metal, the default of glTF: it has no diffuse colour, is "
+            "black in a bake and bounces no light; set metallicFactor to 0 on other materials",
             100.0 * metal / POINTS);
     }
 }

@@ -224,14 +224,14 @@ static void name_lamp(const examination *e, uint32_t index, const verdict *v)
     const char *called = light->name != NULL && light->name[0] != '\0' ? light->name : name;
     if (is_inside(v)) {
         alpi_warn(scene->context, "light-inside", called,
-                  "lies inside something or behind a wall, at %g %g %g m: what it shines on is the "
-                  "back of single-sided surfaces, \"%s\" first, which is black and lets nothing "
-                  "through; move it, or remove what is around it",
+                  "lies inside something or behind a wall, at %g %g %g m: its rays meet the "
+                  "backs of single-sided surfaces, \"%s\" first, which are black and opaque; "
+                  "move it, or remove the surface around it",
                   (double)p.x, (double)p.y, (double)p.z, surface_name(scene, v->around));
     } else {
         alpi_warn(scene->context, "light-on-surface", called,
-                  "lies in the surface \"%s\", at %g %g %g m, and shines on both its sides; move "
-                  "it off to the side it is to light",
+                  "lies in the surface \"%s\", at %g %g %g m, and lights both its sides; move it"
+                  " to the side that it should light",
                   surface_name(scene, v->in), (double)p.x, (double)p.y, (double)p.z);
     }
 }
@@ -438,8 +438,8 @@ static alp_result examine_rooms(const examination *e, alp_progress_fn *progress,
     alpi_release(context, r);
     if (result == ALP_OK && closed * ROOM_SHARE >= ROOM_POINTS) {
         alpi_warn(context, "closed-room", e->scene->name,
-                  "%.0f %% of the surface is in closed rooms: no sky and no sun gets in, and no "
-                  "lamp or emissive surface is inside; give them one, or an opening",
+                  "%.0f %% of the surface is in closed rooms: no sky or sun reaches it, and "
+                  "there is no lamp or emissive surface; add one, or an opening",
                   100.0 * closed / ROOM_POINTS);
     }
     return result;

@@ -147,7 +147,7 @@ static void hostile_structures(void **state)
         {"{" ASSET ",'nodes':[{'children':[7]}]}", "node 0: its entry 0", ALP_ERROR_INVALID_DATA},
         {"{" ASSET ",'nodes':[{}],'scenes':[{'nodes':[0,0]}]}", "names node 0 twice",
          ALP_ERROR_INVALID_DATA},
-        {"{" ASSET ",'nodes':[{'children':[1]},{}],'scenes':[{'nodes':[1]}]}", "is no root",
+        {"{" ASSET ",'nodes':[{'children':[1]},{}],'scenes':[{'nodes':[1]}]}", "is not a root",
          ALP_ERROR_INVALID_DATA},
         {"{" ASSET ",'scene':3,'scenes':[{}]}", "scene is 3, but there are only 1",
          ALP_ERROR_INVALID_DATA},

@@ -41,7 +41,7 @@ NOTHING = {
 WARNED = {
     "BoxBadNormals.glb": "normals are zero",
     "albedo_out_of_range.glb": "clamped",
-    "corrupt_png.glb": "PNG: .*keep their factors",
+    "corrupt_png.glb": "PNG: .*read without this texture",
     "far_from_origin_6378km.glb": "move it near the origin",
     "index_count_not_3n.glb": "make no triangle",
     "missing_mtl.obj": "is not there",

@@ -49,28 +49,30 @@ static const char *find_fault(const alp_bake_options *o)
     if (as == ALP_LIGHTMAP_AS_NONE) {
         return o->light_units == ALP_LIGHT_UNITS_AUTO && o->lightmap_format == ALP_LIGHTMAP_KTX2
                    ? NULL
-                   : "units and format are of light in an asset; say as what it goes there";
+                   : "units and format apply to light in an asset; set lightmap_as";
     }
     if ((o->maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
-        return "light goes into an asset where ALP_MAP_LIGHT and an output are asked for";
+        return "light in an asset needs ALP_MAP_LIGHT and an output";
     }
     if (o->ao_into == ALP_AO_INTO_ORM) {
-        return "light needs coordinates of its own: occlusion beside it is not packed into images";
+        return "light has its own coordinates, so occlusion beside it cannot be packed into "
+               "images; set ao_into to SEPARATE";
     }
     if (as != ALP_LIGHTMAP_AS_EXTRAS && o->lightmap_format != ALP_LIGHTMAP_KTX2) {
-        return "a format is of light that extras name; an image in glTF is a PNG";
+        return "lightmap_format applies to ALP_LIGHTMAP_AS_EXTRAS; an image in glTF is a PNG";
     }
     if (alpi_bake_is_viewer_file(o) && o->light_units != ALP_LIGHT_UNITS_AUTO) {
-        return "what its viewer multiplies is what is written; leave the units alone";
+        return "the viewer needs fixed units; set light_units to AUTO";
     }
     if (as == ALP_LIGHTMAP_AS_EMISSIVE && units_of(o) != ALP_LIGHT_RADIANCE) {
-        return "what a material emits is radiance";
+        return "ALP_LIGHTMAP_AS_EMISSIVE stores radiance; set light_units to AUTO";
     }
     if (as == ALP_LIGHTMAP_AS_EMISSIVE && o->light.direct == ALP_DIRECT_OFF) {
-        return "a black material shows no direct light: bake it too where light becomes emission";
+        return "materials of ALP_LIGHTMAP_AS_EMISSIVE are black and reflect no direct light; "
+               "bake direct light too";
     }
     if (as == ALP_LIGHTMAP_AS_MOZ && units_of(o) == ALP_LIGHT_RADIANCE) {
-        return "readers of MOZ_lightmap multiply by the albedo; give them irradiance";
+        return "readers of MOZ_lightmap multiply by the albedo; set light_units to irradiance";
     }
     return NULL;
 }
@@ -251,8 +253,8 @@ static void tell_glass(const alpi_bake_job *job)
         if (job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE &&
             job->scene->materials[m].transmission > 0.0f) {
             alpi_note(job->context, "light-glass", job->scene->name,
-                      "material %u (%s) transmits light and stays as it is: black, nothing would "
-                      "be seen through it",
+                      "material %u (%s) transmits light and stays unchanged: a black one would "
+                      "be opaque",
                       m, job->scene->materials[m].name);
         }
     }

@@ -19,13 +19,12 @@ alp_result alpi_bake_check_maps_format(const alpi_bake_job *job)
                          (int)o->maps_format);
     }
     if (o->maps_format != ALP_MAPS_EXR && o->maps_folder == NULL) {
-        return alpi_fail(job->context, code,
-                         "bake: a format of maps is of those in a folder; give one");
+        return alpi_fail(job->context, code, "bake: maps_format applies to maps_folder; give one");
     }
     if (o->maps_format == ALP_MAPS_HDR && (o->maps & (unsigned)SIGNED) != 0) {
         return alpi_fail(job->context, code,
-                         "bake: bent normals, directions and harmonics have negative values, which "
-                         ".hdr cannot hold; take EXR or KTX2");
+                         "bake: bent normals, directions and harmonics have negative values, "
+                         "which .hdr cannot hold; use EXR or KTX2");
     }
     return ALP_OK;
 }
@@ -107,8 +106,8 @@ alp_result alpi_bake_encode_map(const alpi_bake_job *job, const alp_image *image
         return encode_halves(job, image, scale, file);
     }
     alpi_note(job->context, "maps-scaled", job->scene->name,
-              "%s, page %u: half floats end at 65504, so that its values are stored over %.0f; the "
-              "file says so, as alpenglowScale",
+              "%s, page %u: values exceed 65504, the limit of half floats; they are stored "
+              "divided by %.0f, which the file states as alpenglowScale",
               name, page, (double)scale);
     return encode_scaled(job, image, scale, file);
 }

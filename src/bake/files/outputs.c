@@ -148,7 +148,9 @@ alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages)
         ALP_TRY(check_dae_options(job));
     } else if (!is_gltf_path(o->output)) {
         return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
+                         "%s: its ending is not a format of output; use .glb, .gltf, .dae or "
+                         ".obj",
+                         o->output);
     }
     const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
     const alpi_gltf_images images = {

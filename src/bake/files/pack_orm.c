@@ -116,8 +116,8 @@ static void settle_materials(alpi_bake_job *job, uint32_t image, const alpi_imag
         if (used) {
             alpi_warn(
                 job->context, "ao-not-packed", job->scene->name,
-                "material %u (%s): its occlusion gets a map of its own and is not packed into "
-                "%s: %s",
+                "material %u (%s): its occlusion gets a separate map and is not packed into %s: "
+                "%s",
                 m, job->scene->materials[m].name, source->name, reason);
         }
     }
@@ -129,7 +129,7 @@ static void settle_materials(alpi_bake_job *job, uint32_t image, const alpi_imag
         alpi_note(job->context, "ao-packed", job->scene->name,
                   "occlusion goes into the red channel of %s%s%s%s", source->name,
                   kind != NULL ? ", which is a " : "", kind != NULL ? kind : "",
-                  kind != NULL ? " and becomes a PNG, so that its other channels stay as they are"
+                  kind != NULL ? " and becomes a PNG, so that its other channels stay unchanged"
                                : "");
     }
 }
@@ -161,7 +161,7 @@ alp_result alpi_bake_plan_packing(alpi_bake_job *job)
     }
     if (job->options.output == NULL) {
         alpi_note(job->context, "ao-not-packed", scene->name,
-                  "occlusion is packed into images of a written asset, and none is written");
+                  "occlusion is packed into images of an asset, and there is no output; give one");
         return ALP_OK;
     }
     ALPI_TRY_NEW(job->context, packing->targets, scene->image_count);
@@ -179,8 +179,8 @@ alp_result alpi_bake_plan_packing(alpi_bake_job *job)
     alpi_release(job->context, textures);
     if (result == ALP_OK && !found) {
         alpi_note(job->context, "ao-not-packed", scene->name,
-                  "no material that is baked has an image for roughness, metalness or occlusion: "
-                  "all get maps of their own");
+                  "no baked material has an image of roughness, metalness or occlusion: all get "
+                  "separate maps");
     }
     return result;
 }

@@ -38,13 +38,13 @@ alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages)
     const alp_bake_options *o = &job->options;
     if (!alpi_path_has_ending(o->output, wanted_ending(o))) {
         return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: light in this form goes into a file whose name ends in %s", o->output,
+                         "%s: this form of light needs an output that ends in %s", o->output,
                          wanted_ending(o));
     }
     if (o->atlas.mode == ALP_ATLAS_BLEND) {
         return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: light in this form has one coordinate set, and --atlas blend three; "
-                         "write .glb or .gltf, or use --atlas charts",
+                         "%s: this form of light has one coordinate set, and --atlas blend has "
+                         "three; write .glb or .gltf, or use --atlas charts",
                          o->output);
     }
     ALP_TRY(alpi_file_check_writable(job->context, o->output, o->overwrite));

@@ -92,6 +92,6 @@ alp_result alpi_light_denoise(alpi_bake_job *job, const alpi_light_task *task, f
     job->report.cut_off = true;
     clock->ended = true; // asked again it would cancel what it wanted kept
     alpi_warn(job->context, "not-denoised", job->scene->name,
-              "light was interrupted before its noise was taken off; it is as its rays left it");
+              "light was interrupted before denoising; its noise remains");
     return ALP_OK;
 }

@@ -125,20 +125,20 @@ void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error,
     const double stated = isfinite(error->rms) ? error->rms : 0.0; // in the dark there is none
     if (cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
-                  "light ended before its time, after %u rays a texel and %u samples of each "
-                  "light; the stated error is %.2g %%, and another run gives other bits",
+                  "light was cut off after %u rays per texel and %u samples of each light; the "
+                  "stated error is %.2g %%, and another run gives other bits",
                   rays, direct, 100.0 * stated);
     } else if (wanted > 0.0 && error->rms > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
-                  "the stated error of the light is %.2g %% after %u rays a texel and %u samples "
-                  "of each light, wanted %.2g %%",
+                  "the stated error of the light is %.2g %% after %u rays per texel and %u "
+                  "samples of each light, wanted %.2g %%",
                   100.0 * error->rms, rays, direct, 100.0 * wanted);
     } else if (wanted > 0.0 && error->p99 > ALPI_P99_LIMIT * wanted) {
         alpi_warn(
             job->context, "error-not-reached", job->scene->name,
-            "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred "
-            "has more than %.2g %% after up to %u rays a texel and up to %u samples of each light, "
-            "wanted at most %.2g %%",
+            "the stated error of the light is %.2g %%, as wanted, but one texel in a hundred has"
+            " more than %.2g %% after up to %u rays per texel and up to %u samples of each "
+            "light, wanted at most %.2g %%",
             100.0 * error->rms, 100.0 * error->p99, rays, direct, 100.0 * ALPI_P99_LIMIT * wanted);
     }
 }

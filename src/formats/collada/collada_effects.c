@@ -104,7 +104,7 @@ static alp_result read_texture(alpi_collada_reader *reader, const scopes *in,
         char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(reader->document, element, owner);
         alpi_warn(reader->context, "image", owner,
-                  "texture=\"%.60s\" leads to no image: white is used",
+                  "texture=\"%.60s\" names no image: white is used",
                   texture != NULL ? texture : "");
         return ALP_OK;
     }
@@ -229,7 +229,7 @@ static alp_result fill_effect(alpi_collada_reader *reader, const xmlNode *elemen
         char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(reader->document, element, owner);
         alpi_warn(reader->context, "effect", owner,
-                  "has no common profile that is read (phong, lambert, blinn, constant): a grey of "
+                  "has no supported common profile (phong, lambert, blinn, constant): a grey of "
                   "albedo 0.5 is used");
     }
     ALP_TRY(read_slot(reader, &in, shader, "diffuse", &effect->diffuse));
@@ -305,7 +305,8 @@ static void set_alpha(alpi_collada_reader *reader, const alpi_collada_effect *ef
     double alpha = textured ? fmin(fmax(effect->transparency, 0.0), 1.0) : find_alpha(effect);
     if (textured && !same) {
         alpi_warn(reader->context, "alpha", material->name,
-                  "its transparency is in an image of its own, which is not read: taken as opaque");
+                  "its transparency is in a separate image, which is not read: it counts as "
+                  "opaque");
         return;
     }
     if (alpha == 0.0) { // exporters disagree on which end is opaque; nobody models the invisible

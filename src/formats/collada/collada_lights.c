@@ -107,8 +107,8 @@ static alp_result read_light(const alpi_collada_reader *reader, const alpi_colla
         alpi_collada_owner(reader->document, at->target, owner);
         alpi_warn(reader->context, "light", owner,
                   alpi_xml_child(common, "ambient") != NULL
-                      ? "an <ambient> light is left out: light from all sides is what a bake finds"
-                      : "left out: it is no point, spot or directional light");
+                      ? "an <ambient> light is left out: the bake computes ambient light itself"
+                      : "left out: it is not a point, spot or directional light");
         return ALP_OK;
     }
     *light = (alpi_light){.kind = (alpi_light_kind)kind, .range = INFINITY};
@@ -172,7 +172,7 @@ static alp_result read_camera(const alpi_collada_reader *reader, const alpi_coll
         char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(reader->document, at->target, owner);
         alpi_note(reader->context, "camera", owner,
-                  "left out: it is no perspective camera, or its place cannot be used");
+                  "left out: it is not a perspective camera, or its transform cannot be used");
         return ALP_OK;
     }
     *camera = (alp_camera){.vertical_fov = (float)fov};

@@ -260,7 +260,7 @@ static alp_result check_extent(const alpi_collada_reader *reader, uint64_t visit
     return visits <= VISIT_LIMIT && places <= PLACE_LIMIT
                ? ALP_OK
                : alpi_fail(reader->context, ALP_ERROR_LIMIT,
-                           "%s: its nodes show more than %d elements, or place more than %d "
+                           "%s: its nodes have more than %d elements, or place more than %d "
                            "geometries and lights; split the scene",
                            reader->document->path, VISIT_LIMIT, PLACE_LIMIT);
 }
@@ -328,7 +328,7 @@ static alp_result place_all(alpi_collada_reader *reader)
     }
     if (reader->placement_count > 0) {
         alpi_warn(reader->context, "no-scene", document->path,
-                  "has no visual scene: its %u geometries are placed as they stand",
+                  "has no visual scene: its %u geometries are placed without a transform",
                   reader->placement_count);
     }
     return ALP_OK;
@@ -348,7 +348,7 @@ static alp_result find_scene(const alpi_collada_reader *reader, xmlNode **scene)
         *scene = alpi_xml_descend(document->root, library);
         if (*scene != NULL) {
             alpi_note(reader->context, "no-scene", document->path,
-                      "does not say which visual scene to show: the first is taken");
+                      "does not name its visual scene: the first is read");
         }
     }
     return ALP_OK;

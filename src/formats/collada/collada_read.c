@@ -332,12 +332,11 @@ static void tell_oddities(const alpi_collada_reader *r)
     const char *path = r->document->path;
     if (r->skinned > 0) {
         alpi_note(context, "skin", path,
-                  "%u skinned meshes are taken in their rest pose: as they stand before the skin "
-                  "moves them",
+                  "%u skinned meshes are read in their rest pose, before the skin is applied",
                   r->skinned);
     }
     if (r->morphed > 0) {
-        alpi_note(context, "morph", path, "meshes taken without their morph targets: %u",
+        alpi_note(context, "morph", path, "meshes read without their morph targets: %u",
                   r->morphed);
     }
     if (r->not_triangles > 0) {
@@ -346,8 +345,8 @@ static void tell_oddities(const alpi_collada_reader *r)
     }
     if (r->not_meshes > 0) {
         alpi_warn(context, "not-mesh", path,
-                  "places of geometries that are no <mesh> (splines, convex hulls, solids) left "
-                  "out: %u; export them as meshes",
+                  "instances of geometries other than <mesh> (splines, convex hulls, solids) "
+                  "left out: %u; export them as meshes",
                   r->not_meshes);
     }
     if (r->without_material > 0) {
@@ -357,8 +356,8 @@ static void tell_oddities(const alpi_collada_reader *r)
     }
     if (r->odd_alpha > 0) {
         alpi_warn(context, "alpha", path,
-                  "materials that are invisible by their numbers, as exporters write opaque ones: "
-                  "%u; taken as opaque",
+                  "materials with the invisible opacity that some exporters write for opaque "
+                  "ones: %u; read as opaque",
                   r->odd_alpha);
     }
     if (r->lost_sets > 0) {

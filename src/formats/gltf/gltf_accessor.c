@@ -140,7 +140,7 @@ static alp_result find_layout(const alpi_gltf_document *document, size_t index, 
     found->values.components = component_count(shape);
     found->values.component_size = component_size(type);
     if (found->values.component_size == 0) {
-        return alpi_gltf_fail(document, owner, "componentType %zu is none that glTF knows", type);
+        return alpi_gltf_fail(document, owner, "componentType %zu is not defined by glTF", type);
     }
     if (found->values.components == 0) {
         return alpi_gltf_fail(document, owner, "type \"%.20s\" where a scalar or vector is needed",

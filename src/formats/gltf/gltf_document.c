@@ -133,7 +133,7 @@ static alp_result read_container(alpi_gltf_document *document)
         return fail_file(document, "the file is empty");
     }
     if (document->text[blank] != '{') {
-        return fail_file(document, "is no glTF: it starts with neither \"glTF\" nor \"{\"");
+        return fail_file(document, "is not glTF: it starts with neither \"glTF\" nor \"{\"");
     }
     return ALP_OK;
 }

@@ -81,8 +81,8 @@ static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_i
     char reason[512];
     snprintf(reason, sizeof reason, "%s", alp_context_message(reader->context));
     alpi_gltf_clean(reason);
-    alpi_warn(reader->context, "image", owner,
-              "%s; the materials that use it keep their factors alone", reason);
+    alpi_warn(reader->context, "image", owner, "%s; its materials are read without this texture",
+              reason);
     return ALP_OK;
 }
 

@@ -150,14 +150,14 @@ alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t n
     uint32_t bad = normalize(list, *count);
     if (bad > 0) {
         alpi_warn(document->context, "rotation", owner,
-                  "%u of its instances have a rotation that is no quaternion: they are not turned",
+                  "%u of its instances have a rotation that is not a quaternion: they are not "
+                  "rotated",
                   bad);
     }
     bad = shrink_unplaced(list, *count);
     if (bad > 0) {
         alpi_warn(document->context, "bad-coordinates", owner,
-                  "%u of its instances left out: a number of their place or scale is not finite",
-                  bad);
+                  "%u of its instances left out: their translation or scale is not finite", bad);
     }
     *instances = list;
     return ALP_OK;

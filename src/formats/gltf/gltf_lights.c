@@ -22,7 +22,7 @@ static alp_result read_kind(const alpi_gltf_reader *reader, json_t *object, cons
             return ALP_OK;
         }
     }
-    return alpi_gltf_fail(reader->document, owner, "type \"%.20s\" is none that is known",
+    return alpi_gltf_fail(reader->document, owner, "type \"%.20s\" is unknown",
                           type != NULL ? type : "");
 }
 

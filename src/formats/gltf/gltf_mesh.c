@@ -527,22 +527,21 @@ static void tell_oddities(const plan *p)
     }
     if (p->without_material > 0) {
         alpi_note(context, "no-material", path,
-                  "primitives without a material, taken as a grey of albedo 0.5: %u",
+                  "primitives without a material, read as a grey of albedo 0.5: %u",
                   p->without_material);
     }
     if (p->skinned > 0) {
         alpi_note(context, "skin", path,
-                  "%u skinned nodes are taken as their joints stand when nothing is played",
+                  "%u skinned nodes are read in the pose of their joints, without animation",
                   p->skinned);
     }
     if (p->morphed > 0) {
         alpi_note(context, "morph", path,
-                  "primitives with morph targets, taken with their default weights: %u",
-                  p->morphed);
+                  "primitives with morph targets, read with their default weights: %u", p->morphed);
     }
     if (p->instanced > 0) {
         alpi_note(context, "instancing", path,
-                  "%u nodes show their mesh in instances (EXT_mesh_gpu_instancing), %zu in all",
+                  "%u nodes have instances of their mesh (EXT_mesh_gpu_instancing), %zu in all",
                   p->instanced, p->placement_count);
     }
 }

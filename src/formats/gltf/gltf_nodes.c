@@ -121,12 +121,12 @@ static alp_result read_transform(const alpi_gltf_reader *reader, uint32_t node, 
     ALP_TRY(alpi_gltf_numbers(document, object, "scale", owner, 3, s));
     double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0.0) || !isfinite(length)) {
-        return alpi_gltf_fail(document, owner, "rotation is no quaternion: its length is %g",
+        return alpi_gltf_fail(document, owner, "rotation is not a quaternion: its length is %g",
                               length);
     }
     if (fabs(length - 1.0) > 1e-3) {
         alpi_warn(reader->context, "rotation", owner,
-                  "the rotation's length is %g: it is made a unit quaternion", length);
+                  "the rotation's length is %g: it is normalised", length);
     }
     for (int k = 0; k < 4; k++) {
         q[k] /= length;
@@ -182,8 +182,8 @@ static alp_result choose_scene(const alpi_gltf_reader *reader, size_t *scene)
             snprintf(shown, sizeof shown, "%s", name != NULL ? name : "");
             alpi_gltf_clean(shown);
             alpi_note(reader->context, "scenes", document->path,
-                      "of its %zu scenes number %zu%s%s%s is taken, which viewers show first",
-                      count, *scene, name != NULL ? " (" : "", shown, name != NULL ? ")" : "");
+                      "of its %zu scenes, number %zu%s%s%s is read, the default of the file", count,
+                      *scene, name != NULL ? " (" : "", shown, name != NULL ? ")" : "");
         }
         return ALP_OK;
     }
@@ -232,7 +232,7 @@ static alp_result push_roots(const alpi_gltf_reader *reader, const uint32_t *par
         }
         if (parent[node] != ALPI_NONE) {
             return alpi_gltf_fail(document, owner,
-                                  "names node %u, which is no root but a child of node %u", node,
+                                  "names node %u, which is not a root but a child of node %u", node,
                                   parent[node]);
         }
         seen[node] = true;

@@ -80,7 +80,7 @@ static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char
         const uint32_t node = find_joint(reader, joints, i);
         if (node == ALPI_NONE) {
             return alpi_gltf_fail(reader->document, owner,
-                                  "joint %zu is no index of a node, of which there are %u", i,
+                                  "joint %zu is not the index of a node (there are %u)", i,
                                   reader->node_count);
         }
         missing = placed ? i : missing;
@@ -89,7 +89,7 @@ static alp_result read_joints(alpi_gltf_reader *reader, json_t *skin, const char
     if (!placed) {
         if (tell) {
             alpi_warn(reader->context, "skin", owner,
-                      "joint %zu is no node of the scene: what the skin moves is taken without it",
+                      "joint %zu is not a node of the scene: the skin is applied without it",
                       missing);
         }
         return ALP_OK;

@@ -18,7 +18,7 @@ static alp_result find_corners(const alpi_gltf_document *document, json_t *primi
 {
     ALP_TRY(alpi_gltf_size_or(document, primitive, "mode", owner, MODE_TRIANGLES, &list->mode));
     if (list->mode > MODE_FAN) {
-        return alpi_gltf_fail(document, owner, "mode %zu is none that glTF knows", list->mode);
+        return alpi_gltf_fail(document, owner, "mode %zu is not defined by glTF", list->mode);
     }
     ALP_TRY(alpi_gltf_index(document, primitive, "indices", "accessors", owner, &list->accessor));
     list->count = vertex_count;

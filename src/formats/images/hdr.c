@@ -465,8 +465,8 @@ alp_result alpi_hdr_encode(const alp_image *image, uint8_t **bytes, size_t *size
     }
     if (writer.clamped > 0) {
         alpi_warn(context, "hdr-range", NULL,
-                  "%llu values are negative, not numbers or beyond 1.7e38, which .hdr cannot hold; "
-                  "they were written as 0 or that. .exr holds them",
+                  "%llu values are negative, NaN or beyond 1.7e38, which .hdr cannot hold; they "
+                  "were clamped; .exr holds them",
                   (unsigned long long)writer.clamped);
     }
     *bytes = writer.bytes;

@@ -50,7 +50,7 @@ alp_result alp_image_load(alp_context *context, const char *path, alp_image **im
     }
     if (path == NULL || image == NULL) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT, "load image: %s is NULL",
-                         path == NULL ? "the path" : "the place for the image");
+                         path == NULL ? "the path" : "the output pointer");
     }
     uint8_t *bytes = NULL;
     size_t size = 0;
@@ -69,8 +69,8 @@ static alp_result encode(const alp_image *image, const char *path, uint8_t **byt
     }
     if (png != (image->info.component == ALP_COMPONENT_U8)) {
         return alpi_fail(image->context, ALP_ERROR_INVALID_ARGUMENT,
-                         png ? "%s: a float image is saved as .exr or .hdr; make 8 bits of it for "
-                               ".png"
+                         png ? "%s: a float image is saved as .exr or .hdr; convert it to 8 bits"
+                               " for .png"
                              : "%s: an 8-bit image is saved as .png, a float one as .exr or .hdr",
                          path);
     }

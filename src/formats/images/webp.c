@@ -24,7 +24,7 @@ static alp_result check(alp_context *context, const char *name,
     uint64_t pixels = (uint64_t)features->width * (uint64_t)features->height;
     if (features->has_animation != 0) {
         return alpi_fail(context, ALP_ERROR_UNSUPPORTED,
-                         "%s: WebP: moves; only still ones are read", name);
+                         "%s: WebP: is animated; only still images are read", name);
     }
     if (pixels > ALPI_IMAGE_PIXEL_LIMIT || features->width > ALPI_IMAGE_SIDE_LIMIT ||
         features->height > ALPI_IMAGE_SIDE_LIMIT) {

@@ -49,7 +49,7 @@ static alp_result read_image(const alpi_obj *obj, const char *name, alp_image **
     }
     char reason[512];
     snprintf(reason, sizeof reason, "%s", alp_context_message(obj->context));
-    alpi_warn(obj->context, "image", name, "%s; the materials that use it keep their colours alone",
+    alpi_warn(obj->context, "image", name, "%s; its materials are read without this texture",
               reason);
     return ALP_OK;
 }

@@ -236,8 +236,8 @@ static void finish_material(reader *r)
         m->alpha_cutoff = 0.5f;
     } else if (r->map_d != ALPI_NONE) {
         alpi_note(r->obj->context, "map-d", m->name,
-                  "map_d is read where it is the file of map_Kd, whose alpha it then means; this "
-                  "one is taken as opaque");
+                  "map_d is read only if it is the file of map_Kd, as its alpha; this material "
+                  "is read as opaque");
     }
     r->map_d = ALPI_NONE;
 }
@@ -445,7 +445,7 @@ static alp_result match_names(reader *r, uint32_t **materials)
             char shown[128];
             show((alpi_obj_word){name, used->sizes[i]}, shown);
             alpi_warn(r->obj->context, "material", shown,
-                      "is in no material library: its surfaces are taken as grey (albedo .5)");
+                      "is in no material library: its surfaces are read as grey (albedo 0.5)");
         }
     }
     return ALP_OK;

@@ -300,8 +300,8 @@ static void tell(const parser *p)
     }
     if (p->unknown > 0) {
         alpi_note(context, "statements", path,
-                  "%llu statements left out, such as \"%s\": only v, vt, vn, f, o, g, usemtl and "
-                  "mtllib are read",
+                  "%llu statements left out, such as \"%s\": only v, vt, vn, f, o, g, usemtl and"
+                  " mtllib are read",
                   (unsigned long long)p->unknown, p->unknown_word);
     }
 }
@@ -395,7 +395,7 @@ alp_result alpi_obj_scene_from_bytes(alp_context *context, const char *path, con
         alp_scene_destroy(made);
         return result;
     }
-    alpi_note(context, "unit", path, "an OBJ states no unit of length: metres are taken for it");
+    alpi_note(context, "unit", path, "an OBJ states no unit of length: metres are assumed");
     *scene = made;
     return ALP_OK;
 }

@@ -174,8 +174,8 @@ alp_result alpi_polygon_join_holes(alpi_polygon_scratch *scratch, const alpi_pol
     const uint64_t left = BRIDGE_LIMIT - scratch->bridge_work;
     if (count > 0 && corners > left / count) {
         return alpi_fail(scratch->context, ALP_ERROR_LIMIT,
-                         "a polygon has %u holes and %u corners: joining them, with those before, "
-                         "takes more than %llu looks at corners; cut them into triangles before",
+                         "a polygon has %u holes and %u corners: joining these and earlier ones "
+                         "takes more than %llu steps; cut them into triangles before export",
                          count, ring->count, (unsigned long long)BRIDGE_LIMIT);
     }
     scratch->bridge_work += corners * count;

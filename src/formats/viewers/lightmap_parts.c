@@ -339,8 +339,8 @@ void alpi_lightmap_warn_of_metal(const alpi_lightmap_parts *parts)
     }
     if (count > 0) {
         alpi_warn(scene->context, "lightmap-metal", scene->materials[last].name,
-                  "%u materials have a texture of metalness, which this kind of file does not "
-                  "hold; they are written as if nothing were metal",
+                  "%u materials have a texture of metalness, which this format cannot hold; they"
+                  " are written without metal",
                   count);
     }
 }

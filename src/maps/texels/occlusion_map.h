@@ -8,7 +8,7 @@
 #include "maps/texels/scratch.h"
 #include "transport/occlusion/occlusion.h"
 
-#include <alpenglow/bake.h>
+#include <alpenglow/lightmap.h>
 
 /// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {

@@ -322,8 +322,8 @@ void alpi_builtin_terrain(alpi_builder *builder, const uint32_t *values)
     build(&least, &t);
     if (least.triangle_count > values[0] && builder->result == ALP_OK) {
         builder->result = alpi_fail(builder->context, ALP_ERROR_INVALID_ARGUMENT,
-                                    "builtin:terrain: trees=%u: %u triangles are too few; ask for "
-                                    "%llu or more, or for fewer trees",
+                                    "builtin:terrain: trees=%u: %u triangles are too few; give "
+                                    "%llu or more, or fewer trees",
                                     values[1], values[0], (unsigned long long)least.triangle_count);
     }
     if (builder->result != ALP_OK) {

@@ -194,8 +194,8 @@ void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting)
 {
     if (alpi_lighting_is_dark(lighting)) {
         alpi_warn(scene->context, "no-light", scene->name,
-                  "nothing gives light: no light, no emissive material and no sky; give one "
-                  "(--sky, --sun, --lamp)");
+                  "there is no light: no lamp, no emissive material and no sky; give one (--sky,"
+                  " --sun, --lamp)");
     }
 }
 

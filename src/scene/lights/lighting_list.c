@@ -69,7 +69,7 @@ alp_result alpi_light_list_gather(const alp_scene *scene, const alp_lighting_opt
         }
         if (!light_is_sound(light)) {
             alpi_warn(scene->context, "light", light->name,
-                      "light %u is left out: a value of it is negative or no number", i);
+                      "light %u is left out: a value is negative or not a number", i);
             light->intensity = 0.0f;
         }
     }

@@ -74,7 +74,7 @@ static alp_result check_image(alp_context *context, const alp_image *image)
 {
     if (image == NULL) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "sky: its kind is an image, but there is none; give one");
+                         "sky: its kind is an image, and the image is NULL; give one");
     }
     if (image->info.component != ALP_COMPONENT_FLOAT) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
@@ -99,8 +99,7 @@ static alp_result check_clear(alp_context *context, const alp_sky_options *o, ve
 {
     if (!is_within(o->turbidity, LEAST_TURBIDITY, MOST_TURBIDITY)) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "sky: turbidity %g; the clear sky is known for 1.7 to 10",
-                         (double)o->turbidity);
+                         "sky: turbidity %g; it must be 1.7 to 10", (double)o->turbidity);
     }
     float length = vec3_length(sun);
     if (!is_within(length, 0.999f, 1.001f)) {
@@ -174,8 +173,8 @@ static alp_result make_image(alp_context *context, const alp_sky_options *o, alp
     faults f = find_faults(image);
     if (f.negative + f.infinite > 0) {
         alpi_warn(context, "sky-image", NULL,
-                  "the sky's image: %llu values are negative or not numbers and count as 0, %llu "
-                  "are infinite and count as its brightest, %g",
+                  "the sky's image: %llu values are negative or NaN and count as 0, %llu are "
+                  "infinite and count as its brightest, %g",
                   (unsigned long long)f.negative, (unsigned long long)f.infinite,
                   (double)f.brightest);
     }
@@ -277,8 +276,8 @@ static alp_result make_clear(alp_context *context, const alp_sky_options *o, vec
     sky->strength = (float)((double)o->strength * fading);
     if (fading < 1.0) {
         alpi_warn(context, "sun-below-horizon", NULL,
-                  "the clear sky is meant for a sun above the horizon; below, it fades to %.2g of "
-                  "what it is at sunset",
+                  "the sun is below the horizon: the clear sky fades to %.2g of its value at "
+                  "sunset",
                   fading);
     }
     ALP_TRY(alpi_sky_table_create(context, CLEAR_WIDTH, CLEAR_HEIGHT, 0.0f, &sky->table));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# what has no meaning with values at vertices, or only with them, is refused and never ignored
+# options that do not apply to values at vertices, or only to them, are refused and never ignored
 . "$(dirname "$0")/helpers.bash"
 try bake scene.glb -o out.glb --atlas vertex --size 64
 try bake scene.glb -o out.glb --atlas vertex --texels-per-metre 3

@@ -269,7 +269,7 @@ static void what_has_one_set_is_refused(void **state)
     options.lightmap_as = ALP_LIGHTMAP_AS_THREE;
     options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(alp_context_message(context), "--atlas blend three"));
+    assert_non_null(strstr(alp_context_message(context), "--atlas blend has three"));
     alp_scene_destroy(scene);
     alp_context_destroy(context);
 }

@@ -466,7 +466,7 @@ static void faults_are_named(void **state)
     require_fault(context, ao.path, ao.path, &options, argument, "_default()");
     options = few_points();
     paint_constant(context, &light, NAN);
-    require_fault(context, light.path, light.path, &options, data, "a value that is no number");
+    require_fault(context, light.path, light.path, &options, data, "a value that is not finite");
     release(&light);
     release(&ao);
     alp_context_destroy(context);

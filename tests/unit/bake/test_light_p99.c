@@ -264,7 +264,7 @@ static void what_fell_short_is_told(void **state)
     assert_non_null(strstr(
         test_log_text(),
         "is 0.9 %, as wanted, but one texel in a hundred has more than 5.1 % "
-        "after up to 64 rays a texel and up to 8 samples of each light, wanted at most 4 %"));
+        "after up to 64 rays per texel and up to 8 samples of each light, wanted at most 4 %"));
     test_log_clear();
     alpi_light_warn(&job, &(alpi_relative_error){.rms = 0.02, .p99 = 0.05}, false, 64, 8);
     assert_non_null(strstr(test_log_text(), "the light is 2 % after"));

@@ -438,7 +438,7 @@ static void nothing_to_pack_is_the_same_as_separate(void **state)
     asset.materials = "[{'name':'floor'},{'name':'lid'}]";
     orm_bake p = orm_start(&asset);
     orm_run(&p);
-    assert_non_null(strstr(test_log_text(), "no material that is baked has an image"));
+    assert_non_null(strstr(test_log_text(), "no baked material has an image"));
     size_t size, separate_size;
     unsigned char *bytes = test_read_file(p.path, &size);
     alp_bake_options options = p.options;

@@ -78,7 +78,7 @@ static void skins_that_do_not_hold(void **state)
     } cases[] = {
         {"0", "{'joints':[1,2]}", NULL}, // joints outside the scene
         {"0,1,2", "{'joints':[]}", NULL},
-        {"0,1,2", "{'joints':[1,99]}", "skin 0: joint 1 is no index of a node"},
+        {"0,1,2", "{'joints':[1,99]}", "skin 0: joint 1 is not the index of a node"},
         {"0,1,2", "{'joints':[1]}", "vertex 1 names a joint that its skin does not have"},
         {"0,1,2", "{'joints':[1,2],'inverseBindMatrices':0}", "where 2 MAT4 of floats are needed"},
         {"0,1,2", "{'joints':[1,2,1],'inverseBindMatrices':4}", "where 3 MAT4 of floats"},
@@ -208,7 +208,7 @@ static void choice_of_a_scene(void **state)
     alp_scene *scene = NULL;
     assert_int_equal(alp_scene_load_choice(context, "builtin:cornell", "0", &scene),
                      ALP_ERROR_INVALID_ARGUMENT);
-    test_message_has(context, "builtin:cornell: holds one scene");
+    test_message_has(context, "builtin:cornell: has one scene");
     alp_context_destroy(context);
 }
 

@@ -100,7 +100,7 @@ static void moving_ones(void **state)
     alp_image *image = NULL;
     assert_int_equal(alpi_webp_decode(context, "a.webp", bytes, sizeof bytes - 1, &image),
                      ALP_ERROR_UNSUPPORTED);
-    test_message_has(context, "a.webp: WebP: moves");
+    test_message_has(context, "a.webp: WebP: is animated");
     alp_context_destroy(context);
 }
 

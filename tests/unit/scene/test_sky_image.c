@@ -274,7 +274,7 @@ static void what_is_no_radiance_is_cleaned(void **state)
     p[4 * 12 + 2] = 2e30f;
     p[4 * 13 + 2] = -INFINITY;
     sky = image_sky(context, image, 0.0f);
-    assert_non_null(strstr(test_log_text(), "3 values are negative or not numbers"));
+    assert_non_null(strstr(test_log_text(), "3 values are negative or NaN"));
     assert_non_null(strstr(test_log_text(), "2 are infinite and count as its brightest, 7"));
     vec3 radiance = alpi_sky_radiance(sky, toward(image, 1, 1));
     ASSERT_NEAR(radiance.x, 0.0, 1e-4);
@@ -298,7 +298,7 @@ static void wrong_images_are_named(void **state)
     (void)state;
     alp_context *context = test_context(1);
     alp_sky_options o = sky_options(ALP_SKY_IMAGE);
-    sky_refuse(context, &o, UP, "there is none");
+    sky_refuse(context, &o, UP, "the image is NULL");
     const struct {
         alp_image_info info;
         const char *word;

@@ -248,8 +248,8 @@ static alp_result add_image_copy(writing *w, const alpi_collada_document *d, con
     if (name == NULL) {
         if (strncmp(uri, "..", 2) == 0) { // else an address that stays right
             alpi_warn(w->context, "images", w->path,
-                      "names \"%.200s\", which lies outside the document's folder and is not "
-                      "copied: put it beside the new one likewise",
+                      "names \"%.200s\" outside the document's folder, which is not copied; put "
+                      "it at the same path from the new document",
                       uri);
         }
         return ALP_OK;
@@ -260,7 +260,8 @@ static alp_result add_image_copy(writing *w, const alpi_collada_document *d, con
         result = alpi_gltf_files_add_copy(&w->files, path, bytes, size);
     } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
         alpi_note(w->context, "missing-file", name,
-                  "the document refers to it, but it cannot be read: the copy will miss it too");
+                  "the document refers to it, but it cannot be read: it is missing from the copy"
+                  " too");
         result = ALP_OK;
     }
     alpi_release(w->context, name);
@@ -356,8 +357,8 @@ alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_im
     if (images->light > 0 &&
         (images->light_is_beside || strcmp(images->light_ending, ".png") != 0)) {
         return alpi_fail(scene->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: a .dae shows light as emission only; use --lightmap-as emissive, or "
-                         "write .glb",
+                         "%s: a .dae stores light as emission only; use --lightmap-as emissive, "
+                         "or write .glb",
                          path);
     }
     ALP_TRY(alpi_file_check_writable(scene->context, path, overwrite));

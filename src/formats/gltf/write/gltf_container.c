@@ -127,7 +127,7 @@ static alp_result embed_image(alpi_gltf_patcher *p, size_t index)
         p->image_embedded[index] = true;
     } else {
         alpi_note(p->context, "image-not-embedded", owner,
-                  "\"%.200s\" cannot be read or is of no known kind: it stays a reference", uri);
+                  "\"%.200s\" cannot be read or has an unknown format: it stays a reference", uri);
     }
     alpi_release(p->context, bytes);
     return ALP_OK;

@@ -338,8 +338,8 @@ static void state_origin(alpi_gltf_patcher *p)
         alpi_bytes_destroy(&value);
     } else if (text[extras.begin] != '{') {
         alpi_note(p->context, "extras", p->document->path,
-                  "asset.extras is no object and stays as it is: the file does not say how it was "
-                  "baked");
+                  "asset.extras is not an object and stays unchanged: the file does not state "
+                  "how it was baked");
     } else if (alpi_json_find(text, extras, "alpenglow", &old)) {
         alpi_edits_replace(&p->edits, old, "%s", json);
     } else {

@@ -140,8 +140,8 @@ void alpi_patcher_blend_material(alpi_gltf_patcher *p, size_t material, const ch
     const alpi_gltf_inside inside = {"extras", 1, names, &blend};
     if (!alpi_patcher_set_inside(p, material, &inside, edits)) {
         alpi_warn(p->context, "extras", p->document->path,
-                  "the extras of material %zu are no object: they stay, and do not name the sets "
-                  "that are blended",
+                  "the extras of material %zu are not an object: they stay unchanged, and do not"
+                  " name the blended sets",
                   material);
     }
 }

@@ -189,7 +189,8 @@ void alpi_patcher_light_material(alpi_gltf_patcher *p, const alpi_gltf_light_use
                                      both ? 2 : 1, names, values};
     if (!alpi_patcher_set_inside(p, use->material, &inside, edits)) {
         alpi_warn(p->context, "extras", p->document->path,
-                  "the extras of material %zu are no object: they stay, and do not name its light",
+                  "the extras of material %zu are not an object: they stay unchanged, and do not"
+                  " name its light",
                   use->material);
     }
     alpi_bytes_destroy(&value);

@@ -168,7 +168,7 @@ static void drop_repeated(alpi_gltf_patcher *p)
             char owner[ALPI_GLTF_OWNER_SIZE];
             snprintf(owner, sizeof owner, "mesh %zu", plan->mesh);
             alpi_note(p->context, "shared-mesh", owner,
-                      "several nodes use this mesh with kept coordinates: all show the same map");
+                      "several nodes use this mesh with kept coordinates: all use the same map");
         }
     }
     p->plan_count = kept;

@@ -291,8 +291,8 @@ alp_result alpi_patcher_choose_sets(alpi_gltf_patcher *p, json_t *primitive, con
         dead &= ~((uint64_t)1 << plan->sets[0]);
     } else if (!choose(p, present & ~dead, plan)) {
         return alpi_gltf_fail(p->document, owner,
-                              "has %d coordinate sets: none is free for a map; take out what "
-                              "nothing reads",
+                              "has %d coordinate sets: none is free for a map; remove unused "
+                              "ones",
                               SET_LIMIT);
     }
     const bool packed_away = keeps && alpi_gltf_extension(primitive, ALPI_GLTF_DRACO) != NULL;
@@ -312,9 +312,9 @@ void alpi_patcher_warn_of_sets(const alpi_gltf_patcher *p)
     if (count > 0) {
         alpi_warn(
             p->context, "uv-sets", p->document->path,
-            "the map of %zu primitives is read with a coordinate set beyond TEXCOORD_3, which "
-            "few viewers know and no reading of ours, because four are there already; take "
-            "out what nothing reads, or bake the original file",
+            "the map of %zu primitives uses a coordinate set beyond TEXCOORD_3, because they "
+            "have four already; few viewers and not this program read it; remove unused sets, or"
+            " bake the original file",
             count);
     }
 }

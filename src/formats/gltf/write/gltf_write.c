@@ -87,8 +87,8 @@ static bool is_outside(const alpi_gltf_files *files, const alpi_gltf_document *d
     }
     if (!files->silent && from_folder && source[length] != '/') { // absolute ones stay right
         alpi_warn(files->context, "outside-file", source,
-                  "the asset refers to it as \"%.200s\", outside of its folder: it is not copied, "
-                  "and the new asset finds it only where that leads there too",
+                  "the asset refers to it as \"%.200s\", outside of its folder: it is not "
+                  "copied; put it at the same path from the new asset",
                   uri);
     }
     return true;
@@ -121,7 +121,8 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
     if (result != ALP_OK) {
         if (!files->silent) {
             alpi_warn(files->context, "missing-file", source,
-                      "the asset refers to it, but it cannot be read: the copy will miss it too");
+                      "the asset refers to it, but it cannot be read: it is missing from the "
+                      "copy too");
         }
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
