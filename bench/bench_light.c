@@ -213,7 +213,7 @@ int bench_light(const bench_options *options)
                       "that the gatherer sends, recorded. Ratio: limit's seconds over ours, median "
                       "of the rounds'. Of 16: the same with pairs of packets through "
                       "`rtcIntersect16`, which is what ours calls for hemicubes on machines of 512 "
-                      "bits, but in the Cornell box, whose few triangles it meets without Embree.",
+                      "bits.",
                       "scene|triangles|rays|workers|limit|ours|ratio|limit of 16|ratio");
     bool good = true;
     const size_t count = options->quick || options->scene != NULL ? 1 : SCENES;

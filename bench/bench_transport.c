@@ -30,7 +30,7 @@ typedef struct measured_case {
     uint32_t *list, list_count;
     uint32_t samples; // sent from each receiver
     alpi_occlusion_sums sums;
-    raw_embree *raw; // by the same hierarchy; careful where the filter wants none
+    raw_embree *raw; // by the same hierarchy
     const char *hierarchy;
     ray_record record, parallel;
     const ray_record *timed;
@@ -188,17 +188,14 @@ static void measure(measured_case *c, uint32_t rounds, bench_table *table)
             0.5 * (limits[i] + time_raw(c, &c->record, RAW_PACKETS)); // before and after ours
         ratios[i] = limits[i] / times[i];
     }
-    char other[16] = "–"; // where there is no hierarchy there is no other
-    if (!c->setup.filter.few) {
-        snprintf(other, sizeof other, "%.2f", bench_median(careful, (int)rounds));
-    }
     const double rays = 1e-6 * c->list_count * c->samples;
-    bench_table_add(table, "%s|%u|%s|%u|%.1f|%.1f|%.2f|%.2f|%s|%.2f|%.2f|%.2f", c->scene->name,
+    bench_table_add(table, "%s|%u|%s|%u|%.1f|%.1f|%.2f|%.2f|%.2f|%.2f|%.2f|%.2f", c->scene->name,
                     alp_scene_get_info(c->scene->scene).usable_triangles, c->hierarchy, c->workers,
                     rays / bench_median(limits, (int)rounds),
                     rays / bench_median(times, (int)rounds), bench_median(ratios, (int)rounds),
-                    bench_median(natural, (int)rounds), other, bench_median(parallel, (int)rounds),
-                    bench_median(pairs, (int)rounds), bench_median(stream, (int)rounds));
+                    bench_median(natural, (int)rounds), bench_median(careful, (int)rounds),
+                    bench_median(parallel, (int)rounds), bench_median(pairs, (int)rounds),
+                    bench_median(stream, (int)rounds));
     free(open);
 }
 
@@ -228,14 +225,14 @@ static bool run_case(const bench_scene *scene, const bench_map *map, bool quick,
     }
     const double rays = (double)map->texels.count * c.samples;
     bool taken = false;
-    bool good = !quick || c.setup.filter.few ||
-                bench_good(scene, alpi_tracer_quicken(scene->tracer, rays, NULL, NULL, &taken));
+    bool good =
+        !quick || bench_good(scene, alpi_tracer_quicken(scene->tracer, rays, NULL, NULL, &taken));
     alpi_occlusion_be_quick(&c.setup, taken);
     if (!good || quick != taken) { // not for these rays
         release_case(&c);
         return good;
     }
-    c.hierarchy = c.setup.filter.few ? "none" : quick ? "quick" : "careful";
+    c.hierarchy = quick ? "quick" : "careful";
     c.raw = raw_embree_create(scene->scene, !quick);
     good = c.raw != NULL &&
            bench_good(scene, alpi_occlusion_sums_create(scene->context, map->texels.count, false,
@@ -298,18 +295,17 @@ int bench_transport(const bench_options *options)
                       "triangles; quick, the second one that `bake` builds for maps of 500 rays a "
                       "triangle and more (of a sphere less than one ray in a million slips "
                       "through; building it is not counted here), which these maps are where it "
-                      "is shown; none, where triangles are few. Limit: `rtcOccluded8` by the same "
-                      "hierarchy, of none by the careful one, on the packets that our loop sends, "
-                      "recorded. Ratio: limit's seconds over ours. Natural: seconds of the loop "
-                      "with eight samples of one point, as they follow each other, in a packet, "
-                      "over ours: by the same hierarchy, which is what our packets, and pairs of "
-                      "them, gain, and by the careful one, which is what these and the hierarchy "
-                      "gain together. Natural/parallel: the same loop over the bare calls on "
-                      "packets of parallel rays from eight neighbouring texels, which would err as "
-                      "one. Pairs and "
-                      "stream: the limit by `rtcOccluded16`, of two packets that follow each "
-                      "other, which ours calls too where the machine has vectors of sixteen, and "
-                      "by `rtcOccludedNM`: its rate over the limit's.",
+                      "is shown. Limit: `rtcOccluded8` by the same hierarchy, on the packets that "
+                      "our loop sends, recorded. Ratio: limit's seconds over ours. Natural: "
+                      "seconds of the loop with eight samples of one point, as they follow each "
+                      "other, in a packet, over ours: by the same hierarchy, which is what our "
+                      "packets, and pairs of them, gain, and by the careful one, which is what "
+                      "these and the hierarchy gain together. Natural/parallel: the same loop "
+                      "over the bare calls on packets of parallel rays from eight neighbouring "
+                      "texels, which would err as one. Pairs and stream: the limit by "
+                      "`rtcOccluded16`, of two packets that follow each other, which ours calls "
+                      "too where the machine has vectors of sixteen, and by `rtcOccludedNM`: its "
+                      "rate over the limit's.",
                       "scene|triangles|hierarchy|workers|limit|ours|ratio|natural/ours|"
                       "careful natural/ours|natural/parallel|pairs|stream");
     bool good = true;

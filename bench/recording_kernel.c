@@ -26,10 +26,9 @@ static void write_down(const alpi_tracer *tracer, const alpi_rays *packets, uint
 }
 
 /// Packets are written down one by one, whatever the tracer takes.
-static bool takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
+static bool takes_pairs(const alpi_tracer *tracer)
 {
     (void)tracer;
-    (void)filter;
     return false;
 }
 

@@ -259,19 +259,6 @@ bool alpi_context_has_v3(const alp_context *context)
 #endif
 }
 
-bool alpi_context_has_v4(const alp_context *context)
-{
-#if defined(__x86_64__)
-    return context->options.max_isa == NULL && alpi_context_has_v3(context) &&
-           __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-#else
-    (void)context;
-    return false;
-#endif
-}
-
 const alp_context_options *alpi_context_options(const alp_context *context)
 {
     return &context->options;

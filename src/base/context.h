@@ -46,19 +46,13 @@ struct alpi_loop;
 struct alpi_loop **alpi_context_loop(alp_context *context);
 /// Whether code for x86-64-v3 (AVX2) may run: this machine has it, and max_isa allows it.
 bool alpi_context_has_v3(const alp_context *context);
-/// The same of x86-64-v4 (AVX-512), which max_isa has no name for: where it is not set.
-bool alpi_context_has_v4(const alp_context *context);
 /// Of what alp_compile_twice of CMakeLists.txt compiles, functions or tables of them: name_v3 where
 /// it may run, else name_baseline.
 #ifdef ALPI_HAS_V3
 #define ALPI_COMPILED_FOR(context, name)                                                           \
     (*(alpi_context_has_v3(context) ? &name##_v3 : &name##_baseline))
-/// The same of what alp_compile_thrice does.
-#define ALPI_COMPILED_WIDE_FOR(context, name)                                                      \
-    (*(alpi_context_has_v4(context) ? &name##_v4 : &ALPI_COMPILED_FOR(context, name)))
 #else
 #define ALPI_COMPILED_FOR(context, name) (*((void)(context), &name##_baseline))
-#define ALPI_COMPILED_WIDE_FOR(context, name) ALPI_COMPILED_FOR(context, name)
 #endif
 /// The host's scheduler, or NULL.
 const alp_context_options *alpi_context_options(const alp_context *context);

@@ -48,7 +48,6 @@ void alpi_tracer_destroy(alpi_tracer *tracer)
     if (tracer->device != NULL) {
         rtcReleaseDevice(tracer->device);
     }
-    alpi_release(tracer->scene->context, tracer->few);
     for (int g = 0; g < ALPI_GEOMETRY_COUNT; g++) {
         alpi_release(tracer->scene->context, tracer->triangles[g]);
     }
@@ -214,10 +213,6 @@ static alp_result build(alpi_tracer *tracer, const bool *surfaces, build_progres
     // Robust: no ray slips through the edge between two triangles.
     ALP_TRY(start_scene(tracer, RTC_SCENE_FLAG_ROBUST, progress, &tracer->embree_scene));
     ALP_TRY(sort_triangles(tracer, surfaces));
-    if (tracer->count[ALPI_GEOMETRY_SOLID] == alpi_tracer_triangle_count(tracer)) {
-        ALP_TRY(alpi_few_create(scene, tracer->triangles[ALPI_GEOMETRY_SOLID],
-                                tracer->count[ALPI_GEOMETRY_SOLID], &tracer->few));
-    }
     for (int g = 0; g < ALPI_GEOMETRY_COUNT; g++) {
         ALP_TRY(attach_geometry(tracer, (alpi_geometry_kind)g));
     }
@@ -280,9 +275,4 @@ uint32_t alpi_tracer_triangle_count(const alpi_tracer *tracer)
 bool alpi_tracer_has_panes(const alpi_tracer *tracer)
 {
     return tracer->count[ALPI_GEOMETRY_PANE] > 0;
-}
-
-bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach)
-{
-    return tracer->few != NULL && alpi_few_near(tracer->few, reach) <= (float)ALPI_FEW_NEAR;
 }

@@ -5,7 +5,6 @@
 #ifndef ALPI_TRACE_EMBREE_H
 #define ALPI_TRACE_EMBREE_H
 
-#include "trace/few.h"
 #include "trace/trace.h"
 
 #include <embree3/rtcore.h>
@@ -23,7 +22,6 @@ struct alpi_tracer {
     const alp_scene *scene;
     RTCDevice device;
     RTCScene embree_scene;
-    alpi_few *few;        // its triangles, where they are few and solid, or NULL
     RTCScene quick_scene; // the same geometries without care for edges, or NULL
     bool wide; // packets of 16 are met as fast as two of 8, or up to a fifth faster where coherent
     uint32_t *triangles[ALPI_GEOMETRY_COUNT]; // scene triangle of each primitive of a geometry

@@ -52,9 +52,9 @@ static RTCScene shadow_scene(const alpi_tracer *tracer, alpi_trace_filter filter
     return filter.quick ? tracer->quick_scene : tracer->embree_scene;
 }
 
-bool alpi_tracer_takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
+bool alpi_tracer_takes_pairs(const alpi_tracer *tracer)
 {
-    return tracer->wide && !filter.few;
+    return tracer->wide;
 }
 
 alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace_filter filter)
@@ -63,7 +63,7 @@ alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace
     // hierarchy, and streams overtake packets, a little later where these go in pairs through the
     // quick one: `alpenglow bench transport`.
     enum { STREAM_TRIANGLES = 40000, QUICK_STREAM_TRIANGLES = 60000 };
-    const bool later = filter.quick && alpi_tracer_takes_pairs(tracer, filter);
+    const bool later = filter.quick && tracer->wide;
     const uint32_t least = later ? QUICK_STREAM_TRIANGLES : STREAM_TRIANGLES;
     return alpi_tracer_triangle_count(tracer) >= least ? ALPI_RAYS_SCATTERED : ALPI_RAYS_NEAR;
 }
@@ -71,7 +71,7 @@ alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace
 void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, uint32_t count,
                                alpi_trace_filter filter)
 {
-    assert(alpi_tracer_takes_pairs(tracer, filter));
+    assert(tracer->wide);
     alpi_trace_context context = start_context(tracer, filter);
     RTCScene scene = shadow_scene(tracer, filter);
     for (uint32_t i = 0; i < count; i++) {
@@ -106,12 +106,6 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
 {
     _Alignas(32) int some[ALPI_PACKET];
     const int *valid = spread_bits(active, some);
-    assert(!filter.few || tracer->few != NULL);
-    if (filter.few) {
-        tracer->few->loops->occluded(tracer->few, packets, count, (const uint32_t *)valid,
-                                     filter.one_sided);
-        return;
-    }
     alpi_trace_context context = start_context(tracer, filter);
     RTCScene scene = shadow_scene(tracer, filter);
     if (valid == ALL_VALID && spread == ALPI_RAYS_SCATTERED) {
@@ -120,8 +114,7 @@ void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t
         return;
     }
     uint32_t paired = 0;
-    if (valid == ALL_VALID && spread == ALPI_RAYS_PAIRED &&
-        alpi_tracer_takes_pairs(tracer, filter)) {
+    if (valid == ALL_VALID && spread == ALPI_RAYS_PAIRED && tracer->wide) {
         trace_shadow_pairs(tracer, packets, count / 2, filter);
         paired = count / 2 * 2;
     }
@@ -283,44 +276,16 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
     }
 }
 
-/// Where they are few enough, packets meet all triangles: coherent ones too where several are
-/// given, as those from one point look at the edges once.
-static bool meet_few(const alpi_tracer *tracer, const alpi_rays *const *packets,
-                     const uint32_t *active, uint32_t count, alpi_trace_filter filter,
-                     alpi_hits *hits)
-{
-    const alpi_few *few = tracer->few;
-    if (few == NULL || few->edge_count > ALPI_FEW_NEAREST) {
-        return false;
-    }
-    few->loops->nearest(few, packets, active, count, filter.one_sided, hits);
-    return true;
-}
-
-void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
-                             const uint32_t *active, uint32_t count, alpi_trace_filter filter,
-                             alpi_hits *hits)
-{
-    if (meet_few(tracer, packets, active, count, filter, hits)) {
-        return;
-    }
-    alpi_trace_context context = start_context(tracer, filter);
-    for (uint32_t p = 0; p < count; p++) {
-        trace_nearest(tracer, packets[p], active[p], &context, &hits[p]);
-    }
-}
-
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits)
 {
-    alpi_trace_nearest_many(tracer, &rays, &active, 1, filter, hits);
+    alpi_trace_context context = start_context(tracer, filter);
+    trace_nearest(tracer, rays, active, &context, hits);
 }
 
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                                  alpi_trace_filter filter, alpi_hits *hits)
 {
-    // Also where triangles are few: a picture of the Cornell box takes .6 of the time that it
-    // takes where each packet alone meets all of them.
     alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     trace_nearest(tracer, rays, active, &context, hits);
@@ -330,9 +295,6 @@ void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays
                                       const uint32_t *active, uint32_t count,
                                       alpi_trace_filter filter, alpi_hits *hits)
 {
-    if (meet_few(tracer, packets, active, count, filter, hits)) {
-        return;
-    }
     alpi_trace_context context = start_context(tracer, filter);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (uint32_t p = 0; p < count;) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays against a scene: nearest hit, and whether anything is hit. embree.h and the files behind it
-// alone know Embree; few.h answers for scenes of few triangles, brute_force.c, in tests, by testing
-// every triangle.
+// alone know Embree; brute_force.c, in tests, tests every triangle.
 #ifndef ALPI_TRACE_TRACE_H
 #define ALPI_TRACE_TRACE_H
 
@@ -105,8 +104,6 @@ typedef struct alpi_trace_filter {
     bool quick; // rays of random directions that are only asked whether they are blocked: one that
                 // meets the edge between two triangles may slip through. For a job of which
                 // alpi_tracer_quicken says so, no other
-    bool few; // rays that are only asked whether they are blocked meet every triangle within their
-              // reach. For a job of which alpi_tracer_meets_few says so, no other
 } alpi_trace_filter;
 
 /// The scene's tracer: built at the first call, kept with the scene. `seconds` (may be NULL) gets
@@ -129,10 +126,6 @@ alp_result alpi_tracer_create(const alp_scene *scene, const bool *surfaces,
 /// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED; CANCELLED: the tracer is what it was
 alp_result alpi_tracer_quicken(alpi_tracer *tracer, double rays, alp_progress_fn *progress,
                                void *progress_user, bool *quick);
-/// Whether rays that leave from the scene's surfaces and reach so far (metres, or INFINITY) come
-/// near so few polygons that to meet them all is faster than any hierarchy: up to twice. No ray
-/// slips through an edge then.
-bool alpi_tracer_meets_few(const alpi_tracer *tracer, float reach);
 void alpi_tracer_destroy(alpi_tracer *tracer); ///< NULL does nothing
 
 /// How many triangles stop its rays.
@@ -158,19 +151,13 @@ alpi_rays_spread alpi_tracer_random_spread(const alpi_tracer *tracer, alpi_trace
 void alpi_trace_occluded(const alpi_tracer *tracer, alpi_rays *packets, uint32_t count,
                          uint32_t active, alpi_trace_filter filter, alpi_rays_spread spread);
 /// Whether alpi_trace_occluded_pairs may be called; up to a sixth faster than packets of eight.
-bool alpi_tracer_takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter);
+bool alpi_tracer_takes_pairs(const alpi_tracer *tracer);
 /// The same of packets in pairs, of which all lanes take part. @param count of pairs
 void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, uint32_t count,
                                alpi_trace_filter filter);
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);
-/// The same of several packets. In scenes of few triangles, what those that follow each other see
-/// from the same origins, lane by lane, is found once, or once a pair where the machine has vectors
-/// of sixteen.
-void alpi_trace_nearest_many(const alpi_tracer *tracer, const alpi_rays *const *packets,
-                             const uint32_t *active, uint32_t count, alpi_trace_filter filter,
-                             alpi_hits *hits);
 /// The same, faster where the rays of a packet leave from about one place in about one direction (a
 /// camera's), and twice as slow where they do not.
 void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
@@ -178,7 +165,6 @@ void alpi_trace_nearest_coherent(const alpi_tracer *tracer, const alpi_rays *ray
 /// The same of several packets, two that follow each other together where the machine has vectors
 /// of sixteen: up to a fifth faster where they leave from about one place in about one direction
 /// too. A ray through the very edge of two triangles may be told either, by what it is paired with.
-/// In scenes of few triangles it is alpi_trace_nearest_many.
 /// Masks must be all ones, id and flags 0.
 /// @param hits [count]
 void alpi_trace_nearest_coherent_many(const alpi_tracer *tracer, const alpi_rays *const *packets,

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-enum { POINTS = 32, PACKETS = POINTS / 2 };
-
 /// What is looked at.
 typedef struct solids {
     const alpi_tracer *tracer;
@@ -112,33 +110,26 @@ static bool is_enclosed(const solids *s, const alpi_rays *look, int lane)
 typedef bool met_fn(const solids *s, const alpi_rays *rays, const alpi_hits *hits, int lane,
                     float side);
 
-/// Looks around the points that are asked, two in a packet and all packets together.
-/// @return bits of those it is so of
+/// Looks around the points that are asked, two in a packet. @return bits of those it is so of
 static uint32_t look_around(const solids *s, const alpi_receiver_point *points, const float *sides,
                             uint32_t asked, alpi_look_kind kind, met_fn *met)
 {
-    alpi_rays rays[PACKETS];
-    alpi_hits hits[PACKETS];
-    const alpi_rays *packets[PACKETS] = {NULL};
-    uint32_t active[PACKETS] = {0}, which[POINTS], count = 0, found = 0;
-    if (asked == 0) {
-        return 0;
-    }
-    for (; asked != 0; count++, asked &= asked - 1) {
-        const uint32_t k = which[count] = (uint32_t)__builtin_ctz(asked), p = count / 2;
-        if (count % 2 == 0) {
-            alpi_rays_clear(&rays[p]);
-            packets[p] = &rays[p];
+    uint32_t found = 0;
+    while (asked != 0) {
+        alpi_rays rays;
+        alpi_hits hits;
+        uint32_t pair[2], count = 0;
+        alpi_rays_clear(&rays);
+        for (; count < 2 && asked != 0; count++, asked &= asked - 1) {
+            const uint32_t k = pair[count] = (uint32_t)__builtin_ctz(asked);
+            alpi_look_aim(&points[k], sides[k], kind, kind == ALPI_LOOK_UP ? INFINITY : sides[k],
+                          4 * (int)count, &rays);
         }
-        alpi_look_aim(&points[k], sides[k], kind, kind == ALPI_LOOK_UP ? INFINITY : sides[k],
-                      4 * (int)(count % 2), &rays[p]);
-        active[p] = count % 2 == 0 ? 0x0fu : 0xffu;
-    }
-    alpi_trace_nearest_many(s->tracer, packets, active, (count + 1) / 2, (alpi_trace_filter){0},
-                            hits);
-    for (uint32_t i = 0; i < count; i++) {
-        const bool so = met(s, &rays[i / 2], &hits[i / 2], 4 * (int)(i % 2), sides[which[i]]);
-        found |= (so ? 1u : 0u) << which[i];
+        alpi_trace_nearest(s->tracer, &rays, (1u << 4 * count) - 1u, (alpi_trace_filter){0}, &hits);
+        for (uint32_t i = 0; i < count; i++) {
+            const bool so = met(s, &rays, &hits, 4 * (int)i, sides[pair[i]]);
+            found |= (so ? 1u : 0u) << pair[i];
+        }
     }
     return found;
 }

@@ -302,10 +302,11 @@ static void meet_cells(const alpi_gather_scene *from, const alpi_gather_packet *
     }
     if (coherent) {
         alpi_trace_nearest_coherent_many(from->tracer, rays, active, count, from->filter, hits);
-    } else {
-        alpi_trace_nearest_many(from->tracer, rays, active, count, from->filter, hits);
     }
     for (uint32_t k = 0; k < count; k++) {
+        if (!coherent) {
+            alpi_trace_nearest(from->tracer, rays[k], active[k], from->filter, &hits[k]);
+        }
         met[k] = list_surfaces(from, active[k], &hits[k], cells[k]);
     }
     from->light.find(from->light.user, hits, met, count, cells);

@@ -141,7 +141,6 @@ alp_result alpi_occlusion_prepare(const alp_scene *scene, const alpi_tracer *tra
         .filter = {.one_sided = options->one_sided},
         .samples = (options->samples + ALPI_QUARTERS - 1) / ALPI_QUARTERS * ALPI_QUARTERS,
     };
-    setup->filter.few = alpi_tracer_meets_few(tracer, setup->distance);
     alpi_occlusion_be_quick(setup, false);
     setup->falloff = isinf(setup->distance) ? ALP_FALLOFF_NONE : options->falloff;
     return make_sequences(setup);

@@ -44,7 +44,7 @@ typedef struct gather_job {
 
 void alpi_occlusion_stand_start(const alpi_occlusion_setup *setup, alpi_occlusion_stand *stand)
 {
-    const bool pairs = alpi_tracer_takes_pairs(setup->tracer, setup->filter);
+    const bool pairs = alpi_tracer_takes_pairs(setup->tracer);
     for (uint32_t k = 0; k < ALPI_TRACE_BATCH / 2 && pairs; k++) {
         START_RAYS(&stand->pairs[k]);
     }

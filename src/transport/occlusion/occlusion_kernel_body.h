@@ -125,7 +125,7 @@ static inline batch_plan plan_batch(const alpi_occlusion_setup *setup, uint32_t 
     const uint32_t whole = last == (1u << ALPI_PACKET) - 1u ? count : count - 1;
     batch_plan plan = {.count = count, .last = last, .whole = whole};
     if (setup->spread == ALPI_RAYS_NEAR && (each % 2 == 0 || receivers == 1) &&
-        alpi_tracer_takes_pairs(setup->tracer, setup->filter)) {
+        alpi_tracer_takes_pairs(setup->tracer)) {
         plan.paired = whole / 2 * 2;
     }
     return plan;

@@ -5,7 +5,6 @@
 #include "soup.h"
 
 #include "scene/builtin/mesh_builder.h"
-#include "trace/few.h"
 
 /// MOST: packets of a round, past the eight that are laid out together and past two times as many.
 enum { MOST = 21, ROUNDS = 9, ALL_LANES = 0xff };
@@ -200,7 +199,7 @@ static void hold_every_level(alp_scene *(*make)(alp_context *context), const boo
         alp_scene *scene = make(context);
         alpi_tracer *tracer = NULL;
         ASSERT_OK(context, alpi_tracer_create(scene, surfaces, NULL, NULL, &tracer));
-        assert_true(LEVELS[i] == NULL || !alpi_tracer_takes_pairs(tracer, (alpi_trace_filter){0}));
+        assert_true(LEVELS[i] == NULL || !alpi_tracer_takes_pairs(tracer));
         hold_tracer(scene, tracer, LEVELS[i]);
         alpi_tracer_destroy(tracer);
         alp_scene_destroy(scene);
@@ -230,18 +229,6 @@ static void few_triangles(void **state)
 {
     (void)state;
     hold_every_level(make_few, NULL);
-}
-
-/// So few that packets meet each of them, and Embree is not asked.
-static alp_scene *make_fewest(alp_context *context)
-{
-    return soup_make(context, ALPI_FEW_NEAREST / 3, 6.0f); // without an edge in common
-}
-
-static void fewest_triangles(void **state)
-{
-    (void)state;
-    hold_every_level(make_fewest, NULL);
 }
 
 /// Of 1,520 triangles, whose edges are those of two.
@@ -304,8 +291,9 @@ static void surfaces_of_all_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_triangles),        cmocka_unit_test(few_triangles),
-        cmocka_unit_test(fewest_triangles),      cmocka_unit_test(edges_of_two_triangles),
+        cmocka_unit_test(many_triangles),
+        cmocka_unit_test(few_triangles),
+        cmocka_unit_test(edges_of_two_triangles),
         cmocka_unit_test(surfaces_of_all_kinds),
     };
 #if defined(__x86_64__)

@@ -3,7 +3,6 @@
 #include "soup.h"
 
 #include "base/memory.h"
-#include "trace/few.h"
 
 enum { PACKETS = 400 };
 
@@ -143,14 +142,14 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     alp_context_destroy(context);
 }
 
-/// In a hierarchy, and so few that packets meet each of them: their edges, which are of one alone.
+/// Many small triangles, and a few large ones.
 static void random_rays_hit_what_brute_force_hits(void **state)
 {
     (void)state;
     const struct {
         uint32_t triangles;
         float size;
-    } soups[] = {{600, 0.4f}, {ALPI_FEW_NEAREST / 3, 3.0f}};
+    } soups[] = {{600, 0.4f}, {21, 3.0f}};
     for (size_t k = 0; k < sizeof soups / sizeof *soups; k++) {
         alp_context *context = test_context(1);
         alp_scene *scene = soup_make(context, soups[k].triangles, soups[k].size);
@@ -162,6 +161,55 @@ static void random_rays_hit_what_brute_force_hits(void **state)
         alp_scene_destroy(scene);
         alp_context_destroy(context);
     }
+}
+
+static alp_scene *make_octahedron(alp_context *context)
+{
+    test_mesh *mesh = test_mesh_start();
+    for (int k = 0; k < 6; k++) {
+        const double at = k % 2 == 0 ? 1.0 : -1.0;
+        test_mesh_vertex(mesh, k / 2 == 0 ? at : 0, k / 2 == 1 ? at : 0, k / 2 == 2 ? at : 0);
+    }
+    for (uint32_t k = 0; k < 8; k++) {
+        const uint32_t x = k % 2, y = 2 + k / 2 % 2, z = 4 + k / 4;
+        const bool turned = (k % 2 + k / 2 % 2 + k / 4) % 2 != 0;
+        test_mesh_triangle(mesh, x, turned ? z : y, turned ? y : z);
+    }
+    return test_mesh_scene(context, mesh, 0);
+}
+
+/// From the middle of a solid exactly through its corners, and the middles of its edges and faces.
+static void corners_stop_rays(void **state)
+{
+    (void)state;
+    alp_context *context = test_context(1);
+    alp_scene *scene = make_octahedron(context);
+    alpi_tracer *tracer = NULL;
+    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    for (int way = 0; way < 27; way++) {
+        const vec3 direction = {(float)(way % 3 - 1), (float)(way / 3 % 3 - 1),
+                                (float)(way / 9 - 1)}; // not unit, but without rounding
+        if (way == 13) {
+            continue; // it has no length
+        }
+        alpi_rays rays[2]; // a pair, where the machine takes them
+        alpi_hits hits;
+        for (int i = 0; i < 2 * ALPI_PACKET; i++) {
+            alpi_rays *packet = &rays[i / ALPI_PACKET];
+            if (i % ALPI_PACKET == 0) {
+                alpi_rays_clear(packet);
+            }
+            alpi_rays_set(packet, i % ALPI_PACKET, (vec3){0, 0, 0}, direction, INFINITY);
+        }
+        alpi_trace_nearest(tracer, rays, 0xffu, (alpi_trace_filter){0}, &hits);
+        alpi_trace_occluded(tracer, rays, 2, 0xffu, (alpi_trace_filter){0}, ALPI_RAYS_PAIRED);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            assert_true(rays[0].maximum[i] < 0.0f && rays[1].maximum[i] < 0.0f);
+            assert_true(hits.triangle[i] != ALPI_NONE && hits.distance[i] <= 1.0f);
+        }
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
 }
 
 /// Gives every second triangle a surface whose material is cut by a checkered alpha texture.
@@ -332,6 +380,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quick_rays_slip_through_edges_as_rarely_as_is_told),
         cmocka_unit_test(random_rays_hit_what_brute_force_hits),
+        cmocka_unit_test(corners_stop_rays),
         cmocka_unit_test(alpha_cuts_let_rays_through),
         cmocka_unit_test(chosen_surfaces_alone_are_hit),
         cmocka_unit_test(an_empty_scene_is_never_hit),

@@ -13,10 +13,9 @@ enum { RECEIVERS = 21, ALL_LANES = (1 << ALPI_PACKET) - 1 };
 /// Packets that were sent.
 static uint32_t seen_paired, seen_alone;
 
-static bool takes_pairs(const alpi_tracer *tracer, alpi_trace_filter filter)
+static bool takes_pairs(const alpi_tracer *tracer)
 {
     (void)tracer;
-    (void)filter;
     return true;
 }
 
