@@ -131,13 +131,12 @@ typedef enum alp_emitters {
 /// "Sides". Without bounces, each light gets its own samples. More than 64 lamps, or suns, share
 /// the samples of one and are drawn in proportion to their light.
 ///
-/// RAYS and HEMICUBE solve a radiosity. Direct light is computed at every texel (RAYS with `error`:
-/// at every second, and at others if it is uneven). Blocks of 4 × 4 texels of one chart gather its
-/// reflections, one pass for each bounce. Passes end with the last bounce, or when further bounces
-/// would add less than a hundredth of the error (5e-5 to 5e-4 of all light). With `samples` and a
-/// number of bounces, all bounces are computed. Then every texel gathers the last bounce itself.
-/// Bias: within a block, light that has bounced counts as even when it bounces again. See
-/// docs/measured/accuracy.md.
+/// RAYS and HEMICUBE solve a radiosity. Direct light is computed at every texel. Blocks of 4 × 4
+/// texels of one chart gather its reflections, one pass for each bounce. Passes end with the last
+/// bounce, or when further bounces would add less than a hundredth of the error (5e-5 to 5e-4 of
+/// all light). With `samples` and a number of bounces, all bounces are computed. Then every texel
+/// gathers the last bounce itself. Bias: within a block, light that has bounced counts as even when
+/// it bounces again. See docs/measured/accuracy.md.
 /// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
 ///           M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.

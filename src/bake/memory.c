@@ -44,7 +44,6 @@ enum {
 // the other needs.
 enum {
     LIGHT_BYTES_PER_TEXEL = 6,
-    BOARD_BYTES = 9,  // while direct light is gathered: a state, a value, a place in a list
     VALUE_BYTES = 24, // mean and variance; of direct light, of each side
     TAKEN_BYTES = 28, // means, errors, and errors of all channels
     APART_BYTES = 24, // direct and bounced light
@@ -174,8 +173,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
         alpi_light_has_rounds(options) ? 0u : PASS_BYTES + PASS_BYTES_PER_TEXEL * texels;
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
              alpi_light_kept_block_rays(o, texels) * sizeof(uint32_t);
-    const uint64_t board = alpi_light_direct_error(options) > 0.0 ? BOARD_BYTES : 0u;
-    m.solve = solution + (VALUE_BYTES * sides + board) * texels; // of direct light
+    m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels +
                                     larger(bands < most ? bands : most, passes) + HELD_OUT_BYTES +
                                     (o->layers ? solution + VALUE_BYTES * (sides - 1) * texels

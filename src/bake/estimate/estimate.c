@@ -20,10 +20,9 @@ static const double TEXELS_PER_CHART = 1500.0;
 static const double LATTICE_SHARE = 1.0 / 16.0;
 static const double EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0; // × √texels: of occlusion, of light
 static const double WIDE_EDGE_TEXELS = 20.0;                    // of light whose lattice is wide
-static const double BOUNCED_OVER_PATHS = 0.46; // error of 64 rays of a texel, over that of paths
-static const double BOUNCED_POWER = 1.38;      // of what is asked less, that rays grow with
-static const double DIRECT_SHARE = 0.65;   // of texels that gather direct light, by direct_map.c
-static const double ALL_OVER_DIRECT = 1.5; // mean of all light over that of direct light
+static const double BOUNCED_OVER_PATHS = 0.46;   // error of 64 rays of a texel, over that of paths
+static const double BOUNCED_POWER = 1.38;        // of what is asked less, that rays grow with
+static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
 static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
 static const double ERROR_OVER_POINTS = 1.3;     // of occlusion, of texels over that of points
 // Where there is a triangle for each texel charts leave more gaps, and errors and what is traced
@@ -112,8 +111,7 @@ static double deal_samples(double variance, double scale)
 }
 
 /// Samples of direct light for each texel, as light_more_direct.c would deal them out to texels
-/// like these, less the first of those that are interpolated; what is added for the worst of a
-/// hundred is little, and left out.
+/// like these. What is added for the worst of a hundred is little, and left out.
 static double count_direct(const work_guess *g)
 {
     const alpi_pilot *p = &g->pilot;
@@ -132,8 +130,7 @@ static double count_direct(const work_guess *g)
         mean = good ? samples : mean;
         *(good ? &high : &low) = 0.5 * (low + high);
     }
-    const bool between = alpi_light_direct_error(g->options) > 0.0;
-    return mean - (between ? 1.0 - DIRECT_SHARE : 0.0) * ALPI_PILOT_DIRECT_SAMPLES;
+    return mean;
 }
 
 /// Of errors, by texels that many triangles share.

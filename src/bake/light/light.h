@@ -99,9 +99,6 @@ alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task
 
 /// Whether texels are interpolated, in rounds of all.
 bool alpi_light_is_adaptive(const alp_bake_options *options);
-/// The error that direct light is interpolated within: that of the map, where texels are and it is
-/// given; 0: it is gathered at all.
-double alpi_light_direct_error(const alp_bake_options *options);
 /// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
 bool alpi_light_meets_solved(const alpi_radiosity_options *options);
 /// Error of a solution by one ray of each block, over the mean of the light: it falls with the root

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/radiosity/counted_emitters.h"
-#include "maps/radiosity/direct_map.h"
 #include "maps/radiosity/radiosity.h"
 #include "maps/radiosity/solution.h"
 #include "transport/gather/cosine_rays.h"
@@ -59,11 +58,6 @@ bool alpi_light_is_adaptive(const alp_bake_options *o)
 {
     return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
            o->sampling.accuracy != ALP_ADAPTIVE_OFF;
-}
-
-double alpi_light_direct_error(const alp_bake_options *o)
-{
-    return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;
 }
 
 bool alpi_light_has_fine_blocks(const alp_light_options *options)
@@ -262,7 +256,6 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.tolerance = find_tolerance(&o->light);
     options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
-    options.direct_error = alpi_light_direct_error(&job->options);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;
     options.seed = o->occlusion.seed;
@@ -295,11 +288,8 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
     }
     alpi_direct_output output = {.values = r->direct, .directional = r->directional};
     const double began = alpi_seconds();
-    const alpi_direct_map_options options = {.lattice = t->lattice,
-                                             .near = job->validity.near,
-                                             .error = alpi_light_direct_error(&job->options)};
-    ALP_TRY(alpi_direct_map(r, &options, t->order, t->count, &t->progress, &output,
-                            &r->direct_gathered));
+    ALP_TRY(alpi_radiosity_direct(r, t->order, t->count, r->options.direct_samples, r->options.seed,
+                                  &t->progress, &output));
     r->direct_seconds = alpi_seconds() - began;
     r->rays += output.rays;
     return ALP_OK;

@@ -342,7 +342,7 @@ static alp_result begin(alpi_light_round_state *r)
                                     .limit = rays,
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
-                                               (direct * fmax(r->solution->direct_gathered, 1.0))};
+                                               (direct * fmax(r->task->count, 1.0))};
     if (rounds) {
         ALP_TRY(start_direct(r));
     }

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/radiosity/direct_map.h"
 #include "transport/gather/kept_rays.h"
 
 #include <assert.h>
@@ -18,7 +17,6 @@ static const double LEAST_CHANGE = 1e-7;
 
 typedef struct solver {
     alpi_radiosity *r;
-    const alpi_lattice *lattice;
     alpi_gather_scene from;
     alpi_receivers blocks;
     alpi_kept_rays kept;
@@ -62,16 +60,13 @@ alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
 // --- direct light --------------------------------------------------------------------------------
 
 /// @param directional [texels] out, or NULL
-static alp_result gather_direct(const solver *s, bool backs, const uint32_t *list, uint32_t count,
+static alp_result gather_direct(const solver *s, const uint32_t *list, uint32_t count,
                                 alpi_directional *directional)
 {
     const alpi_radiosity_options *o = &s->r->options;
     alpi_direct_output output = {.values = s->r->direct, .directional = directional};
-    const alpi_direct_map_options options = {s->lattice, o->blocks.near, o->direct_error, backs};
-    uint32_t gathered;
     const alp_result result =
-        alpi_direct_map(s->r, &options, list, count, &s->progress, &output, &gathered);
-    s->r->direct_gathered += backs ? 0 : gathered;
+        alpi_radiosity_direct(s->r, list, count, o->direct_samples, o->seed, &s->progress, &output);
     s->r->rays += output.rays;
     s->r->direct_draw = output.draw;
     return result;
@@ -92,7 +87,7 @@ static alp_result light_backs(const solver *s, const uint32_t *blocks, uint32_t 
             list[texels++] = p->texels->count + p->block_texels[k];
         }
     }
-    const alp_result result = gather_direct(s, true, list, texels, NULL);
+    const alp_result result = gather_direct(s, list, texels, NULL);
     alpi_release(p->context, list);
     return result;
 }
@@ -518,7 +513,7 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
 {
     ALP_TRY(allocate(s));
     const double began = alpi_seconds();
-    ALP_TRY(gather_direct(s, false, order, count, s->r->directional));
+    ALP_TRY(gather_direct(s, order, count, s->r->directional));
     s->r->direct_seconds = alpi_seconds() - began;
     s->from = alpi_radiosity_scene(s->r);
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
@@ -540,7 +535,7 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
                                 const alpi_task_progress *progress, alpi_radiosity *radiosity)
 {
     *radiosity = (alpi_radiosity){.options = *options};
-    solver s = {.r = radiosity, .lattice = lattice};
+    solver s = {.r = radiosity};
     s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     ALP_TRY(
         alpi_patches_create(lattice, atlas, order, count, &options->blocks, &radiosity->patches));

@@ -52,10 +52,8 @@ typedef struct alpi_radiosity_options {
     double tolerance; // passes end where those that are left would bring less, over all light
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
-    double direct_error; // relative error of the map that direct light may be interpolated within;
-                         // 0: all texels gather theirs
-    bool directional;    // direct light is wanted by its direction
-    uint64_t kept_limit; // bytes that kept rays may take; beyond, rays are traced every pass
+    bool directional;        // direct light is wanted by its direction
+    uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
                 // gathers sees: enough for light on fronts
     uint64_t seed;
@@ -94,7 +92,6 @@ typedef struct alpi_radiosity {
     float (*lost)[2];              // [sides × blocks] see alpi_gather_job
     uint32_t *receivers;           // [receiver_count] blocks that gather: fronts, seen backs
     uint32_t receiver_count;
-    uint32_t direct_gathered; // fronts that gathered direct light
     uint32_t passes;
     float
         changes[ALPI_RADIOSITY_CHANGES]; // |Eₖ − Eₖ₋₁| over all light, by area; of the first passes

@@ -406,16 +406,6 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     return whole;
 }
 
-bool alpi_lattice_board_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
-{
-    const centre c = find_centre(lattice, texel);
-    stencil->count = 0;
-    stencil->bend = 0.0f;
-    const bool whole = in_the_middle(lattice, &c, 1, stencil);
-    stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
-    return whole;
-}
-
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil)
 {
     float value = 0.0f;

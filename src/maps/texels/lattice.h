@@ -88,8 +88,6 @@ uint32_t alpi_lattice_reach(const alpi_lattice *lattice, uint32_t pass);
 /// do.
 /// @return false: something is missing
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
-/// How a texel would be interpolated from the four beside it, as one in the middle of four is.
-bool alpi_lattice_board_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
 /// Not clamped: a bound on every pass would darken what is nearly open.
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
 
