@@ -19,7 +19,6 @@ static const double TEXELS_PER_CHART = 1500.0;
 // share falls with the side of a map.
 static const double LATTICE_SHARE = 1.0 / 16.0;
 static const double EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0; // × √texels: of occlusion, of light
-static const double WIDE_EDGE_TEXELS = 20.0;                    // of light whose lattice is wide
 static const double BOUNCED_OVER_PATHS = 0.46;   // error of 64 rays of a texel, over that of paths
 static const double BOUNCED_POWER = 1.38;        // of what is asked less, that rays grow with
 static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
@@ -139,9 +138,9 @@ static double find_growth(const work_guess *g)
     return 1.0 + ERROR_OF_DETAIL * g->detail;
 }
 
-static double find_traced_share(const work_guess *g, bool wide, double edge_texels)
+static double find_traced_share(const work_guess *g, double edge_texels)
 {
-    const double share = LATTICE_SHARE / (wide ? 4.0 : 1.0) + edge_texels / sqrt(g->texels);
+    const double share = LATTICE_SHARE + edge_texels / sqrt(g->texels);
     return g->options->sampling.accuracy == ALP_ADAPTIVE_OFF
                ? 1.0
                : fmin(share * (1.0 + TRACED_OF_DETAIL * g->detail), 1.0);
@@ -196,8 +195,7 @@ static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
     const double direct = l->bounces == 0                     ? l->samples
                           : alpi_light_has_rounds(g->options) ? count_direct(g)
                                                               : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
-    const bool wide = alpi_light_has_wide_lattice(l);
-    const double share = find_traced_share(g, wide, wide ? WIDE_EDGE_TEXELS : LIT_EDGE_TEXELS);
+    const double share = find_traced_share(g, LIT_EDGE_TEXELS);
     double rays = count_bounced(g) * share;
     if (layers > 0) { // those of a round are sent once more, and kept
         const double kept = l->error > 0.0f ? fmin(rays, MOST_FIRST_RAYS * share) : rays;
@@ -214,7 +212,7 @@ static void add_occlusion(const work_guess *g, alp_bake_work *w)
 {
     const alp_bake_options *o = g->options;
     const double wanted = (double)o->sampling.error;
-    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g, false, EDGE_TEXELS);
+    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g, EDGE_TEXELS);
     double rays = o->occlusion.samples;
     if (wanted > 0.0) {
         const double over = ERROR_OVER_POINTS * find_growth(g) * g->pilot.occlusion_error / wanted;

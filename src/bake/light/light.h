@@ -57,9 +57,6 @@ bool alpi_light_has_rounds(const alp_bake_options *options);
 /// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
 /// and corners").
 bool alpi_light_has_fine_blocks(const alp_light_options *options);
-/// Whether the lattice begins with every eighth texel, not every fourth: for an error of 3 % and
-/// more (docs/radiosity.md, "Every eighth texel").
-bool alpi_light_has_wide_lattice(const alp_light_options *options);
 /// Rays that a block gathers by at most, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Rays of a block that there is memory for at once where all are kept: a trial's beside the most.

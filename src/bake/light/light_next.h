@@ -31,7 +31,6 @@ typedef struct alpi_light_round_state {
     uint32_t number;        // of the round
     uint32_t most_rays;     // of any texel so far
     float factor;           // alpi_bounced_report, of the last round of all texels
-    bool strict;            // lattices, as interpolation misses more than rays make good
     double sending;         // texels that send rays in a round of all; a guess before there is one
     double rays_power;      // of rays, that the error of bounced light falls with
     double ray_seconds;     // of a ray more of a texel that sends any

@@ -65,11 +65,6 @@ bool alpi_light_has_fine_blocks(const alp_light_options *options)
     return !(options->error >= 0.02f);
 }
 
-bool alpi_light_has_wide_lattice(const alp_light_options *options)
-{
-    return options->error >= 0.03f;
-}
-
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
     enum { TEXELS_PER_BLOCK = 8, TEXELS_PER_FINE_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };

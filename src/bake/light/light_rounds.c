@@ -31,9 +31,6 @@ enum {
 };
 // Of the time that is left, what a round may take: how long it takes is a guess.
 static const double TIME_SHARE = 0.9;
-// What an error must fall by at least in a round of rays: of the fall that is usual, in its
-// logarithm. Of a fall by less than a tenth nobody can tell.
-static const double LEAST_FALL = 0.4, CLEAR_FALL = 0.9;
 
 bool alpi_light_has_rounds(const alp_bake_options *o)
 {
@@ -82,8 +79,6 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         .near = job->validity.near,
         .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
-        .wide = alpi_light_has_wide_lattice(&job->options.light),
-        .strict = r->strict,
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
         .beside = beside,
         .joined = r->fixed == NULL,
@@ -228,20 +223,6 @@ static alp_result measure(alpi_light_round_state *r)
     return alpi_light_round_measure(r, r->task->order, r->task->count);
 }
 
-/// Where rays of a round bring the error down by much less than their number usually does, what is
-/// left is not their noise: interpolation misses it, and the lattices of later rounds are finer.
-/// Not where a number of rays is given: they are to be those of as many texels as before.
-/// @param error of bounced light, and @param rays before the round
-static void look_at_fall(alpi_light_round_state *r, double error, double rays)
-{
-    const double usual = pow(rays / r->rays, r->rays_power);
-    const bool may_be_strict = r->job->options.light.error > 0.0f && !r->strict;
-    if (may_be_strict && usual < CLEAR_FALL && r->bounced_error > error * pow(usual, LEAST_FALL)) {
-        r->strict = true;
-        r->sending = fmin(2.0 * r->sending, r->task->count); // a guess, for the clock
-    }
-}
-
 /// One more round of what is too noisy.
 /// @param done out: nothing is, or nothing helps, or the time is over
 static alp_result improve(alpi_light_round_state *r, bool *done)
@@ -270,7 +251,6 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
     uint32_t count;
-    const double rays_before = r->rays;
     (void)senders(r, &count);
     const double sending = fmin(count, r->sending);
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
@@ -286,11 +266,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     }
     *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
     const double before = r->direct_error * r->mean;
-    const double bounced_before = r->bounced_error;
     ALP_TRY(measure(r));
-    if (rays > 0.0 && !r->for_worst) {
-        look_at_fall(r, bounced_before, rays_before);
-    }
     if (direct > 0.0 && !r->for_worst) {
         r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
                                            r->direct_error * r->mean / before);

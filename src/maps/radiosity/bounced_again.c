@@ -73,12 +73,12 @@ alp_result alpi_bounced_again_gather(alpi_bounced_again *again, const alpi_task_
         ALP_TRY(alpi_gather_irradiance(&job, progress));
         again->rays += (uint64_t)again->traced * job.gatherer->packet_count * ALPI_PACKET;
     }
-    for (uint32_t pass = 1; pass < alpi_lattice_pass_count(&again->lattice); pass++) {
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         for (uint32_t i = 0; i < again->options.count; i++) {
             const uint32_t t = again->options.order[i];
             alpi_stencil stencil;
             if (again->lattice.states[t] == ALPI_TEXEL_INTERPOLATED &&
-                alpi_lattice_pass(&again->lattice, again->lattice.texels->pixels[t]) == pass &&
+                alpi_lattice_pass(again->lattice.texels->pixels[t]) == pass &&
                 alpi_lattice_stencil(&again->lattice, t, &stencil)) {
                 alpi_bounced_interpolate(again->options.gather, t, &stencil);
             }

@@ -16,13 +16,8 @@ enum { LIST_LIMIT = 1 << 16 }; // texels traced in one go: as many as keep all w
 
 // In standard deviations of the noise, as of occlusion (occlusion_map.c).
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-/// Over eight texels, which hide more: docs/radiosity.md, "Every eighth texel".
-static const float WIDE_BEND_LIMIT = 0.5f, WIDE_SPREAD_LIMIT = 3.0f;
 /// Share of the spread near another surface: docs/how/light.md, "The final gather".
 static const float NEAR_SPREAD = 0.3f;
-/// Share of the limits that is left where maps before missed much by interpolation. By a half the
-/// teapot room gained little (192², for 1 %), by an eighth others traced more than they gained.
-static const float STRICT_SHARE = 0.25f;
 
 typedef struct texel_list {
     const uint32_t *texels;
@@ -36,7 +31,7 @@ typedef struct bounced_job {
     alpi_bounced_report *report;
     uint8_t *wanted;   // [texels] to be traced next
     uint32_t *by_pass; // [count] the order, pass by pass; NULL where not adaptive
-    uint32_t pass_first[ALPI_LATTICE_PASS_LIMIT + 1];
+    uint32_t pass_first[ALPI_LATTICE_PASSES + 1];
     texel_list now; // what is gone through
     uint32_t *list; // [LIST_LIMIT], or count if that is less
     float noise;  // standard deviation of the mean of the channels, over the root mean square light
@@ -46,11 +41,6 @@ typedef struct bounced_job {
     bool flood;
     uint64_t gathered, expected; // texels, those held out too
 } bounced_job;
-
-static uint32_t most_held_out(const bounced_job *job)
-{
-    return job->options->wide ? ALPI_HELD_OUT / 2 : ALPI_HELD_OUT;
-}
 
 static texel_list all_texels(const bounced_job *job)
 {
@@ -234,24 +224,16 @@ static float noise_at(const void *user, float level)
     return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
 }
 
-/// Whether the pass interpolates over eight texels.
-static bool is_wide(const bounced_job *job)
-{
-    return alpi_lattice_reach(&job->lattice, job->pass) >= ALPI_LATTICE_SPACING;
-}
-
 static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     bounced_job *job = user;
-    const float share = job->options->strict ? STRICT_SHARE : 1.0f;
     const alpi_lattice_judge judge = {.lattice = &job->lattice,
                                       .order = job->now.texels,
                                       .near = job->options->near,
                                       .wanted = job->wanted,
-                                      .spread =
-                                          share * (is_wide(job) ? WIDE_SPREAD_LIMIT : SPREAD_LIMIT),
-                                      .bend = share * (is_wide(job) ? WIDE_BEND_LIMIT : BEND_LIMIT),
+                                      .spread = SPREAD_LIMIT,
+                                      .bend = BEND_LIMIT,
                                       .kink = KINK_LIMIT,
                                       .noise = noise_at,
                                       .near_spread = NEAR_SPREAD,
@@ -296,7 +278,7 @@ static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t 
         const uint16_t *pixel = job->lattice.texels->pixels[t];
         const uint8_t near = job->options->near != NULL ? job->options->near[t] : ALPI_FAR;
         job->wanted[t] = job->lattice.states[t] == ALPI_TEXEL_OPEN &&
-                         (!job->options->adaptive || alpi_lattice_pass(&job->lattice, pixel) == 0 ||
+                         (!job->options->adaptive || alpi_lattice_pass(pixel) == 0 ||
                           (near == ALPI_TOUCHING && alpi_lattice_is_coarse(pixel)));
     }
     return ALP_OK;
@@ -407,18 +389,17 @@ static alp_result run_lattice(bounced_job *job)
     if (!job->options->adaptive) {
         return ALP_OK;
     }
-    const uint32_t passes = alpi_lattice_pass_count(&job->lattice);
     ALPI_TRY_NEW(job->lattice.context, job->by_pass, job->options->count);
     ALP_TRY(alpi_lattice_split(&job->lattice, job->options->order, job->options->count,
                                job->by_pass, job->pass_first));
-    for (uint32_t pass = 1; pass < passes; pass++) {
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         ALP_TRY(run_pass(job, pass));
     }
     uint64_t last = 1;
     for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
         ALP_TRY(flood(job, &last));
     }
-    for (uint32_t pass = 1; pass < passes; pass++) {
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
         ALP_TRY(for_texels(job, texels_of(job, pass), interpolate_range));
     }
     alpi_release(job->lattice.context, job->by_pass); // errors take as much
@@ -452,7 +433,7 @@ static alp_result measure_interpolated(bounced_job *job, uint32_t interpolated, 
         return gather_beside(job, held->count, job->options->beside, held->values);
     }
     const uint32_t count =
-        choose(job, ALPI_TEXEL_INTERPOLATED, interpolated, most_held_out(job), STREAM_HELD_OUT);
+        choose(job, ALPI_TEXEL_INTERPOLATED, interpolated, ALPI_HELD_OUT, STREAM_HELD_OUT);
     alpi_reference_value *found = ALPI_NEW(context, alpi_reference_value, count);
     if (found == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -529,7 +510,6 @@ alpi_lattice alpi_bounced_lattice(const alpi_bounced_options *options, const alp
     own.values = values;
     own.straight = options->straight;
     own.along_borders = true;
-    own.wide = options->wide;
     return own;
 }
 
@@ -539,7 +519,7 @@ alp_result alpi_bounced_map(const alpi_bounced_options *options, const alpi_latt
 {
     const bool first = report->traced == 0 || !options->adaptive;
     bounced_job job = {.options = options, .report = report, .factor = 1.0f};
-    job.expected = (first ? options->count : report->traced) + most_held_out(&job);
+    job.expected = (first ? options->count : report->traced) + ALPI_HELD_OUT;
     *report = (alpi_bounced_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
     job.lattice = alpi_bounced_lattice(options, lattice, states, options->levels);

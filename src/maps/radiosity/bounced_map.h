@@ -13,9 +13,8 @@
 #include "maps/texels/lattice.h"
 #include "transport/gather/gather.h"
 
-/// Texels that several maps of the same light hold out: those, evenly and at random, that the first
-/// of them interpolates, with rays of their own in each. Of wide lattices half as many, whose
-/// traced texels are fewer and whose errors are larger.
+/// Texels that several maps of the same light hold out: the first map chooses them, evenly and at
+/// random, among those it interpolates. They have rays of their own in each map.
 enum { ALPI_HELD_OUT = 1024, ALPI_BOUNCED_PROBES = 512 };
 typedef struct alpi_held_out {
     uint32_t count; // 0: none yet
@@ -29,8 +28,7 @@ typedef struct alpi_bounced_options {
     uint32_t count;
     const uint8_t *near;         // [texels] alpi_nearness, or NULL
     bool adaptive;               // false: all texels are traced
-    bool straight, wide;         // alpi_lattice
-    bool strict;                 // it is finer, as interpolation misses more than rays' noise
+    bool straight;               // alpi_lattice
     alpi_held_out *held_out;     // NULL: one map alone; else in and out
     const alpi_gatherer *beside; // like that of `gather`, of other random numbers: of texels that
                                  // are held out, as some may be traced now, and, where replicates

@@ -43,7 +43,7 @@ static alp_result fill_range(void *user, uint32_t begin, uint32_t end, uint32_t 
         } else if (job->pass == 0 && state == ALPI_TEXEL_TRACED) {
             vec3_store(job->bent[t], alpi_occlusion_mean_vector(job->sums, t));
         } else if (state == ALPI_TEXEL_INTERPOLATED &&
-                   alpi_lattice_pass(l, l->texels->pixels[t]) == job->pass) {
+                   alpi_lattice_pass(l->texels->pixels[t]) == job->pass) {
             vec3_store(job->bent[t], interpolate(job, t));
         }
     }

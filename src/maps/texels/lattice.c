@@ -176,31 +176,16 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
 
 // --- passes --------------------------------------------------------------------------------------
 
-/// The pass of a lattice of every 4th texel.
-static uint32_t narrow_pass(uint32_t x, uint32_t y)
+uint32_t alpi_lattice_pass(const uint16_t pixel[2])
 {
     static const uint8_t passes[ALPI_LATTICE_SPACING][ALPI_LATTICE_SPACING] = {
         {0, 3, 1, 3}, {3, 5, 4, 5}, {1, 4, 2, 4}, {3, 5, 4, 5}};
-    return passes[y % ALPI_LATTICE_SPACING][x % ALPI_LATTICE_SPACING];
+    return passes[pixel[1] % ALPI_LATTICE_SPACING][pixel[0] % ALPI_LATTICE_SPACING];
 }
 
-uint32_t alpi_lattice_pass(const alpi_lattice *lattice, const uint16_t pixel[2])
+uint32_t alpi_lattice_reach(uint32_t pass)
 {
-    const uint32_t pass = narrow_pass(pixel[0], pixel[1]);
-    if (!lattice->wide) {
-        return pass;
-    }
-    return pass > 0 ? pass + ALPI_LATTICE_WIDE_PASSES
-                    : (uint32_t)pixel[0] / ALPI_LATTICE_SPACING % 2 +
-                          (uint32_t)pixel[1] / ALPI_LATTICE_SPACING % 2;
-}
-
-uint32_t alpi_lattice_reach(const alpi_lattice *lattice, uint32_t pass)
-{
-    const uint32_t first = lattice->wide ? ALPI_LATTICE_WIDE_PASSES : 0;
-    return pass <= first       ? ALPI_LATTICE_SPACING >> (lattice->wide ? 0 : 1)
-           : pass <= first + 2 ? ALPI_LATTICE_SPACING / 2
-                               : ALPI_LATTICE_SPACING / 4;
+    return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
 }
 
 /// Ranges of an order that is split by passes.
@@ -209,7 +194,7 @@ typedef struct split {
     const uint32_t *order;
     uint32_t count;
     uint32_t *by_pass;
-    uint32_t (*at)[ALPI_LATTICE_PASS_LIMIT]; // [ranges] texels of each pass; then where they go
+    uint32_t (*at)[ALPI_LATTICE_PASSES]; // [ranges] texels of each pass; then where they go
 } split;
 
 static uint32_t range_end(const split *s, uint32_t range)
@@ -220,7 +205,7 @@ static uint32_t range_end(const split *s, uint32_t range)
 
 static uint32_t pass_at(const split *s, uint32_t i)
 {
-    return alpi_lattice_pass(s->lattice, s->lattice->texels->pixels[s->order[i]]);
+    return alpi_lattice_pass(s->lattice->texels->pixels[s->order[i]]);
 }
 
 static alp_result count_passes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -250,14 +235,14 @@ static alp_result split_ranges(void *user, uint32_t begin, uint32_t end, uint32_
 }
 
 alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
-                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1])
+                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASSES + 1])
 {
     split s = {.lattice = lattice, .order = order, .count = count, .by_pass = by_pass};
     const uint32_t ranges = count / TEXELS_PER_RANGE + (count % TEXELS_PER_RANGE > 0 ? 1 : 0);
     ALPI_TRY_NEW(lattice->context, s.at, ranges);
     alp_result result = alpi_parallel_for(lattice->context, ranges, 1, count_passes, &s, NULL);
     uint32_t sum = 0;
-    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASS_LIMIT; pass++) {
+    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASSES; pass++) {
         first[pass] = sum;
         for (uint32_t r = 0; r < ranges; r++) {
             const uint32_t begin = sum;
@@ -265,7 +250,7 @@ alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order
             s.at[r][pass] = begin;
         }
     }
-    first[ALPI_LATTICE_PASS_LIMIT] = sum;
+    first[ALPI_LATTICE_PASSES] = sum;
     if (result == ALP_OK) {
         result = alpi_parallel_for(lattice->context, ranges, 1, split_ranges, &s, NULL);
     }
@@ -376,19 +361,15 @@ static bool in_the_middle(const alpi_lattice *l, const centre *t, int h, alpi_st
 /// How the texels of a pass lie to those they are interpolated from.
 typedef enum pass_kind { PASS_LATTICE, PASS_HALFWAY, PASS_MIDDLE } pass_kind;
 
-static pass_kind kind_of(const alpi_lattice *l, uint32_t pass)
-{
-    static const pass_kind kinds[] = {PASS_HALFWAY, PASS_MIDDLE,  PASS_HALFWAY, PASS_MIDDLE,
-                                      PASS_HALFWAY, PASS_HALFWAY, PASS_MIDDLE};
-    return pass == 0 ? PASS_LATTICE : kinds[pass + (l->wide ? 0 : ALPI_LATTICE_WIDE_PASSES) - 1];
-}
+static const pass_kind PASS_KINDS[ALPI_LATTICE_PASSES] = {PASS_LATTICE, PASS_HALFWAY, PASS_MIDDLE,
+                                                          PASS_HALFWAY, PASS_HALFWAY, PASS_MIDDLE};
 
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
 {
     const uint16_t *p = lattice->texels->pixels[texel];
-    const uint32_t pass = alpi_lattice_pass(lattice, p);
-    const pass_kind kind = kind_of(lattice, pass);
-    const int h = (int)alpi_lattice_reach(lattice, pass);
+    const uint32_t pass = alpi_lattice_pass(p);
+    const pass_kind kind = PASS_KINDS[pass];
+    const int h = (int)alpi_lattice_reach(pass);
     stencil->count = 0;
     stencil->bend = 0.0f;
     bool whole = false;
@@ -396,7 +377,7 @@ bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_sten
     if (kind == PASS_HALFWAY) {
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
         whole = add_axis(lattice, &c, across ? h : 0, across ? 0 : h, 1.0f, stencil);
-        if (!whole && pass + 2 == alpi_lattice_pass_count(lattice) && lattice->along_borders) {
+        if (!whole && pass == ALPI_LATTICE_PASSES - 2 && lattice->along_borders) {
             whole = add_axis(lattice, &c, across ? 0 : 2 * h, across ? 2 * h : 0, 1.0f, stencil);
         }
     } else if (kind == PASS_MIDDLE) {
@@ -509,7 +490,7 @@ void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, u
         if (judge->flood) {
             judge->wanted[t] =
                 alpi_lattice_kink(l, t) > judge->kink * noise_about(judge, l->values[t]);
-        } else if (alpi_lattice_pass(l, l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
+        } else if (alpi_lattice_pass(l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
             continue;
         } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(judge, t, &stencil)) {
             l->states[t] = ALPI_TEXEL_INTERPOLATED;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The adaptive lattice: every 4th or 8th texel is traced, those between are interpolated where the
-// traced ones agree, and traced where they do not.
+// The adaptive lattice: every 4th texel is traced, those between are interpolated where the traced
+// ones agree, and traced where they do not.
 // Based on: H. Elias. Radiosity (the adaptive light map: spacing 4, passes of two types, half the
 // spacing). What such a lattice misses, small details, the flood of its judge finds.
 #ifndef ALPI_MAPS_LATTICE_H
@@ -28,7 +28,6 @@ typedef struct alpi_lattice {
     bool straight;   // stencils are linear where a cubic would do too: less of the noise, and no
                      // more of the bend than the judge lets pass
     bool along_borders; // a border's texels may be interpolated along it: alpi_lattice_stencil
-    bool wide;          // it begins with every 8th texel: what is smooth enough for that takes few
 } alpi_lattice;
 
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
@@ -57,29 +56,20 @@ typedef struct alpi_stencil {
 
 /// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
 /// between two (type 1) and those in the middle of four (type 2). Of spacing 2, type 1 goes in two:
-/// those in rows and columns of the lattice first (3), for the sake of borders. A wide lattice has
-/// the two of spacing 8 before these, and all others are two later.
-enum {
-    ALPI_LATTICE_PASSES = 6,
-    ALPI_LATTICE_WIDE_PASSES = 2,
-    ALPI_LATTICE_PASS_LIMIT = ALPI_LATTICE_PASSES + ALPI_LATTICE_WIDE_PASSES
-};
-static inline uint32_t alpi_lattice_pass_count(const alpi_lattice *lattice)
-{
-    return ALPI_LATTICE_PASSES + (lattice->wide ? ALPI_LATTICE_WIDE_PASSES : 0);
-}
+/// those in rows and columns of the lattice first (3), for the sake of borders.
+enum { ALPI_LATTICE_PASSES = 6 };
 /// The pass a texel belongs to, by its pixel.
-uint32_t alpi_lattice_pass(const alpi_lattice *lattice, const uint16_t pixel[2]);
+uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
 /// Texels in their order, pass by pass. @param order [count]   @param by_pass [count] out
 /// @param first out: where each pass begins in it, and where the last ends
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
-                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1]);
+                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASSES + 1]);
 /// Whether a texel belongs to the lattice of half the spacing, every second of every second row.
 bool alpi_lattice_is_coarse(const uint16_t pixel[2]);
-/// Distance in texels to the nearest texels that pass `pass` interpolates from inside a chart: 2,
-/// 2, 1, 1, 1, and 4, 4 before these in a wide lattice.
-uint32_t alpi_lattice_reach(const alpi_lattice *lattice, uint32_t pass);
+/// Distance in texels to the nearest texels that pass `pass`, from 1 on, interpolates from inside a
+/// chart: 2, 2, 1, 1, 1.
+uint32_t alpi_lattice_reach(uint32_t pass);
 
 /// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
 /// else, and in straight lattices, linear. A neighbour is missing if it is in another chart, or

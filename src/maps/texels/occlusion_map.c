@@ -231,7 +231,7 @@ static alp_result renew_range(void *user, uint32_t begin, uint32_t end, uint32_t
         const uint32_t t = job->order[i];
         alpi_stencil stencil;
         if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-            alpi_lattice_pass(l, l->texels->pixels[t]) == job->pass &&
+            alpi_lattice_pass(l->texels->pixels[t]) == job->pass &&
             alpi_lattice_stencil(l, t, &stencil)) {
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
         }
@@ -306,7 +306,7 @@ static alp_result run_lattice(map_job *job)
     ALP_TRY(trace_wanted(job, &count));
     ALP_TRY(measure_noise(job));
     for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        set_limits(job, 2.0f * (float)alpi_lattice_reach(job->lattice, pass));
+        set_limits(job, 2.0f * (float)alpi_lattice_reach(pass));
         ALP_TRY(judge(job, pass, false));
         ALP_TRY(trace_wanted(job, &count));
     }

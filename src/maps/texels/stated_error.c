@@ -196,7 +196,7 @@ static alp_result find_interpolated(void *user, uint32_t begin, uint32_t end, ui
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
         if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-            alpi_lattice_pass(l, l->texels->pixels[t]) == job->pass) {
+            alpi_lattice_pass(l->texels->pixels[t]) == job->pass) {
             job->errors[t] = (float)stencil_variance(l, job->errors, t);
         }
     }

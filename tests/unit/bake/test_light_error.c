@@ -280,27 +280,9 @@ static void some_surfaces_err_as_stated(void **state)
     alp_scene_destroy(scene);
 }
 
-/// What the first round misses by interpolation is more than its rays' noise here.
-static void lattices_get_finer_where_rays_do_not_help(void **state)
-{
-    (void)state;
-    alp_scene *scene = load("builtin:teapot-room");
-    alp_bake_options options = test_light_options(192);
-    alp_bake_report report;
-    options.light.error = 0.01f;
-    options.occlusion.seed = 4;
-    ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
-    printf("teapot room, 192x192: %u rays of a texel in %u rounds, stated %.2f %%\n",
-           report.light_samples, report.light_rounds, 100.0 * report.light_relative_error);
-    assert_true(report.light_rounds >= 2 && report.light_relative_error <= 0.01);
-    assert_true(report.light_samples < 700); // 952 by lattices that stay as they are
-    alp_scene_destroy(scene);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattices_get_finer_where_rays_do_not_help),
         cmocka_unit_test(the_report_says_what_the_map_says),
         cmocka_unit_test(rays_err_as_stated),
         cmocka_unit_test(seeds_that_follow_each_other_are_independent),

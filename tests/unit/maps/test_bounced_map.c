@@ -8,7 +8,7 @@
 #include "maps/texels/validity.h"
 #include "transport/gather/cosine_rays.h"
 
-enum { SIZE = 32 };
+enum { SIZE = 32, SPACING = ALPI_LATTICE_SPACING };
 
 typedef struct setting {
     alp_context *context;
@@ -53,7 +53,7 @@ static void tear_down(setting *s)
 typedef struct map_options {
     const alpi_gather_scene *from;
     const alpi_gatherer *gatherer;
-    bool adaptive, wide, strict;
+    bool adaptive;
 } map_options;
 
 static void map_by(setting *s, const map_options *o)
@@ -70,8 +70,6 @@ static void map_by(setting *s, const map_options *o)
                                           .near = s->near,
                                           .adaptive = o->adaptive,
                                           .straight = true,
-                                          .wide = o->wide,
-                                          .strict = o->strict,
                                           .beside = o->gatherer};
     alpi_bounced_report report = {0};
     ASSERT_OK(s->context, alpi_bounced_map(&options, &s->lattice, NULL, s->states, &report));
@@ -79,18 +77,17 @@ static void map_by(setting *s, const map_options *o)
 }
 
 /// By rays in the dark.
-static void map(setting *s, bool adaptive, bool wide)
+static void map(setting *s, bool adaptive)
 {
     const alpi_gather_scene from = {.scene = s->scene, .tracer = s->tracer};
     const alpi_cosine_rays rays = {
         .context = s->context, .samples = 64, .replicates = 4, .seed = 1};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
-    map_by(s, &(map_options){
-                  .from = &from, .gatherer = &gatherer, .adaptive = adaptive, .wide = wide});
+    map_by(s, &(map_options){.from = &from, .gatherer = &gatherer, .adaptive = adaptive});
 }
 
 /// Whether others could stand for a texel if all were known.
-static bool has_stencil(setting *s, bool wide, uint32_t texel)
+static bool has_stencil(setting *s, uint32_t texel)
 {
     alpi_stencil stencil;
     alpi_lattice l = s->lattice;
@@ -98,32 +95,32 @@ static bool has_stencil(setting *s, bool wide, uint32_t texel)
     memset(known, ALPI_TEXEL_TRACED, sizeof known);
     l.states = known;
     l.along_borders = true;
-    l.wide = wide;
     return alpi_lattice_stencil(&l, texel, &stencil);
 }
 
-static void hold_traced(bool wide)
+static void touching_texels_are_traced_by_every_second(void **state)
 {
+    (void)state;
     static const alpi_nearness all[] = {ALPI_FAR, ALPI_NEAR, ALPI_TOUCHING};
-    const uint32_t of = wide ? 64 : 16;
+    enum { OF = 16 };
     uint32_t traced[3] = {0};
     setting s;
     set_up(&s);
     for (int k = 0; k < 3; k++) {
         memset(s.near, (int)all[k], sizeof s.near);
-        map(&s, true, wide);
+        map(&s, true);
         for (uint32_t t = 0; t < SIZE * SIZE; t++) {
             const bool coarse = alpi_lattice_is_coarse(s.texels.pixels[t]);
-            const bool wanted = !has_stencil(&s, wide, t) || (all[k] == ALPI_TOUCHING && coarse);
+            const bool wanted = !has_stencil(&s, t) || (all[k] == ALPI_TOUCHING && coarse);
             assert_int_equal(s.states[t], wanted ? ALPI_TEXEL_TRACED : ALPI_TEXEL_INTERPOLATED);
             traced[k] += wanted;
         }
     }
     // One of so many, or a quarter, and some of two borders.
-    assert_true(traced[0] == traced[1] && traced[0] < SIZE * SIZE / of + 2 * SIZE);
-    assert_true(traced[0] >= SIZE * SIZE / of);
+    assert_true(traced[0] == traced[1] && traced[0] < SIZE * SIZE / OF + 2 * SIZE);
+    assert_true(traced[0] >= SIZE * SIZE / OF);
     assert_true(traced[2] >= SIZE * SIZE / 4 && traced[2] < SIZE * SIZE / 4 + SIZE);
-    map(&s, false, wide);
+    map(&s, false);
     for (uint32_t t = 0; t < SIZE * SIZE; t++) {
         assert_int_equal(s.states[t], ALPI_TEXEL_TRACED);
     }
@@ -177,28 +174,23 @@ static void reflect_x(const void *user, const alpi_surface_point *points, uint32
 
 /// Maps it. @return the share that is traced of the texels halfway between two of a row of the
 /// lattice; where light bends, of those in the column about which it does
-static double traced_where(double slope, double bend, bool wide, bool strict)
+static double traced_where(double slope, double bend)
 {
     setting s;
     set_up(&s);
-    const uint32_t spacing = wide ? 8 : 4;
-    const made_up light = {&s, slope, bend, spacing * 3 / 2};
+    const made_up light = {&s, slope, bend, SPACING * 3 / 2};
     const alpi_gather_scene from = {
         .scene = s.scene, .tracer = s.tracer, .light = {.reflected = reflect_x, .user = s.scene}};
     const alpi_gatherer gatherer = {
         .aim = aim_at_light, .user = &light, .packet_count = REPLICATES, .replicates = REPLICATES};
-    map_by(&s, &(map_options){.from = &from,
-                              .gatherer = &gatherer,
-                              .adaptive = true,
-                              .wide = wide,
-                              .strict = strict});
+    map_by(&s, &(map_options){.from = &from, .gatherer = &gatherer, .adaptive = true});
     uint32_t traced = 0, all = 0;
     for (uint32_t t = 0; t < SIZE * SIZE; t++) {
         const uint16_t *p = s.texels.pixels[t];
-        const bool halfway = p[0] % spacing == spacing / 2 && p[1] % spacing == 0;
+        const bool halfway = p[0] % SPACING == SPACING / 2 && p[1] % SPACING == 0;
         // Of its row are two on either side, or there is no cubic; nor is it in a border's.
-        const bool inside = p[0] >= spacing * 3 / 2 && p[0] + spacing * 3 / 2 < SIZE &&
-                            p[1] >= spacing && p[1] < SIZE - spacing;
+        const bool inside = p[0] >= SPACING * 3 / 2 && p[0] + SPACING * 3 / 2 < SIZE &&
+                            p[1] >= SPACING && p[1] < SIZE - SPACING;
         if (halfway && inside && (bend == 0.0 || p[0] == light.column)) {
             all++;
             traced += s.states[t] == ALPI_TEXEL_TRACED;
@@ -216,46 +208,27 @@ static double noise_of_texel(void)
 }
 
 /// Between two texels of a lattice that differ by so many times their noise.
-static double traced_by_spread(double noises, bool wide, bool strict)
+static double traced_by_spread(double noises)
 {
-    return traced_where(noises * noise_of_texel() / (wide ? 8.0 : 4.0), 0.0, wide, strict);
+    return traced_where(noises * noise_of_texel() / SPACING, 0.0);
 }
 
 /// Where the cubic of four texels, d apart, is so many times the noise off the straight line
 /// between the two in the middle: (f(−3d/2) − f(−d/2) − f(d/2) + f(3d/2)) / 16 = d² / 4 of x².
-static double traced_by_bend(double noises, bool wide, bool strict)
+static double traced_by_bend(double noises)
 {
-    const double d = wide ? 8.0 : 4.0;
-    return traced_where(0.0, noises * noise_of_texel() / (d * d / 4.0), wide, strict);
+    return traced_where(0.0, noises * noise_of_texel() / (SPACING * SPACING / 4.0));
 }
 
 static void what_differs_too_much_is_traced(void **state)
 {
     (void)state;
-    static const struct {
-        bool wide, strict;
-        double spread, bend; // limits
-    } cases[] = {{true, false, 3.0, 0.5},
-                 {true, true, 0.75, 0.125},
-                 {false, false, 20.0, 1.0},
-                 {false, true, 5.0, 0.25}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const bool wide = cases[i].wide, strict = cases[i].strict;
-        // A little more or less: limits go with the light of a texel, which is not that of all.
-        assert_true(traced_by_spread(0.95 * cases[i].spread, wide, strict) == 0.0);
-        assert_true(traced_by_spread(1.05 * cases[i].spread, wide, strict) == 1.0);
-        assert_true(traced_by_bend(0.95 * cases[i].bend, wide, strict) == 0.0);
-        assert_true(traced_by_bend(1.05 * cases[i].bend, wide, strict) == 1.0);
-    }
-}
-
-// --- what is smooth ------------------------------------------------------------------------------
-
-static void touching_texels_are_traced_by_every_second(void **state)
-{
-    (void)state;
-    hold_traced(false);
-    hold_traced(true);
+    static const double spread = 20.0, bend = 1.0; // the limits
+    // A little more or less: limits go with the light of a texel, which is not that of all.
+    assert_true(traced_by_spread(0.95 * spread) == 0.0);
+    assert_true(traced_by_spread(1.05 * spread) == 1.0);
+    assert_true(traced_by_bend(0.95 * bend) == 0.0);
+    assert_true(traced_by_bend(1.05 * bend) == 1.0);
 }
 
 int main(void)

@@ -44,36 +44,26 @@ static void tear_down(lattice_setup *s)
     alp_context_destroy(s->context);
 }
 
-/// How many of 8 × 8 texels belong to each pass.
-static void hold_passes(bool wide, const uint32_t *expected)
-{
-    const alpi_lattice l = {.wide = wide};
-    uint32_t counts[ALPI_LATTICE_PASSES + ALPI_LATTICE_WIDE_PASSES] = {0};
-    for (uint16_t y = 0; y < 8; y++) {
-        for (uint16_t x = 0; x < 8; x++) {
-            counts[alpi_lattice_pass(&l, (uint16_t[]){x, y})]++;
-        }
-    }
-    assert_memory_equal(counts, expected, alpi_lattice_pass_count(&l) * sizeof *counts);
-}
-
 static void every_texel_has_its_pass_and_its_turn(void **state)
 {
     (void)state;
     // Of 8 × 8 texels four are the lattice; 8 and 4 belong to spacing 4; 16, 16 and 16 to
-    // spacing 2. Of the four, one is a wide lattice; 2 and 1 belong to spacing 8.
-    hold_passes(false, (uint32_t[]){4, 8, 4, 16, 16, 16});
-    hold_passes(true, (uint32_t[]){1, 2, 1, 8, 4, 16, 16, 16});
+    // spacing 2.
+    static const uint32_t expected[ALPI_LATTICE_PASSES] = {4, 8, 4, 16, 16, 16};
+    uint32_t counts[ALPI_LATTICE_PASSES] = {0};
+    for (uint16_t y = 0; y < 8; y++) {
+        for (uint16_t x = 0; x < 8; x++) {
+            counts[alpi_lattice_pass((uint16_t[]){x, y})]++;
+        }
+    }
+    assert_memory_equal(counts, expected, sizeof counts);
     static const struct {
         uint16_t pixel[2];
-        uint32_t pass, wide;
-    } texels[] = {{{24, 8}, 0, 0}, {{20, 8}, 0, 1}, {{8, 12}, 0, 1},
-                  {{12, 4}, 0, 2}, {{6, 4}, 1, 3},  {{6, 10}, 2, 4},
-                  {{7, 8}, 3, 5},  {{7, 10}, 4, 6}, {{7, 9}, 5, 7}};
+        uint32_t pass;
+    } texels[] = {{{24, 8}, 0}, {{20, 8}, 0}, {{8, 12}, 0}, {{12, 4}, 0}, {{6, 4}, 1},
+                  {{6, 10}, 2}, {{7, 8}, 3},  {{7, 10}, 4}, {{7, 9}, 5}};
     for (size_t i = 0; i < sizeof texels / sizeof *texels; i++) {
-        const alpi_lattice narrow = {.wide = false}, wide = {.wide = true};
-        assert_int_equal(alpi_lattice_pass(&narrow, texels[i].pixel), texels[i].pass);
-        assert_int_equal(alpi_lattice_pass(&wide, texels[i].pixel), texels[i].wide);
+        assert_int_equal(alpi_lattice_pass(texels[i].pixel), texels[i].pass);
     }
     assert_true(alpi_lattice_is_coarse((uint16_t[]){6, 10}));
     assert_false(alpi_lattice_is_coarse((uint16_t[]){7, 8}));
@@ -95,10 +85,9 @@ static void every_texel_has_its_pass_and_its_turn(void **state)
     tear_down(&s);
 }
 
-static bool is_between_two(const alpi_lattice *l, uint32_t pass)
+static bool is_between_two(uint32_t pass)
 {
-    const uint32_t narrow = l->wide ? pass - ALPI_LATTICE_WIDE_PASSES : pass;
-    return pass == 1 || narrow == 1 || narrow == 3 || narrow == 4;
+    return pass == 1 || pass == 3 || pass == 4;
 }
 
 /// A polynomial of degree three in x plus one in y.
@@ -108,13 +97,13 @@ static float cubic(const uint16_t *p)
     return 0.3f + 0.4f * x - 0.9f * x * x + 0.8f * x * x * x + 0.2f * y * y * y - 0.1f * y;
 }
 
-static void hold_cubics(bool wide)
+static void cubics_are_interpolated_exactly(void **state)
 {
+    (void)state;
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
     uint32_t cubic_count = 0;
-    l->wide = wide;
     for (uint32_t i = 0; i < s.texels.count; i++) {
         l->values[i] = cubic(s.texels.pixels[i]);
         l->states[i] = ALPI_TEXEL_TRACED;
@@ -129,8 +118,8 @@ static void hold_cubics(bool wide)
             weight += stencil.weights[k];
         }
         ASSERT_NEAR(weight, 1.0f, 1e-6);
-        const uint32_t pass = alpi_lattice_pass(l, s.texels.pixels[i]);
-        const uint32_t whole = is_between_two(l, pass) ? 4 : 8;
+        const uint32_t pass = alpi_lattice_pass(s.texels.pixels[i]);
+        const uint32_t whole = is_between_two(pass) ? 4 : 8;
         if (stencil.count == whole) {
             ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), cubic(s.texels.pixels[i]), 2e-6);
             cubic_count++;
@@ -140,36 +129,29 @@ static void hold_cubics(bool wide)
     tear_down(&s);
 }
 
-static void cubics_are_interpolated_exactly(void **state)
+/// A parabola along x: the mean of two at ±h misses ½ E'' h² of it, and the cubic misses nothing.
+static void straight_stencils_take_two_and_know_their_bend(void **state)
 {
     (void)state;
-    hold_cubics(false);
-    hold_cubics(true);
-}
-
-/// A parabola along x: the mean of two at ±h misses ½ E'' h² of it, and the cubic misses nothing.
-static void hold_straight(bool wide)
-{
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
     const float bent = 0.01f;
     l->straight = true;
-    l->wide = wide;
     for (uint32_t i = 0; i < s.texels.count; i++) {
         const float x = (float)s.texels.pixels[i][0];
         l->values[i] = 0.5f * bent * x * x;
         l->states[i] = ALPI_TEXEL_TRACED;
     }
-    for (uint32_t pass = 1; pass < alpi_lattice_pass_count(l); pass++) {
-        const uint32_t h = alpi_lattice_reach(l, pass);
-        const bool beside = pass + 2 == alpi_lattice_pass_count(l); // rows of the lattice
-        const uint32_t x = 16 - h, y = beside ? 18 : is_between_two(l, pass) ? 16 : 16 - h;
+    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
+        const uint32_t h = alpi_lattice_reach(pass);
+        const bool beside = pass == 4; // rows of the lattice
+        const uint32_t x = 16 - h, y = beside ? 18 : is_between_two(pass) ? 16 : 16 - h;
         const uint32_t texel = l->grid[y * SIZE + x];
-        assert_int_equal(alpi_lattice_pass(l, s.texels.pixels[texel]), pass);
+        assert_int_equal(alpi_lattice_pass(s.texels.pixels[texel]), pass);
         alpi_stencil stencil;
         assert_true(alpi_lattice_stencil(l, texel, &stencil));
-        const uint32_t axes = is_between_two(l, pass) ? 1 : 2;
+        const uint32_t axes = is_between_two(pass) ? 1 : 2;
         assert_int_equal(stencil.count, 2 * axes);
         for (uint32_t k = 0; k < stencil.count; k++) {
             assert_true(stencil.weights[k] == 0.5f / (float)axes);
@@ -180,13 +162,6 @@ static void hold_straight(bool wide)
                     1e-6);
     }
     tear_down(&s);
-}
-
-static void straight_stencils_take_two_and_know_their_bend(void **state)
-{
-    (void)state;
-    hold_straight(false);
-    hold_straight(true);
 }
 
 static bool is_same(const alpi_stencil *a, const alpi_stencil *b)
@@ -217,9 +192,7 @@ static void hold_border(lattice_setup *s, bool row, uint32_t border)
     }
     for (uint32_t along = 8; along < SIZE - 8; along++) {
         const uint32_t texel = at_border(l, row, border, along);
-        const uint32_t pass = alpi_lattice_pass(l, s->texels.pixels[texel]);
-        const uint32_t narrow = pass - (l->wide ? ALPI_LATTICE_WIDE_PASSES : 0);
-        const bool is_wide = l->wide && pass <= ALPI_LATTICE_WIDE_PASSES;
+        const uint32_t pass = alpi_lattice_pass(s->texels.pixels[texel]);
         alpi_stencil stencil;
         l->along_borders = false;
         const bool inside = alpi_lattice_stencil(l, texel, &stencil);
@@ -227,13 +200,13 @@ static void hold_border(lattice_setup *s, bool row, uint32_t border)
         const bool found = alpi_lattice_stencil(l, texel, &stencil);
         // What is halfway has beyond the border nothing along it stands for, but of the last but
         // one.
-        const bool goes_along = is_wide ? pass == 2 : narrow == 2 || narrow == 4 || narrow == 5;
+        const bool goes_along = pass == 2 || pass == 4 || pass == 5;
         assert_int_equal(found, inside || goes_along);
         if (!found || inside) {
             continue;
         }
         float weight = 0.0f;
-        const float h = is_wide ? 4.0f : narrow == 5 ? 1.0f : 2.0f;
+        const float h = pass == 5 ? 1.0f : 2.0f;
         const float missed = 0.5f * bent * h * h;
         if ((float)along + 3.0f * h >= SIZE) {
             continue; // no four in a row
@@ -242,7 +215,7 @@ static void hold_border(lattice_setup *s, bool row, uint32_t border)
         for (uint32_t k = 0; k < stencil.count; k++) {
             const uint16_t *p = s->texels.pixels[stencil.texels[k]];
             assert_int_equal(p[across], border);
-            assert_true(alpi_lattice_pass(l, p) < pass);
+            assert_true(alpi_lattice_pass(p) < pass);
             weight += stencil.weights[k];
         }
         ASSERT_NEAR(weight, 1.0f, 1e-6);
@@ -257,17 +230,15 @@ static void hold_border(lattice_setup *s, bool row, uint32_t border)
 static void at_a_border_stencils_go_along_it(void **state)
 {
     (void)state;
-    // Odd, 2 beyond the lattice, and 4 beyond a wide one.
+    // Odd, 2 beyond the lattice, and of it.
     static const uint32_t borders[] = {SIZE - 1, SIZE - 2, SIZE - 10, SIZE - 4};
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
-    for (int k = 0; k < 32; k++) {
-        l->wide = k / 16 != 0;
-        l->straight = k / 8 % 2 != 0;
+    for (int k = 0; k < 16; k++) {
+        l->straight = k / 8 != 0;
         hold_border(&s, k % 2 != 0, borders[k / 2 % 4]);
     }
-    l->wide = false;
     // Inside a chart nothing changes.
     for (uint32_t i = 0; i < s.texels.count; i++) {
         l->states[i] = ALPI_TEXEL_TRACED;
@@ -391,20 +362,17 @@ static void passes_take_all_texels_in_their_order(void **state)
     for (uint32_t i = 0; i < COUNT; i++) {
         order[i] = (COUNT - i) * 7 % (2 * SIZE * SIZE);
     }
-    for (int wide = 0; wide < 2; wide++) {
-        s.lattice.wide = wide == 1;
-        uint32_t first[ALPI_LATTICE_PASS_LIMIT + 1], at = 0;
-        ASSERT_OK(s.context, alpi_lattice_split(&s.lattice, order, COUNT, by_pass, first));
-        for (uint32_t pass = 0; pass < ALPI_LATTICE_PASS_LIMIT; pass++) {
-            assert_int_equal(first[pass], at);
-            for (uint32_t i = 0; i < COUNT; i++) {
-                if (alpi_lattice_pass(&s.lattice, s.texels.pixels[order[i]]) == pass) {
-                    assert_int_equal(by_pass[at++], order[i]);
-                }
+    uint32_t first[ALPI_LATTICE_PASSES + 1], at = 0;
+    ASSERT_OK(s.context, alpi_lattice_split(&s.lattice, order, COUNT, by_pass, first));
+    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASSES; pass++) {
+        assert_int_equal(first[pass], at);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            if (alpi_lattice_pass(s.texels.pixels[order[i]]) == pass) {
+                assert_int_equal(by_pass[at++], order[i]);
             }
         }
-        assert_int_equal(first[ALPI_LATTICE_PASS_LIMIT], COUNT);
     }
+    assert_int_equal(first[ALPI_LATTICE_PASSES], COUNT);
     tear_down(&s);
 }
 
