@@ -81,9 +81,7 @@ static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p, double *ra
     ALP_TRY(alpi_light_round_measure(r, list, count));
     r->bounced_error *= adaptive ? MAP_SHARE : 1.0;
     r->rays = ALPI_LIGHT_FIRST_RAYS;
-    *rays = alpi_light_round_plan_all(r, p)
-                ? r->rays + p->rays
-                : fmax(alpi_light_round_enough(r), ALPI_LIGHT_FEWEST_RAYS);
+    *rays = alpi_light_round_plan_all(r, p) ? r->rays + p->rays : ALPI_LIGHT_FIRST_RAYS;
     r->rays = 0; // there was no round yet
     return ALP_OK;
 }

@@ -172,15 +172,6 @@ bool alpi_light_round_plan_all(const alpi_light_round_state *r, alpi_light_plan 
     return true;
 }
 
-double alpi_light_round_enough(const alpi_light_round_state *r)
-{
-    // The smaller power asks for the fewer rays, of 48 to 64. No bake needed a second round for it:
-    // the Cornell box and the teapot room at 128², --error 2 to 7 in steps of .2.
-    const double aim = aim_of(r), left = aim * aim - r->direct_error * r->direct_error;
-    const double over = left > 0.0 ? r->bounced_error / sqrt(left) : 1.0;
-    return r->rays * fmin(pow(over, 1.0 / ALPI_LIGHT_RAYS_POWER), 1.0);
-}
-
 alp_result alpi_light_round_plan(alpi_light_round_state *r, alpi_light_plan *p)
 {
     r->for_worst = false;

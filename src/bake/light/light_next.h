@@ -7,7 +7,8 @@
 #include "bake/light/light_error.h"
 #include "maps/radiosity/bounced_map.h"
 
-/// Replicates of a texel's rays where their number is given; it is a multiple of as many packets.
+/// Replicates of a texel's rays, by whose spread their noise is known. The number of rays is a
+/// multiple of as many packets.
 enum { ALPI_LIGHT_REPLICATES = 4 };
 
 /// Rounds of one bake.
@@ -59,9 +60,9 @@ double alpi_light_round_solved_share(const alpi_light_round_state *round);
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_round_look(alpi_light_round_state *round);
 
-/// Rays of the first round, where nothing is known, and the fewest where something is: by 32 the
-/// teapot room states .82 of its error, by 48 or 64 .90 (`alpenglow bench truth`, for 4 %).
-enum { ALPI_LIGHT_FIRST_RAYS = 64, ALPI_LIGHT_FEWEST_RAYS = 48 };
+/// The fewest rays of the first round: by 32 the teapot room states .82 of its error, by 64 .90
+/// (`alpenglow bench truth`, for 4 %).
+enum { ALPI_LIGHT_FIRST_RAYS = 64 };
 /// Finds how many rays the first round takes, so that it is the last one if it can be, and gives
 /// texels the samples of direct light that they will need, so that rays meet it without its noise.
 /// Values and skies of the task are written over; the round's scratch of direct light is there.
@@ -72,9 +73,6 @@ alp_result alpi_light_prepare_first(alpi_light_round_state *round, uint32_t *ray
 /// Plans what the texels get together. @return whether they are not good enough yet; the plan may
 /// be nothing even then, where nothing helps
 bool alpi_light_round_plan_all(const alpi_light_round_state *round, alpi_light_plan *plan);
-/// Rays that would have done for bounced light, where all is good enough. @return at most those
-/// there are
-double alpi_light_round_enough(const alpi_light_round_state *round);
 /// Plans the next round: for_worst and worst say whom it is for.
 /// @param plan out: nothing, where there is nothing to do, or nothing helps
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED

@@ -44,27 +44,9 @@ static void go_on_from_near(const alpi_bake_job *job, const alpi_light_task *tas
     from->near_reach = NEAR_REACH;
 }
 
-uint32_t alpi_light_replicates(uint32_t rays)
-{
-    // That of a given number of rays first; three, which tell least of the noise, last.
-    static const uint8_t ways[] = {ALPI_LIGHT_REPLICATES, 5, 6, 7, 3};
-    const uint32_t packets = rays / ALPI_PACKET;
-    for (uint32_t i = 0; i < sizeof ways; i++) {
-        if (packets >= ways[i] && packets % ways[i] == 0) {
-            return ways[i];
-        }
-    }
-    return 0;
-}
-
 uint32_t alpi_light_ray_count(double rays)
 {
-    const double least = ALPI_LIGHT_REPLICATES * ALPI_PACKET;
-    uint32_t packets = (uint32_t)ceil(fmax(rays, least) / ALPI_PACKET);
-    while (alpi_light_replicates(packets * ALPI_PACKET) == 0) {
-        packets++;
-    }
-    return packets * ALPI_PACKET;
+    return alpi_cosine_rays_samples((uint32_t)ceil(rays), ALPI_LIGHT_REPLICATES);
 }
 
 void alpi_light_rays_start(const alpi_light_round_state *r, uint32_t rays, uint64_t seed,
@@ -78,7 +60,7 @@ void alpi_light_rays_start(const alpi_light_round_state *r, uint32_t rays, uint6
     by->cosine = (alpi_cosine_rays){
         .context = job->context,
         .samples = rays,
-        .replicates = alpi_light_replicates(rays),
+        .replicates = ALPI_LIGHT_REPLICATES,
         .joined = true,
         .seed = seed,
     };

@@ -16,11 +16,7 @@ typedef struct alpi_light_rays {
     alpi_gather_job gather; // of no list, and to no values yet
 } alpi_light_rays;
 
-/// Equal replicates that the packets of so many rays make, three to seven, by whose spread their
-/// noise is known; 0: none do.
-uint32_t alpi_light_replicates(uint32_t rays);
-/// So many rays or fewer than 24 more, that make replicates; fours of packets alone would send up
-/// to 31 more.
+/// `rays` rounded up to a number that makes replicates.
 uint32_t alpi_light_ray_count(double rays);
 
 /// @param rays of a texel, a number that makes replicates; the round's own gatherer,

@@ -209,15 +209,6 @@ static double affordable(const alpi_light_round_state *r, double samples, double
     return most < samples && most < there / 8.0 ? 0.0 : most;
 }
 
-/// A number of rays for those that are planned. Where the bake's own number is given, in multiples
-/// of what that is rounded to: then rounds add up to it.
-static uint32_t rays_to_send(const alpi_light_round_state *r, double rays)
-{
-    return r->job->options.light.error > 0.0f
-               ? alpi_light_ray_count(rays)
-               : alpi_cosine_rays_samples((uint32_t)ceil(rays), ALPI_LIGHT_REPLICATES);
-}
-
 static alp_result measure(alpi_light_round_state *r)
 {
     return alpi_light_round_measure(r, r->task->order, r->task->count);
@@ -256,7 +247,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
-        ALP_TRY(add_bounced(r, rays_to_send(r, rays)));
+        ALP_TRY(add_bounced(r, alpi_light_ray_count(rays)));
     }
     if (direct < direct_asked || rays < rays_asked) { // the clock had a say
         r->cut_off = true;
