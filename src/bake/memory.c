@@ -172,7 +172,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t passes =
         alpi_light_has_rounds(options) ? 0u : PASS_BYTES + PASS_BYTES_PER_TEXEL * texels;
     m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
-             alpi_light_kept_block_rays(o, texels) * sizeof(uint32_t);
+             alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels +
                                     larger(bands < most ? bands : most, passes) + HELD_OUT_BYTES +

@@ -60,7 +60,6 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
                                       .lighting = options->soft_sky ? r->soft : r->lit.lighting,
                                       .direct = options->soft_sky ? r->direct : r->lit.lighting,
                                       .gatherer = &r->gatherer,
-                                      .trial = options->trial,
                                       .bounces = options->bounces,
                                       .tolerance = options->tolerance,
                                       .blocks = {.spacing = options->spacing},

@@ -22,7 +22,6 @@ typedef struct test_radiant_options {
     uint32_t direct_samples;
     uint64_t kept_limit, seed;
     bool soft_sky; // a sky is what the rays of blocks find, not direct light
-    alpi_radiosity_trial trial;
 } test_radiant_options;
 
 /// A page of 64, a chart to each plane; all bounces, to 1e-5; blocks of 4 with 64 rays, all kept;

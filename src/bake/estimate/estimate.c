@@ -168,18 +168,11 @@ static double count_bounced(const work_guess *g)
     return fmin(ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0), MOST_RAYS);
 }
 
-/// Rays of blocks, for each texel: what bounces at all is about half as much again as what bounces
-/// once, and uneven by as much.
+/// Rays of blocks, for each texel.
 static double count_block_rays(const work_guess *g)
 {
     enum { TEXELS_OF_BLOCK = 8 };
-    const alpi_pilot *p = &g->pilot;
-    const double once = p->once_bounced > p->mean ? 1.0 - p->mean / p->once_bounced : 0.0;
-    const alpi_trial_light light = {.blocks = (uint32_t)fmin(g->texels / TEXELS_OF_BLOCK, 1e9),
-                                    .mean = fmin(1.5 * once, 1.0),
-                                    .rms = fmin(2.25 * once, 1.0)};
-    return (double)alpi_light_sent_block_rays(&g->options->light, to_count(g->texels), &light) /
-           TEXELS_OF_BLOCK;
+    return (double)alpi_light_block_rays(&g->options->light, to_count(g->texels)) / TEXELS_OF_BLOCK;
 }
 
 /// @param layers that there are besides the whole

@@ -57,17 +57,8 @@ bool alpi_light_has_rounds(const alp_bake_options *options);
 /// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
 /// and corners").
 bool alpi_light_has_fine_blocks(const alp_light_options *options);
-/// Rays that a block gathers by at most, on a map of so many texels.
+/// Rays that a block gathers by, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
-/// Rays of a block that there is memory for at once where all are kept: a trial's beside the most.
-uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels);
-/// Rays of a block, a power of two in [16, 1024], that take least time together with what is left
-/// to the texels for an error.
-/// @param error over the mean, > 0
-uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light);
-/// Rays that a block sends about, those of a trial that finds `light` included.
-uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
-                                    const alpi_trial_light *light);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 
@@ -96,12 +87,6 @@ alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task
 
 /// Whether texels are interpolated, in rounds of all.
 bool alpi_light_is_adaptive(const alp_bake_options *options);
-/// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
-bool alpi_light_meets_solved(const alpi_radiosity_options *options);
-/// Error of a solution by one ray of each block, over the mean of the light: it falls with the root
-/// of their number.
-/// @param bounced root mean square of bounced light, over that mean
-double alpi_light_solved_noise(double bounced);
 /// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
 /// them, that no number of rays tells. Root mean square over texels, as measured.
 /// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The radiosity of a bake: solved on blocks of texels, then gathered once more from every texel.
 #include "bake/layers.h"
-#include "bake/light/light_next.h"
-#include "bake/light/light_plan.h"
+#include "bake/light/light.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -86,75 +85,9 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
     return rays;
 }
 
-// Where little light bounces, or blocks are few beside the texels' rays, fewer rays of theirs will
-// do, or more pay. A trial by the fewest tells how much does.
-enum { TRIAL_RAYS = 16, NO_TRIAL_BELOW = 64 };
-
-/// Rays that texels and direct light take, about, for an error: measured on the Cornell box, a
-/// sphere on a plane, living_room, a seventh of the texels being traced and direct light taking as
-/// long as a quarter of them would.
-static double guess_texel_rays(double error, uint64_t texels, double rms)
-{
-    const double each = pow(0.39 * rms / error, 2.0);
-    return 0.4 * (double)texels * fmax(each, ALPI_LIGHT_FIRST_RAYS);
-}
-
-uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light)
-{
-    enum { FEWEST_RAYS = TRIAL_RAYS, MOST_RAYS = 1024 };
-    const double noise = alpi_light_solved_noise(light->rms), blocks = fmax(light->blocks, 1.0);
-    // The whole map's bias takes the square of that share, but what is told of the energy, by the
-    // same rays, none of it: between the two.
-    const double least = pow(6.0 / error, 2.0) * light->mean / blocks;
-    const double others = guess_texel_rays(error, texels, light->rms);
-    uint32_t best = MOST_RAYS;
-    double best_cost = HUGE_VAL;
-    for (uint32_t rays = MOST_RAYS; rays >= FEWEST_RAYS && rays * sqrt(2.0) >= least; rays /= 2) {
-        // What the solution leaves of the squared error is the texels': their error falls with the
-        // .62th power of their rays.
-        const double left = 1.0 - noise * noise / (rays * error * error);
-        if (!(left > 0.0)) {
-            break; // nor do fewer leave any
-        }
-        const double cost = blocks * rays + others * pow(left, -0.5 / ALPI_LIGHT_RAYS_POWER);
-        if (cost <= best_cost) {
-            best_cost = cost;
-            best = rays;
-        }
-    }
-    return best;
-}
-
-/// Whether a trial tells how many, where `most` are sent if all light bounces. Not where the number
-/// of samples is given: then what a light brings does not hang on other lights.
-static bool is_tried(const alp_light_options *o, uint32_t most)
-{
-    return o->gather == ALP_GATHER_RAYS && o->error > 0.0f && most >= NO_TRIAL_BELOW;
-}
-
-uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels)
-{
-    const uint32_t most = alpi_light_block_rays(options, texels);
-    return most + (is_tried(options, most) ? TRIAL_RAYS : 0);
-}
-
-uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
-                                    const alpi_trial_light *light)
-{
-    const uint32_t most = alpi_light_block_rays(options, texels);
-    if (!is_tried(options, most)) {
-        return most;
-    }
-    const uint32_t rays = alpi_light_least_block_rays((double)options->error, texels, light);
-    return rays < most ? rays : most;
-}
-
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
-    double error;         // that is wanted
-    uint64_t texel_count; // that there are
-    alpi_cosine_rays trial_rays, block_rays;
-    alpi_gatherer trial;                    // of blocks
+    alpi_cosine_rays block_rays;
     alpi_hemicube *block_cube, *texel_cube; // or NULL
     alpi_hemicube_options block_cubes, texel_cubes;
     alpi_gatherer blocks, texels;
@@ -187,34 +120,12 @@ static alp_result make_gatherers(const alpi_bake_job *job, uint64_t texels, ligh
     if (o->gather == ALP_GATHER_HEMICUBE) {
         return make_hemicubes(job, seed, g);
     }
-    g->error = (double)o->error;
-    g->texel_count = texels;
     g->block_rays = (alpi_cosine_rays){.context = job->context,
                                        .samples = alpi_light_block_rays(o, texels),
                                        .replicates = 1,
                                        .seed = seed};
     g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
-    g->trial_rays = g->block_rays;
-    g->trial_rays.samples = TRIAL_RAYS;
-    g->trial = alpi_cosine_rays_gatherer(&g->trial_rays);
     return ALP_OK;
-}
-
-/// As many rays of blocks as are worth it, and no more than without a trial.
-static const alpi_gatherer *choose_rays(void *user, const alpi_trial_light *light)
-{
-    light_gatherers *g = user;
-    const uint32_t rays = alpi_light_least_block_rays(g->error, g->texel_count, light);
-    g->block_rays.samples = rays < g->block_rays.samples ? rays : g->block_rays.samples;
-    g->blocks = alpi_cosine_rays_gatherer(&g->block_rays);
-    return rays > TRIAL_RAYS ? &g->blocks : NULL;
-}
-
-/// @param met whether rays of texels meet light that blocks gathered
-static alpi_radiosity_trial trial_of(light_gatherers *g, const alp_light_options *o, bool met)
-{
-    const bool tried = met && is_tried(o, g->block_rays.samples);
-    return (alpi_radiosity_trial){tried ? &g->trial : NULL, choose_rays, g};
 }
 
 static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
@@ -249,7 +160,6 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.gatherer = &g->blocks;
     options.bounces = o->light.bounces;
     options.tolerance = find_tolerance(&o->light);
-    options.trial = trial_of(g, &o->light, alpi_light_meets_solved(&options));
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
     options.kept_limit = job->kept_limit;

@@ -19,23 +19,19 @@ static const double SOLVED_NOISE = 0.016;
 /// The most of it, over bounced light: that of the atrium, where it is most of that.
 static const double MOST_OF_BOUNCED = 0.16;
 
-bool alpi_light_meets_solved(const alpi_radiosity_options *o)
+/// Whether rays of texels meet light that blocks gathered; else they meet direct light alone.
+static bool meets_solved(const alpi_radiosity_options *o)
 {
     return o->bounces > 1 || o->direct != o->lighting;
-}
-
-double alpi_light_solved_noise(double bounced)
-{
-    return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced);
 }
 
 double alpi_light_solved_error(const alpi_radiosity *solution, double mean, double bounced,
                                double noise)
 {
-    if (!alpi_light_meets_solved(&solution->options) || !(mean > 0.0)) {
+    if (!meets_solved(&solution->options) || !(mean > 0.0)) {
         return 0.0;
     }
-    return alpi_light_solved_noise(bounced / mean) * noise;
+    return fmin(SOLVED_NOISE, MOST_OF_BOUNCED * bounced / mean) * noise;
 }
 
 static void state_solved(alpi_reference_value *value, const float *sky, double share)

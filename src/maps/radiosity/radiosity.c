@@ -5,13 +5,10 @@
 #include "base/tasks.h"
 #include "transport/gather/kept_rays.h"
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
-// What a trial leaves: it tells how many rays to send, to a power of two.
-static const double TRIAL_TOLERANCE = 2e-3;
 // Changes of single numbers of 24 bits: what is smaller is rounding.
 static const double LEAST_CHANGE = 1e-7;
 
@@ -116,7 +113,7 @@ static alp_result look_around(solver *s, const uint32_t *list, uint32_t count)
     if (!s->r->kept && !p->two_sided && !s->from.sky && p->texels->valid == NULL) {
         return ALP_OK;
     }
-    s->r->rays += (uint64_t)count * (job.gatherer->packet_count * ALPI_PACKET - s->kept.known);
+    s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
     return s->r->kept ? alpi_kept_rays_trace(&job, &s->progress, &s->kept)
                       : alpi_gather_irradiance(&job, &s->progress);
 }
@@ -166,19 +163,13 @@ static uint32_t add_seen_backs(solver *s)
     return count;
 }
 
-/// Makes room for the rays of all who may gather, where they may be kept. Those of a trial are the
-/// first of them, where there is room for both while they move; else they go first.
+/// Makes room for the rays of all who may gather, where they may be kept.
 static alp_result reserve_rays(solver *s)
 {
     alpi_radiosity *r = s->r;
     const alpi_radiosity_options *o = &r->options;
     const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
     const uint64_t each = alpi_kept_rays_size(o->gatherer);
-    const uint64_t tried = s->kept.rays * sizeof *s->kept.cells;
-    if (tried > 0 && (each + tried) * room <= o->kept_limit) {
-        return alpi_kept_rays_extend(o->gatherer, &s->kept);
-    }
-    alpi_kept_rays_destroy(&s->kept);
     r->kept = alpi_gather_meets_cells(&s->from) && each * room <= o->kept_limit;
     return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
 }
@@ -206,7 +197,6 @@ static alp_result find_receivers(solver *s)
     const alpi_patches *p = &r->patches;
     ALP_TRY(reserve_rays(s));
     ALP_TRY(look_around(s, r->receivers, r->receiver_count));
-    s->kept.known = 0; // of those that are seen only now
     for (uint32_t count = add_seen_backs(s); count > 0; count = add_seen_backs(s)) {
         ALP_TRY(light_backs(s, s->new_receivers, count));
         ALP_TRY(look_around(s, s->new_receivers, count));
@@ -382,9 +372,8 @@ static double left_over(const solver *s)
     return s->change * ratio / (1.0 - ratio);
 }
 
-/// Until what is left is no more than the tolerance, or all bounces that are asked for are in. Goes
-/// on where it ended.
-static alp_result run_passes(solver *s, double tolerance)
+/// Until what is left is no more than the tolerance, or all bounces that are asked for are in.
+static alp_result run_passes(solver *s)
 {
     const alpi_radiosity_options *o = &s->r->options;
     const uint32_t limit =
@@ -393,7 +382,7 @@ static alp_result run_passes(solver *s, double tolerance)
     ALP_TRY(alpi_parallel_sum(o->context, s->r->receiver_count, sum_first_light, s->r, &s->progress,
                               sums));
     s->first_light = sums[0];
-    while (s->r->passes < limit && left_over(s) > tolerance) {
+    while (s->r->passes < limit && left_over(s) > o->tolerance) {
         ALP_TRY(pass(s));
     }
     return ALP_OK;
@@ -418,55 +407,6 @@ static alp_result run_layers(solver *s)
         }
     }
     return alpi_radiosity_show(r, ALPI_NONE, NULL, &s->progress);
-}
-
-// --- a trial -------------------------------------------------------------------------------------
-
-/// Sums light on fronts by area: the square of what bounced, what bounced, the sky's, direct light,
-/// and the area.
-static void sum_trial(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
-{
-    const alpi_radiosity *r = user;
-    const alpi_patches *p = &r->patches;
-    for (uint32_t b = begin; b < end; b++) {
-        const double bounced = sum_of(r->bounced[b].mean) / 3.0, area = p->block_areas[b];
-        sums[0] += area * bounced * bounced;
-        sums[1] += area * bounced;
-        sums[2] += area * sum_of(r->skies[b]) / 3.0;
-        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-            const uint32_t t = p->block_texels[k];
-            sums[3] += (double)alpi_texels_area(p->texels, t) * sum_of(r->direct[t].mean) / 3.0;
-        }
-        sums[4] += area;
-    }
-}
-
-/// Solves by few rays, and asks whether that will do. @param done out
-static alp_result try_few(solver *s, bool *done)
-{
-    alpi_radiosity *r = s->r;
-    const alpi_radiosity_trial *trial = &r->options.trial;
-    double sums[ALPI_SUM_LIMIT] = {0.0};
-    r->options.gatherer = trial->gatherer;
-    ALP_TRY(find_receivers(s));
-    ALP_TRY(run_passes(s, TRIAL_TOLERANCE));
-    ALP_TRY(alpi_parallel_sum(r->options.context, r->patches.block_count, sum_trial, r,
-                              &s->progress, sums));
-    const double all = sums[1] + sums[2] + sums[3];
-    const alpi_trial_light found = {
-        .blocks = r->receiver_count,
-        .mean = all > 0.0 ? sums[1] / all : 0.0,
-        .rms = all > 0.0 ? sqrt(sums[0] * sums[4]) / all : 0.0,
-    };
-    const alpi_gatherer *chosen = trial->choose(trial->user, &found);
-    *done = chosen == NULL;
-    if (chosen != NULL) {
-        assert(chosen->aim == trial->gatherer->aim && chosen->seed == trial->gatherer->seed);
-        r->options.gatherer = chosen;
-        r->passes = 0;
-        s->from = alpi_radiosity_scene(r);
-    }
-    return ALP_OK;
 }
 
 // --- all of it -----------------------------------------------------------------------------------
@@ -518,14 +458,8 @@ static alp_result solve(solver *s, const uint32_t *order, uint32_t count)
     s->from = alpi_radiosity_scene(s->r);
     s->blocks = alpi_patches_block_receivers(&s->r->patches);
     start_receivers(s);
-    bool done = false;
-    if (s->r->options.trial.gatherer != NULL) {
-        ALP_TRY(try_few(s, &done));
-    }
-    if (!done) {
-        ALP_TRY(find_receivers(s));
-    }
-    ALP_TRY(run_passes(s, s->r->options.tolerance));
+    ALP_TRY(find_receivers(s));
+    ALP_TRY(run_passes(s));
     ALP_TRY(alpi_radiosity_find_energy(s->r, &s->progress));
     return run_layers(s);
 }

@@ -19,22 +19,6 @@
 
 enum { ALPI_RADIOSITY_PASS_LIMIT = 1024, ALPI_RADIOSITY_CHANGES = 64 };
 
-/// What a solution by few rays tells of the light, over the area of the fronts.
-typedef struct alpi_trial_light {
-    uint32_t blocks; // that gather
-    double mean;     // of what bounced, over all light
-    double rms;      // root mean square of what bounced, over the mean of all light
-} alpi_trial_light;
-
-/// A solution by few rays before that by all, which may do, or tell how many it takes.
-typedef struct alpi_radiosity_trial {
-    const alpi_gatherer *gatherer; // NULL: there is no trial
-    /// @return the gatherer that solves, whose first packets are all of the trial's; NULL: what the
-    /// trial found is the solution
-    const alpi_gatherer *(*choose)(void *user, const alpi_trial_light *found);
-    void *user;
-} alpi_radiosity_trial;
-
 typedef struct alpi_radiosity_options {
     alp_context *context;
     const alp_scene *scene;
@@ -47,7 +31,6 @@ typedef struct alpi_radiosity_options {
                                    // NULL: there are none
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
-    alpi_radiosity_trial trial;    // whose choice takes the gatherer's place
     uint32_t bounces;              // ≥ 1, at most; above PASS_LIMIT: as many as it takes
     double tolerance; // passes end where those that are left would bring less, over all light
     alpi_block_rule blocks;

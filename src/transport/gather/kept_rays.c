@@ -31,24 +31,6 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
     return ALP_OK;
 }
 
-alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept)
-{
-    const uint32_t before = kept->rays, rays = gatherer->packet_count * ALPI_PACKET;
-    assert(rays >= before);
-    uint32_t *cells =
-        alpi_reallocate(kept->context, kept->cells, kept->receivers, rays * sizeof *cells);
-    if (cells == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    for (size_t i = kept->receivers; i-- > 0;) { // the last first: none is written over
-        memmove(cells + i * rays, cells + i * before, before * sizeof *cells);
-    }
-    kept->cells = cells;
-    kept->rays = rays;
-    kept->known = before;
-    return ALP_OK;
-}
-
 void alpi_kept_rays_destroy(alpi_kept_rays *kept)
 {
     if (kept->context != NULL) {
@@ -74,24 +56,6 @@ static uint32_t *rays_of(const kept_job *k, uint32_t i)
     return k->kept->cells + row * k->kept->rays;
 }
 
-/// Packets of a batch. What those met that are known stands in their cells; where they go is asked
-/// again only for what the sky brings.
-static void trace_batch(const kept_job *k, uint32_t receiver, uint32_t first, uint32_t count,
-                        alpi_gather_packet *packets, uint32_t (*cells)[ALPI_PACKET])
-{
-    const alpi_gather_job *job = k->job;
-    const alpi_gatherer *g = job->gatherer;
-    const uint32_t known = k->kept->known / ALPI_PACKET, before = known > first ? known - first : 0;
-    const uint32_t met = before < count ? before : count, aimed = job->from->sky ? 0 : met;
-    if (aimed < count) {
-        g->aim(g->user, job->receivers, receiver, first + aimed, count - aimed, packets + aimed,
-               NULL);
-    }
-    if (met < count) {
-        alpi_gather_cells(job->from, packets + met, count - met, g->coherent, cells + met);
-    }
-}
-
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -107,7 +71,8 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
         for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
             const uint32_t left = g->packet_count - first;
             const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
-            trace_batch(k, receiver, first, count, packets, &cells[first]);
+            g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
+            alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
             if (job->from->sky) {
                 alpi_gather_find_skies(job->from, packets, count,
                                        (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
@@ -149,7 +114,7 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
     alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    told.units_per_item = (double)(kept->rays - kept->known);
+    told.units_per_item = (double)kept->rays;
     told.units_are_rays = true;
     return run(&k, TRACED_PER_RANGE, trace_range, &told);
 }

@@ -10,8 +10,6 @@ typedef struct alpi_kept_rays {
     alp_context *context;
     uint32_t receivers; // that there is room for
     uint32_t rays;      // of each
-    uint32_t known;     // the first so many of them are there already, of the receivers that are
-                        // traced next; the caller's to set back to 0
     uint32_t *cells;    // [receivers][rays]
     bool by_list;       // the i-th row is of the i-th receiver of the one list that all jobs have,
                         // not of receiver i; the caller's to set, before any is traced
@@ -24,15 +22,10 @@ uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer);
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
                                   uint32_t count, alpi_kept_rays *kept);
-/// Makes room for more rays of the same receivers, whose first are those that are there: `known`.
-/// The gatherer's first packets are all of the one before.
-/// @return ALP_OK; OUT_OF_MEMORY
-alp_result alpi_kept_rays_extend(const alpi_gatherer *gatherer, alpi_kept_rays *kept);
 void alpi_kept_rays_destroy(alpi_kept_rays *kept);
 
-/// Traces the rays of the listed receivers that are not known, and writes to job->skies what all of
-/// those that meet nothing bring, and job->lost: the same bits as if none were known. Needs
-/// alpi_gather_meets_cells.
+/// Traces the rays of the listed receivers, and writes to job->skies what those of them bring that
+/// meet nothing, and job->lost. Needs alpi_gather_meets_cells.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
                                 alpi_kept_rays *kept);

@@ -243,50 +243,6 @@ static void lists_and_more_room(void **state)
     close_setting(&s);
 }
 
-/// More rays of the same receivers find the same as all of them anew, bit for bit, and send none of
-/// those that are known again; a receiver of which none is known sends all.
-static void more_rays_begin_with_those_that_are_known(void **state)
-{
-    (void)state;
-    static setting s;
-    enum { FEW = 16, MORE = 192, KNOWN = RECEIVERS - 1, TAMPERED = 3 };
-    alpi_kept_rays kept = {0}, anew = {0};
-    float lost[RECEIVERS][2];
-    open_setting(&s, 2, false);
-    s.rays = (alpi_cosine_rays){.context = s.context, .samples = FEW, .replicates = 1, .seed = 3};
-    s.gatherer = alpi_cosine_rays_gatherer(&s.rays);
-    keep_all(&s, &kept);
-    s.rays.samples = MORE;
-    s.gatherer = alpi_cosine_rays_gatherer(&s.rays);
-    keep_all(&s, &anew);
-    memcpy(lost, s.lost, sizeof lost);
-    ASSERT_OK(s.context, alpi_kept_rays_extend(&s.gatherer, &kept));
-    assert_int_equal(kept.rays, MORE);
-    assert_int_equal(kept.known, FEW);
-    // Were it sent again it would be what it was.
-    const size_t place = (size_t)TAMPERED * MORE + FEW - 1;
-    const uint32_t met = kept.cells[place];
-    kept.cells[place] = met == ALPI_CELL_FIRST ? ALPI_CELL_FIRST + 1 : ALPI_CELL_FIRST;
-    static uint32_t list[KNOWN];
-    for (uint32_t i = 0; i < KNOWN; i++) {
-        list[i] = i;
-    }
-    alpi_gather_job job = job_of(&s, list, KNOWN);
-    ASSERT_OK(s.context, alpi_kept_rays_trace(&job, NULL, &kept));
-    assert_memory_equal(s.lost, lost, TAMPERED * sizeof *lost);
-    assert_int_not_equal(kept.cells[place], met);
-    kept.cells[place] = met;
-    const uint32_t late = KNOWN;
-    kept.known = 0;
-    job = job_of(&s, &late, 1);
-    ASSERT_OK(s.context, alpi_kept_rays_trace(&job, NULL, &kept));
-    assert_memory_equal(s.lost[late], lost[late], sizeof *lost);
-    assert_memory_equal(kept.cells, anew.cells, (size_t)RECEIVERS * MORE * sizeof *kept.cells);
-    alpi_kept_rays_destroy(&kept);
-    alpi_kept_rays_destroy(&anew);
-    close_setting(&s);
-}
-
 static void lack_of_memory_is_told(void **state)
 {
     (void)state;
@@ -299,11 +255,6 @@ static void lack_of_memory_is_told(void **state)
     left = 0;
     assert_int_equal(alpi_kept_rays_reserve(failing, &g, 4, &kept), ALP_ERROR_OUT_OF_MEMORY);
     assert_int_equal(kept.receivers, 2); // what there was is still there
-    const alpi_cosine_rays more_rays = {.context = failing, .samples = 128, .replicates = 1};
-    const alpi_gatherer more = alpi_cosine_rays_gatherer(&more_rays);
-    left = 0;
-    assert_int_equal(alpi_kept_rays_extend(&more, &kept), ALP_ERROR_OUT_OF_MEMORY);
-    assert_true(kept.rays == 64 && kept.known == 0);
     alpi_kept_rays_destroy(&kept);
     alp_context_destroy(failing);
 }
@@ -315,7 +266,6 @@ int main(void)
         cmocka_unit_test(rays_of_a_list_are_kept_by_it),
         cmocka_unit_test(rays_that_are_lost_are_counted),
         cmocka_unit_test(lists_and_more_room),
-        cmocka_unit_test(more_rays_begin_with_those_that_are_known),
         cmocka_unit_test(lack_of_memory_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
