@@ -284,13 +284,22 @@ static bool ask(truth_case *c, const bench_technique *t, bool quick, verdict *al
     return good;
 }
 
-static bool ask_techniques(truth_case *c, bool quick)
+static bool is_wanted(const bench_technique *t, const bench_options *options)
 {
+    return options->technique == NULL || strcmp(options->technique, t->name) == 0;
+}
+
+static bool ask_techniques(truth_case *c, const bench_options *options)
+{
+    const bool quick = options->quick;
     bool good = true;
     for (int i = 0; good && i < TECHNIQUE_LIMIT; i++) {
         const bench_technique *t = bench_technique_at(i);
         if (t == NULL) {
             break;
+        }
+        if (!is_wanted(t, options)) {
+            continue;
         }
         good = ask(c, t, quick, &c->told->verdicts[i]);
         const double z = fabs(c->told->verdicts[i].bias) / c->told->verdicts[i].doubt;
@@ -376,6 +385,9 @@ static void print_matrix(const truth_summary *told, int count, matrix_kind kind,
         if (k >= 0 && t == NULL) {
             break;
         }
+        if (k >= 0 && !is_wanted(t, options)) {
+            continue;
+        }
         length = snprintf(row, ROW_SIZE, "%s", t == NULL ? "the truth itself" : t->name);
         for (int i = 0; i < count; i++) {
             write_cell(&told[i], k, kind, cell);
@@ -421,8 +433,9 @@ static bool find_shared(const char *relative, char path[PATH_SIZE])
     return found != NULL && snprintf(path, PATH_SIZE, "%s", found) > 0;
 }
 
-static bool run_scene(const truth_scene *what, bool quick, truth_summary *told)
+static bool run_scene(const truth_scene *what, const bench_options *options, truth_summary *told)
 {
+    const bool quick = options->quick;
     char path[PATH_SIZE], sky[PATH_SIZE];
     *told = (truth_summary){.what = what};
     if ((what->shared && !find_shared(what->name, path)) ||
@@ -432,7 +445,7 @@ static bool run_scene(const truth_scene *what, bool quick, truth_summary *told)
     truth_case c = {.what = what, .told = told};
     told->known =
         open_case(&c, what->shared ? path : what->name, what->sky != NULL ? sky : NULL, quick) &&
-        find_truth(&c, quick) && ask_techniques(&c, quick);
+        find_truth(&c, quick) && ask_techniques(&c, options);
     close_case(&c);
     return told->known;
 }
@@ -440,11 +453,15 @@ static bool run_scene(const truth_scene *what, bool quick, truth_summary *told)
 int bench_against_truth(const bench_options *options)
 {
     truth_summary told[SCENE_COUNT];
-    const truth_scene asked = {.name = options->scene, .title = options->scene, .size = 256};
+    const truth_scene other = {.name = options->scene, .title = options->scene, .size = 256};
+    const truth_scene *first = options->scene == NULL ? scenes : &other;
     const int count = options->scene != NULL ? 1 : SCENE_COUNT;
     bool good = true;
+    for (int i = 0; i < SCENE_COUNT && options->scene != NULL; i++) {
+        first = strcmp(options->scene, scenes[i].title) == 0 ? &scenes[i] : first;
+    }
     for (int i = 0; i < count && good; i++) {
-        good = run_scene(options->scene != NULL ? &asked : &scenes[i], options->quick, &told[i]);
+        good = run_scene(&first[i], options, &told[i]);
     }
     if (good) {
         print_all(told, count, options);

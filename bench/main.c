@@ -43,12 +43,14 @@ int main(int count, char **words)
             options.markdown = true;
         } else if (strcmp(words[i], "--scene") == 0 && i + 1 < count) {
             options.scene = words[++i];
+        } else if (strcmp(words[i], "--technique") == 0 && i + 1 < count) {
+            options.technique = words[++i];
         } else {
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
                     "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
                     "formats, --quick, "
-                    "--markdown\n",
+                    "--markdown, --scene NAME, --technique NAME\n",
                     words[i]);
             return EXIT_USAGE;
         }
