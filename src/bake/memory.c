@@ -80,23 +80,22 @@ enum {
 };
 
 /// Blocks where surfaces meet all around each chart, as those of builtin:cornell do: single texels
-/// there, or squares of four, in proportion to the length of its edges. Measured at five sizes of
-/// page; of squares 2.8, teapot-room 2.6 and 2.7, windows 1.9, living_room 1.5, zdm2 1.2.
-static uint64_t count_blocks(const alp_atlas_info *atlas, bool fine)
+/// there, in proportion to the length of its edges. Measured at five sizes of page.
+static uint64_t count_blocks(const alp_atlas_info *atlas)
 {
     const double texels = (double)atlas->texels, charts = fmax(atlas->charts, 1.0);
-    const double edges = sqrt(texels * charts) * (fine ? 8.0 : 3.0);
+    const double edges = 8.0 * sqrt(texels * charts);
     return (uint64_t)fmin(texels / (SPACING * SPACING) + edges, texels);
 }
 
 /// Blocks of charts of the mean size that are by themselves, most of them: squares of the page that
-/// a chart has a part in, and as many again, or a quarter more, where something is near.
-static uint64_t count_least_blocks(const alp_atlas_info *atlas, bool fine)
+/// a chart has a part in, and as many again where something is near.
+static uint64_t count_least_blocks(const alp_atlas_info *atlas)
 {
     const double charts = fmax(atlas->charts, 1.0);
     const double edge = sqrt((double)atlas->texels / charts) / SPACING + 1.0;
-    const double blocks = charts * edge * edge * (fine ? 2.0 : 1.25);
-    return (uint64_t)fmin(blocks, (double)count_blocks(atlas, fine));
+    const double blocks = 2.0 * charts * edge * edge;
+    return (uint64_t)fmin(blocks, (double)count_blocks(atlas));
 }
 
 /// Bytes that are held while light is gathered, beside what is kept all the time.
@@ -144,8 +143,7 @@ static uint64_t find_settled(const alp_atlas_info *atlas, const alp_bake_options
     uint64_t of_blocks = 0;
     if (alpi_light_has_rounds(options) && options->only == NULL) {
         of_texel += SHOWN_BYTES_PER_TEXEL + (sides > 1 ? 0u : SHOWN_BLOCK_BYTES_PER_TEXEL);
-        const bool fine = alpi_light_has_fine_blocks(&options->light);
-        of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas, fine);
+        of_blocks = SHOWN_SIDE_BLOCK_BYTES * sides * count_blocks(atlas);
     }
     return of_texel * atlas->texels + of_blocks;
 }
@@ -160,8 +158,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
         return m;
     }
     const uint64_t sides = alpi_patches_are_two_sided(scene) ? 2 : 1;
-    const bool fine = alpi_light_has_fine_blocks(o);
-    const uint64_t blocks = count_blocks(atlas, fine);
+    const uint64_t blocks = count_blocks(atlas);
     const uint64_t back = sides > 1 ? BACK_BYTES : 0u;
     const uint64_t places = find_places(atlas, scene);
     const uint64_t of_texel =
@@ -171,7 +168,7 @@ static light_memory find_light_memory(const alp_atlas_info *atlas, const alp_sce
     const uint64_t most = BAND_BYTES, bands = BAND_BYTES_PER_TEXEL * texels;
     const uint64_t passes =
         alpi_light_has_rounds(options) ? 0u : PASS_BYTES + PASS_BYTES_PER_TEXEL * texels;
-    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas, fine)) * sides *
+    m.kept = (uint64_t)sqrt((double)blocks * (double)count_least_blocks(atlas)) * sides *
              alpi_light_block_rays(o, texels) * sizeof(uint32_t);
     m.solve = solution + VALUE_BYTES * sides * texels; // of direct light
     m.rounds = larger(m.rounds, find_round_bytes(options) * texels +

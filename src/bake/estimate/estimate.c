@@ -171,7 +171,7 @@ static double count_bounced(const work_guess *g)
 /// Rays of blocks, for each texel.
 static double count_block_rays(const work_guess *g)
 {
-    enum { TEXELS_OF_BLOCK = 8 };
+    enum { TEXELS_OF_BLOCK = 5 };
     return (double)alpi_light_block_rays(&g->options->light, to_count(g->texels)) / TEXELS_OF_BLOCK;
 }
 

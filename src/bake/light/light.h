@@ -53,10 +53,6 @@ alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
 /// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
 bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Whether blocks are texels where another surface touches: not for an error of 2 % and more, which
-/// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
-/// and corners").
-bool alpi_light_has_fine_blocks(const alp_light_options *options);
 /// Rays that a block gathers by, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Samples of each light at a texel in the first round.

@@ -59,14 +59,9 @@ bool alpi_light_is_adaptive(const alp_bake_options *o)
            o->sampling.accuracy != ALP_ADAPTIVE_OFF;
 }
 
-bool alpi_light_has_fine_blocks(const alp_light_options *options)
-{
-    return !(options->error >= 0.02f);
-}
-
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
-    enum { TEXELS_PER_BLOCK = 8, TEXELS_PER_FINE_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
+    enum { TEXELS_PER_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
     if (options->gather == ALP_GATHER_HEMICUBE) {
         return 3 * BLOCK_CUBE * BLOCK_CUBE; // a face, and four halves of one
     }
@@ -75,9 +70,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
         return ALPI_RADIOSITY_BLOCK_RAYS;
     }
     const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
-    const double size =
-        alpi_light_has_fine_blocks(options) ? TEXELS_PER_FINE_BLOCK : TEXELS_PER_BLOCK;
-    const double each = fmax(all * size / fmax((double)texels, 1.0), about);
+    const double each = fmax(all * TEXELS_PER_BLOCK / fmax((double)texels, 1.0), about);
     uint32_t rays = FEWEST_RAYS;
     while (rays * sqrt(2.0) < each && rays < MOST_RAYS) { // the nearest power of two
         rays *= 2;
@@ -152,7 +145,6 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.tracer = t->tracer;
     options.lighting = t->lighting;
     options.blocks.near = job->validity.near;
-    options.blocks.fine = alpi_light_has_fine_blocks(&o->light);
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
     options.counted = g->counts ? &g->texels : NULL;

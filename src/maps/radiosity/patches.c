@@ -180,8 +180,7 @@ static uint32_t choose_side(const alpi_patches *p, const page_square *s, uint32_
     uint32_t side = spacing;
     for (uint32_t i = 0; i < s->count && p->near != NULL; i++) {
         const uint32_t t = s->texels[i];
-        if ((p->texels->valid != NULL && p->texels->valid[t] != 0) ||
-            (p->fine && p->near[t] == ALPI_TOUCHING)) {
+        if ((p->texels->valid != NULL && p->texels->valid[t] != 0) || p->near[t] == ALPI_TOUCHING) {
             return 1;
         }
         side = p->near[t] == ALPI_FAR ? side : spacing % 2 == 0 ? spacing / 2 : 1;
@@ -505,7 +504,6 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                               .texels = lattice->texels,
                               .lattice = lattice,
                               .near = rule->near,
-                              .fine = rule->fine,
                               .two_sided = alpi_patches_are_two_sided(atlas->scene)};
     const alp_result result = create(patches, order, count, rule->spacing);
     patches->near = NULL; // borrowed for this call

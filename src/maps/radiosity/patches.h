@@ -50,7 +50,6 @@ typedef struct alpi_patches {
     uint32_t *block_first, *block_texels; // texels of each block, one after the other
     float *block_ends;   // share of a block's area up to the end of each of those; the last is 1
     double *block_areas; // [blocks] m²
-    bool fine;           // of the block rule
     bool two_sided; // some material is double-sided: then cells and receivers of backs follow those
                     // of fronts
     float (*cells)[4]; // [CELL_FIRST + sides × texels] radiance W·sr⁻¹·m⁻² that is reflected
@@ -60,10 +59,10 @@ typedef struct alpi_patches {
 /// How texels are put together.
 typedef struct alpi_block_rule {
     uint32_t spacing;    // side of a block in texels, [1, 16]; 1: each texel is one
-    const uint8_t *near; // [texels] alpi_nearness, or NULL: near another surface, where bounced
-                         // light changes fast, blocks are half as long (texels, of an odd
-                         // spacing), and texels where any of theirs lies in a solid in part
-    bool fine;           // and where another surface touches any
+    const uint8_t *near; // [texels] alpi_nearness, or NULL. Near another surface bounced light
+                         // changes fast: blocks are half as long there (texels, of an odd
+                         // spacing), and texels where another surface touches one of theirs, or
+                         // one lies in a solid in part
 } alpi_block_rule;
 
 /// @param order [count] texels with light of their own, neighbours together

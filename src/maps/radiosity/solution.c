@@ -52,7 +52,6 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     s->gatherer = alpi_cosine_rays_gatherer(&s->rays);
     alpi_radiosity_options options = alpi_radiosity_options_default();
     options.blocks.near = s->validity.near;
-    options.blocks.fine = true;
     options.context = s->context;
     options.scene = o->scene;
     options.tracer = o->tracer;
