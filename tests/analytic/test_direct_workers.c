@@ -52,12 +52,10 @@ static void gather(const test_stage *stage, uint32_t workers, const uint32_t *li
     alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+TEST_WITH_CONTEXT(workers_change_nothing, 1)
 {
-    (void)state;
     static result results[5];
     static const uint32_t workers[4] = {1, 2, 7, 32};
-    alp_context *context = test_context(1);
     test_stage stage = open_cornell(context, NULL);
     for (int k = 0; k < 4; k++) {
         gather(&stage, workers[k], NULL, 0, &results[k]);
@@ -77,7 +75,6 @@ static void workers_change_nothing(void **state)
     }
     assert_true(results[4].values[5].mean[0] == 0.0f); // not in the list
     test_stage_close(&stage);
-    alp_context_destroy(context);
 }
 
 /// A picture of a sky: every fifth pixel is bright.
@@ -95,10 +92,8 @@ static alp_image *bright_pixels(alp_context *context)
 
 /// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: of variances
 /// a part is scaled by what all receivers tell.
-static void nor_with_spots(void **state)
+TEST_WITH_CONTEXT(nor_with_spots, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_lighting_options o = alp_lighting_options_default();
     alp_image *picture = bright_pixels(context);
     o.sky.kind = ALP_SKY_IMAGE;
@@ -121,7 +116,6 @@ static void nor_with_spots(void **state)
     alpi_lighting_destroy(context, whole);
     test_stage_close(&stage);
     alp_image_destroy(picture);
-    alp_context_destroy(context);
 }
 
 /// What the user hears, and when the answer is no.
@@ -140,9 +134,8 @@ static bool listen(void *user, const alp_progress *progress)
     return ++l->calls != l->refuse_at;
 }
 
-static void one_receiver_can_be_cancelled(void **state)
+TEST(one_receiver_can_be_cancelled)
 {
-    (void)state;
     // 2^26 samples of one receiver take minutes.
     for (uint32_t workers = 1; workers <= 2; workers++) {
         alp_context *context = test_context(workers);
@@ -170,10 +163,8 @@ static void one_receiver_can_be_cancelled(void **state)
 }
 
 /// Rays are counted as they are traced, and progress ends at its total.
-static void counts_are_true(void **state)
+TEST_WITH_CONTEXT(counts_are_true, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     test_stage stage = open_cornell(context, NULL);
     const alpi_direct_options o = test_stage_options(&stage, 64);
     const test_patches floor = floor_patches();
@@ -192,13 +183,11 @@ static void counts_are_true(void **state)
     assert_in_range(output.rays - 5, (2 * 64 + 16 + 1) * POINTS, (3 * 64 + 1) * POINTS - 1);
     alpi_direct_destroy(direct);
     test_stage_close(&stage);
-    alp_context_destroy(context);
 }
 
 /// Of lamps enough to be drawn, emitters and a sky.
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     enum { LAMPS = 80 };
     int left = 0;
     alp_context *context = test_context_failing(&left);
@@ -228,9 +217,8 @@ static void every_allocation_may_fail(void **state)
 }
 
 /// In plain shadow rays: one; two of an uneven sky; of listed triangles by their number.
-static void the_time_of_a_sample_is_told(void **state)
+TEST(the_time_of_a_sample_is_told)
 {
-    (void)state;
     const struct {
         const char *scene;
         alp_sky_kind sky;
@@ -263,17 +251,4 @@ static void the_time_of_a_sample_is_told(void **state)
         alp_image_destroy(picture);
         alp_context_destroy(context);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(nor_with_spots),
-        cmocka_unit_test(one_receiver_can_be_cancelled),
-        cmocka_unit_test(counts_are_true),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(the_time_of_a_sample_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,21 +12,7 @@
 
 enum { POINTS = 48 };
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static const vec3 EVERYWHERE[2] = {{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};
 
@@ -119,9 +105,8 @@ static alp_scene *load(const char *name)
 
 // --- scenes --------------------------------------------------------------------------------------
 
-static void rooms_with_lamps(void **state)
+TEST(rooms_with_lamps)
 {
-    (void)state;
     compare("builtin:cornell", load("builtin:cornell"), NULL, EVERYWHERE, 1024);
     compare("builtin:furnace", load("builtin:furnace"), NULL, EVERYWHERE, 1024);
     const vec3 room[2] = {{-2.0f, 0.0f, -2.0f}, {2.0f, 2.7f, 2.0f}};
@@ -129,9 +114,8 @@ static void rooms_with_lamps(void **state)
 }
 
 /// The small sun of the scene is met by one ray in 10,000: one that is 40° wide takes its place.
-static void a_sun_and_a_sky_through_windows(void **state)
+TEST(a_sun_and_a_sky_through_windows)
 {
-    (void)state;
     alp_scene *scene = load("builtin:windows");
     alp_lighting_options o = alp_lighting_options_default();
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -148,9 +132,8 @@ static void a_sun_and_a_sky_through_windows(void **state)
     compare("builtin:windows", scene, &o, room, 2048);
 }
 
-static void a_clear_sky_over_open_country_and_a_court(void **state)
+TEST(a_clear_sky_over_open_country_and_a_court)
 {
-    (void)state;
     alp_lighting_options o = alp_lighting_options_default();
     o.sky.kind = ALP_SKY_CLEAR;
     o.sun.azimuth = 1.0f;
@@ -164,9 +147,8 @@ static void a_clear_sky_over_open_country_and_a_court(void **state)
 
 /// A room whose one wall shows a picture of 8 × 8 texels, most of them black, each channel
 /// another's.
-static void a_picture_that_glows(void **state)
+TEST(a_picture_that_glows)
 {
-    (void)state;
     enum { SIDE = 8 };
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -200,9 +182,8 @@ static void a_picture_that_glows(void **state)
 
 /// A coarse ball of smooth normals that glows: from where its normals look below its facets, it
 /// would light itself. It is convex, so that no bounce brings anything.
-static void a_smooth_ball_does_not_light_itself(void **state)
+TEST(a_smooth_ball_does_not_light_itself)
 {
-    (void)state;
     enum { PATHS = 1 << 14 };
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -223,16 +204,4 @@ static void a_smooth_ball_does_not_light_itself(void **state)
         ASSERT_NEAR(all.mean[0], first.mean[0], 0.0); // by the same paths
     }
     test_lit_close(&lit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rooms_with_lamps),
-        cmocka_unit_test(a_sun_and_a_sky_through_windows),
-        cmocka_unit_test(a_clear_sky_over_open_country_and_a_court),
-        cmocka_unit_test(a_picture_that_glows),
-        cmocka_unit_test(a_smooth_ball_does_not_light_itself),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -9,21 +9,7 @@
 enum { FEW = 16, MANY = 64 };
 
 static const vec3 ZERO = {0, 0, 0}, HALF = {0.5f, 0.5f, 0.5f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// A room without a ceiling, a lamp in its left half, and a sheet in its middle whose back alone
 /// faces the lamp: backs are seen, and lit.
@@ -131,9 +117,8 @@ static void try_room(bool kept)
     }
 }
 
-static void solutions_after_a_trial_are_those_without(void **state)
+TEST_SLOW(solutions_after_a_trial_are_those_without)
 {
-    (void)state;
     try_room(true);
     try_room(false);
 }
@@ -166,9 +151,8 @@ static uint64_t peak_of(bool tried, uint64_t kept_limit, uint64_t *room, uint64_
 /// The rays of a trial are the first of those that were chosen, where there is room for both while
 /// they move; else they are gone before: no more memory than without, but for what asks and is
 /// asked.
-static void a_trial_keeps_to_the_limit(void **state)
+TEST(a_trial_keeps_to_the_limit)
 {
-    (void)state;
     enum { RAY = sizeof(uint32_t), ASKED = 4096 };
     const uint64_t enough = test_radiant_default().kept_limit;
     uint64_t room, sent[4];
@@ -183,9 +167,8 @@ static void a_trial_keeps_to_the_limit(void **state)
 
 /// In a closed room of reflectance ρ all of whose walls shine, what bounced is ρ of all light,
 /// everywhere.
-static void trials_tell_how_much_bounced(void **state)
+TEST(trials_tell_how_much_bounced)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     alpi_cosine_rays few;
@@ -204,14 +187,4 @@ static void trials_tell_how_much_bounced(void **state)
     ASSERT_NEAR(c.found.rms, 0.5, 2e-3);
     assert_int_equal(c.found.blocks, r.solution.patches.block_count);
     test_radiant_close(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST_OF_FIGURES(solutions_after_a_trial_are_those_without),
-        cmocka_unit_test(a_trial_keeps_to_the_limit),
-        cmocka_unit_test(trials_tell_how_much_bounced),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

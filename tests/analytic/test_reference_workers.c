@@ -34,12 +34,10 @@ static void gather(const alp_scene *scene, const alpi_tracer *tracer, uint32_t w
     alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+TEST_WITH_CONTEXT(workers_change_nothing, 1)
 {
-    (void)state;
     static alpi_reference_value values[5][POINTS];
     static const uint32_t workers[4] = {1, 2, 7, 32};
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
@@ -59,13 +57,4 @@ static void workers_change_nothing(void **state)
     assert_memory_equal(&values[4][7], &values[0][7], sizeof values[0][7]);
     assert_memory_equal(&values[4][3], &values[0][3], sizeof values[0][3]);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,14 +16,10 @@
 
 #include <alpenglow/alpenglow.h>
 
+#include "test_cases.h"
+
 /// TEST_STEP: loops that try each of many like cases go on by so many: by 1, and under sanitizers,
 /// which are slow, by 13.
-
-// A case that spends seconds on figures (errors over many samples, time, bytes), which are the same
-// under a sanitizer: left out there, as others run the same code.
-// clang-format off
-#define TEST_OF_FIGURES(function) {#function, TEST_STEP > 1 ? NULL : (function), NULL, NULL, NULL}
-// clang-format on
 
 /// Fails the test with the numbers unless |actual − expected| ≤ tolerance (NaN fails).
 #define ASSERT_NEAR(actual, expected, tolerance)                                                   \

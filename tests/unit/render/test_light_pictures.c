@@ -11,21 +11,7 @@
 
 enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 typedef float picture[PIXELS][4];
 
@@ -108,9 +94,8 @@ static void assert_black(picture pixels, float alpha)
 // --- rooms that are known ------------------------------------------------------------------------
 
 /// L = 1 / (1 − ½) = 2 in every direction.
-static void every_pixel_of_the_furnace_is_two(void **state)
+TEST(every_pixel_of_the_furnace_is_two)
 {
-    (void)state;
     static picture pixels, error;
     alp_scene *scene = load("builtin:furnace");
     draw(scene, options_of(ALP_RENDER_RADIOSITY, 256), pixels, error);
@@ -143,9 +128,8 @@ static void every_pixel_of_the_furnace_is_two(void **state)
 }
 
 /// L = 1 + ½ + … + ½^(n + 1): one for the direct light, one for each bounce.
-static void bounces_are_counted_as_the_reference_does(void **state)
+TEST(bounces_are_counted_as_the_reference_does)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = load("builtin:furnace");
     for (uint32_t n = 1; n <= 3; n++) {
@@ -163,9 +147,8 @@ static void bounces_are_counted_as_the_reference_does(void **state)
 }
 
 /// Whatever is in the map is shown: Le + ρ/π · E, to rounding.
-static void a_painted_map_is_shown_as_it_is(void **state)
+TEST(a_painted_map_is_shown_as_it_is)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = load("builtin:furnace"); // ρ = ½, Le = 1
     alp_lightmap *lightmap = bake(scene, 16, NULL);
@@ -182,9 +165,8 @@ static void a_painted_map_is_shown_as_it_is(void **state)
 }
 
 /// Direct light alone is the reference's, bit for bit: nothing is known then.
-static void without_bounces_it_is_the_reference(void **state)
+TEST(without_bounces_it_is_the_reference)
 {
-    (void)state;
     static picture one, other;
     alp_scene *scene = load("builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
@@ -231,9 +213,8 @@ static void print(const char *scene, const char *what, difference d)
 }
 
 /// The lower two thirds of the room, without the lamp, whose edge is noise of the camera's rays.
-static void cornell_is_like_the_reference(void **state)
+TEST(cornell_is_like_the_reference)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = load("builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
@@ -276,9 +257,8 @@ static alp_scene *make_box(bool inward, bool double_sided, bool lamp_inside)
 }
 
 /// Backs light each other where no front sees them: the inside of a box whose normals point out.
-static void a_room_of_backs_is_lit(void **state)
+TEST(a_room_of_backs_is_lit)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = make_box(false, true, true);
     alp_lamp lamp = alp_lamp_default();
@@ -303,9 +283,8 @@ static void a_room_of_backs_is_lit(void **state)
 
 // --- what is black -------------------------------------------------------------------------------
 
-static void single_sided_walls_are_black_from_behind(void **state)
+TEST(single_sided_walls_are_black_from_behind)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = make_box(true, false, false); // seen from outside, the lamp is in it
     alp_lamp lamp = alp_lamp_default();
@@ -322,9 +301,8 @@ static void single_sided_walls_are_black_from_behind(void **state)
     alp_scene_destroy(scene);
 }
 
-static void without_light_all_is_black(void **state)
+TEST(without_light_all_is_black)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = make_box(true, false, true);
     const alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
@@ -360,9 +338,8 @@ static alp_scene *make_pane(void)
 
 /// Pane and wall each show a painted map, the sky stands behind; α a² … as alpi_surface_pane says,
 /// by hand: through = (1 − a)(1 − a + a c), kept = a.
-static void a_lightmap_is_seen_through_panes(void **state)
+TEST(a_lightmap_is_seen_through_panes)
 {
-    (void)state;
     static picture pixels;
     const double c[3] = {0.8, 0.4, 0.2}, a = 0.6, e = 3.0;
     alp_scene *scene = make_pane();
@@ -394,9 +371,8 @@ static void a_lightmap_is_seen_through_panes(void **state)
 }
 
 /// A path that bounces onto a pane takes what it keeps and what comes through.
-static void radiosity_goes_through_panes_as_the_reference_does(void **state)
+TEST(radiosity_goes_through_panes_as_the_reference_does)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = make_pane();
     alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
@@ -420,9 +396,8 @@ static void radiosity_goes_through_panes_as_the_reference_does(void **state)
 
 // --- what is refused, and who ends it ------------------------------------------------------------
 
-static void maps_without_light_are_refused(void **state)
+TEST(maps_without_light_are_refused)
 {
-    (void)state;
     alp_scene *scene = load("builtin:furnace");
     alp_render_options o = options_of(ALP_RENDER_LIGHTMAP, 1);
     alp_image *image = NULL;
@@ -451,9 +426,8 @@ static bool stop_at_light(void *user, const alp_progress *progress)
     return strcmp(progress->stage, "light") != 0;
 }
 
-static void the_solution_can_be_cancelled(void **state)
+TEST(the_solution_can_be_cancelled)
 {
-    (void)state;
     alp_scene *scene = load("builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 1);
     alp_image *image = NULL;
@@ -461,23 +435,4 @@ static void the_solution_can_be_cancelled(void **state)
     assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_CANCELLED);
     assert_null(image);
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pixel_of_the_furnace_is_two),
-        cmocka_unit_test(bounces_are_counted_as_the_reference_does),
-        cmocka_unit_test(a_painted_map_is_shown_as_it_is),
-        cmocka_unit_test(without_bounces_it_is_the_reference),
-        cmocka_unit_test(cornell_is_like_the_reference),
-        cmocka_unit_test(a_room_of_backs_is_lit),
-        cmocka_unit_test(single_sided_walls_are_black_from_behind),
-        cmocka_unit_test(without_light_all_is_black),
-        cmocka_unit_test(a_lightmap_is_seen_through_panes),
-        cmocka_unit_test(radiosity_goes_through_panes_as_the_reference_does),
-        cmocka_unit_test(maps_without_light_are_refused),
-        cmocka_unit_test(the_solution_can_be_cancelled),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

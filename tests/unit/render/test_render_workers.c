@@ -36,9 +36,8 @@ static void draw(alp_render_method method, uint32_t workers, picture pixels)
     alp_context_destroy(context);
 }
 
-static void workers_change_no_bit(void **state)
+TEST(workers_change_no_bit)
 {
-    (void)state;
     static const alp_render_method methods[] = {ALP_RENDER_AO, ALP_RENDER_REFERENCE,
                                                 ALP_RENDER_RADIOSITY, ALP_RENDER_LIGHTMAP};
     static const uint32_t workers[] = {1, 2, 7};
@@ -49,10 +48,4 @@ static void workers_change_no_bit(void **state)
             assert_memory_equal(pictures[0], pictures[w], sizeof(picture));
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(workers_change_no_bit)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -215,9 +215,12 @@ static alp_scene *make_many(alp_context *context)
     return soup_make(context, 3000, 0.4f);
 }
 
-static void many_triangles(void **state)
+TEST(many_triangles)
 {
-    (void)state;
+#if defined(__x86_64__)
+    print_message("this machine %s vectors of sixteen\n",
+                  __builtin_cpu_supports("avx512f") ? "has" : "lacks");
+#endif
     hold_every_level(make_many, NULL);
 }
 
@@ -226,9 +229,8 @@ static alp_scene *make_few(alp_context *context)
     return soup_make(context, 30, 2.5f);
 }
 
-static void few_triangles(void **state)
+TEST(few_triangles)
 {
-    (void)state;
     hold_every_level(make_few, NULL);
 }
 
@@ -238,9 +240,8 @@ static alp_scene *make_fewest(alp_context *context)
     return soup_make(context, ALPI_FEW_NEAREST / 3, 6.0f); // without an edge in common
 }
 
-static void fewest_triangles(void **state)
+TEST(fewest_triangles)
 {
-    (void)state;
     hold_every_level(make_fewest, NULL);
 }
 
@@ -252,9 +253,8 @@ static alp_scene *make_sphere(alp_context *context)
     return test_mesh_scene(context, mesh, 0);
 }
 
-static void edges_of_two_triangles(void **state)
+TEST(edges_of_two_triangles)
 {
-    (void)state;
     hold_every_level(make_sphere, NULL);
 }
 
@@ -293,24 +293,9 @@ static alp_scene *make_mixed(alp_context *context)
     return scene;
 }
 
-static void surfaces_of_all_kinds(void **state)
+TEST(surfaces_of_all_kinds)
 {
-    (void)state;
     static const bool last[MIXED_SURFACES] = {false, false, false, true};
     hold_every_level(make_mixed, NULL);
     hold_every_level(make_mixed, last); // all solid, but not from the scene's first triangle on
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_triangles),        cmocka_unit_test(few_triangles),
-        cmocka_unit_test(fewest_triangles),      cmocka_unit_test(edges_of_two_triangles),
-        cmocka_unit_test(surfaces_of_all_kinds),
-    };
-#if defined(__x86_64__)
-    print_message("this machine %s vectors of sixteen\n",
-                  __builtin_cpu_supports("avx512f") ? "has" : "lacks");
-#endif
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -129,9 +129,8 @@ static void agree_by_all_loops(rig *r)
     close_rig(r);
 }
 
-static void few_triangles_are_hit_as_by_brute_force(void **state)
+TEST(few_triangles_are_hit_as_by_brute_force)
 {
-    (void)state;
     rig r;
     open_rig(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f), &r);
     assert_int_equal(r.few->polygon_count, r.few->count); // none has a side in common
@@ -168,9 +167,8 @@ static alp_scene *make_boxes(alp_context *context)
 }
 
 /// Two triangles of a face are met as one, and which of them it was is told.
-static void faces_are_hit_as_by_brute_force(void **state)
+TEST(faces_are_hit_as_by_brute_force)
 {
-    (void)state;
     rig r;
     open_rig(make_boxes(test_context(1)), &r);
     assert_int_equal(r.few->count, 60);
@@ -182,9 +180,8 @@ static void faces_are_hit_as_by_brute_force(void **state)
 
 /// Two triangles are one only where they lie in a plane, as far as rays from either can tell, turn
 /// the same way, and make no corner that turns in.
-static void only_flat_and_convex_pairs_are_joined(void **state)
+TEST(only_flat_and_convex_pairs_are_joined)
 {
-    (void)state;
     const struct {
         double first[3], fourth[3]; // corners, beside (0, 0, 0) and (1, 0, 0), above them and below
         bool turned;                // the second triangle
@@ -219,9 +216,8 @@ static void only_flat_and_convex_pairs_are_joined(void **state)
 }
 
 /// A closed sphere of 60 triangles: rays from inside are stopped, at edges too.
-static void no_ray_slips_between_two(void **state)
+TEST(no_ray_slips_between_two)
 {
-    (void)state;
     rig r;
     alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
@@ -254,9 +250,8 @@ static void no_ray_slips_between_two(void **state)
 }
 
 /// Rays that graze a face and end at its edges: the point that is told lies within.
-static void grazing_rays_end_within(void **state)
+TEST(grazing_rays_end_within)
 {
-    (void)state;
     rig r;
     test_mesh *mesh = test_mesh_start();
     add_turned_box(mesh, (double[]){3.0, 2.0, 1.0}, 5.0, 0.7);
@@ -323,9 +318,8 @@ static void meet_every_corner(alp_scene *scene)
     close_rig(&r);
 }
 
-static void corners_stop_rays(void **state)
+TEST(corners_stop_rays)
 {
-    (void)state;
     test_mesh *cube = test_mesh_start();
     add_turned_box(cube, (double[]){0, 0, 0}, 1.0, 0.0);
     meet_every_corner(test_mesh_scene(test_context(1), cube, 0));
@@ -343,9 +337,8 @@ static void corners_stop_rays(void **state)
 }
 
 /// Rays within the plane of a triangle pass it, whatever their reach.
-static void planes_are_passed_within(void **state)
+TEST(planes_are_passed_within)
 {
-    (void)state;
     rig r;
     alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
@@ -475,9 +468,8 @@ static void add_box(test_mesh *mesh, const double low[3], double size)
     }
 }
 
-static void batches_are_what_packets_are(void **state)
+TEST(batches_are_what_packets_are)
 {
-    (void)state;
     meet_batches(soup_make(test_context(1), ALPI_FEW_LIMIT, 1.6f));
     meet_batches(make_boxes(test_context(1)));
 }
@@ -493,9 +485,8 @@ static alp_scene *make_room(alp_context *context, int boxes)
     return test_mesh_scene(context, mesh, 0);
 }
 
-static void few_is_what_is_within_reach(void **state)
+TEST(few_is_what_is_within_reach)
 {
-    (void)state;
     const struct {
         int boxes;
         float reach;
@@ -516,9 +507,8 @@ static void few_is_what_is_within_reach(void **state)
 }
 
 /// Too many triangles, none, or too narrow ones are left to the hierarchy.
-static void others_are_refused(void **state)
+TEST(others_are_refused)
 {
-    (void)state;
     const struct {
         double height; // of a triangle 1 m long, 10 m from the origin
         uint32_t count;
@@ -542,21 +532,4 @@ static void others_are_refused(void **state)
         alp_scene_destroy(scene);
         alp_context_destroy(context);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_triangles_are_hit_as_by_brute_force),
-        cmocka_unit_test(faces_are_hit_as_by_brute_force),
-        cmocka_unit_test(only_flat_and_convex_pairs_are_joined),
-        cmocka_unit_test(no_ray_slips_between_two),
-        cmocka_unit_test(grazing_rays_end_within),
-        cmocka_unit_test(corners_stop_rays),
-        cmocka_unit_test(planes_are_passed_within),
-        cmocka_unit_test(batches_are_what_packets_are),
-        cmocka_unit_test(few_is_what_is_within_reach),
-        cmocka_unit_test(others_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
