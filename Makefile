@@ -16,7 +16,7 @@ setup = $(if $(filter no,$(SETUP)),@:,@scripts/setup.sh $(1))
 FUZZ_SECONDS ?= 600
 FUZZ_TARGETS ?=
 
-.PHONY: all demo test fuzz format lint install clean help
+.PHONY: all demo test test-fast test-integrations fuzz format lint lint-all install clean help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
@@ -33,6 +33,16 @@ test: ## Set up, build and run every test; ends in a line that counts them
 	@$(call build,dev)
 	@scripts/test.py dev
 
+test-fast: ## Run all but slow tests and integrations, which takes a minute or so
+	$(call setup,check)
+	@$(call build,dev)
+	@scripts/test.py dev fast
+
+test-integrations: ## Run what needs Blender or a browser; 'scripts/setup.sh browser' installs one
+	$(call setup,check)
+	@$(call build,dev)
+	@scripts/test.py dev integrations
+
 fuzz: ## Feed every reader made-up input under sanitizers, FUZZ_SECONDS (600) each of FUZZ_TARGETS
 	$(call setup,check)
 	@scripts/fuzz.sh --seconds $(FUZZ_SECONDS) $(FUZZ_TARGETS)
@@ -40,10 +50,15 @@ fuzz: ## Feed every reader made-up input under sanitizers, FUZZ_SECONDS (600) ea
 format: ## Format the sources
 	@scripts/lint.sh format
 
-lint: ## Check formatting, the law of the rooms, clang-tidy and cppcheck
+lint: ## Check formatting, the law of the rooms, cppcheck; clang-tidy reads what changed
 	$(call setup,check)
 	@$(call configure,dev)
 	@scripts/lint.sh
+
+lint-all: ## The same, with clang-tidy on every file
+	$(call setup,check)
+	@$(call configure,dev)
+	@scripts/lint.sh all
 
 install: ## Build and install to PREFIX (default /usr/local; DESTDIR is honoured)
 	$(call setup,build)
@@ -54,5 +69,5 @@ clean: ## Remove everything that was built
 	@rm -rf build demo
 
 help: ## This list
-	@sed -n 's/^\([a-z]*\):.*## /    make \1: /p' $(MAKEFILE_LIST) | awk -F': ' \
-	    '{printf "%-18s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z-]*\):.*## /    make \1: /p' $(MAKEFILE_LIST) | awk -F': ' \
+	    '{printf "%-27s %s\n", $$1, $$2}'

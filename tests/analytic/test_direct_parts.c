@@ -248,8 +248,7 @@ static void judge(const char *name, const alpi_reference_value *a, const alpi_re
 
 static void compare(const char *name, const char *label, const alp_lighting_options *o)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_scene *scene = test_load(context, name);
     test_stage s = test_stage_open(context, scene, NULL, 0, o);
     triangle_list list = {.scene = scene};
     const bool furnace = strcmp(label, "furnace") == 0; // where all emit

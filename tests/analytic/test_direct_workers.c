@@ -195,8 +195,7 @@ TEST(every_allocation_may_fail)
     for (int i = 0; i < LAMPS; i++) {
         lamps[i] = test_lamp((vec3){0.005f * (float)i, 0.3f, -0.2f}, 0.1f);
     }
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     test_stage stage = test_stage_open(context, scene, lamps, LAMPS, NULL);
     const alpi_direct_options o = test_stage_options(&stage, 8);
     alpi_direct *direct = NULL;

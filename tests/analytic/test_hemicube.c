@@ -366,8 +366,7 @@ TEST(direct_light_in_the_cornell_box)
     enum { POINTS = 96, N = 64 };
     static test_patch patches[POINTS];
     static alpi_reference_value values[POINTS];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     test_probe p = test_probe_open(context, scene, NULL, N);
     for (uint32_t i = 0; i < POINTS; i++) {
         const vec2 u = alpi_sample_2d(9, i);
@@ -460,8 +459,7 @@ TEST(a_bake_may_count_emitters)
     const alp_bake_options told = counting(ALP_EMITTERS_ANALYTIC);
     const alp_bake_options counts = counting(ALP_EMITTERS_COUNTED);
     alp_bake_report reports[2];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_lightmap *analytic = bake(scene, &told, &reports[0]);
     alp_lightmap *counted = bake(scene, &counts, &reports[1]);
     const double scale = ALPI_PI * LAMP_RADIANCE;
@@ -534,8 +532,7 @@ TEST(other_lights_are_not_counted)
 
 TEST(what_cannot_be_counted_is_refused)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (int i = 0; i < 5; i++) {
         alp_bake_options o = counting(ALP_EMITTERS_COUNTED);
         o.light.direct = ALP_DIRECT_ON;

@@ -96,27 +96,20 @@ static void compare(const char *name, alp_scene *scene, const alp_lighting_optio
     }
 }
 
-static alp_scene *load(const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 // --- scenes --------------------------------------------------------------------------------------
 
 TEST(rooms_with_lamps)
 {
-    compare("builtin:cornell", load("builtin:cornell"), NULL, EVERYWHERE, 1024);
-    compare("builtin:furnace", load("builtin:furnace"), NULL, EVERYWHERE, 1024);
+    compare("builtin:cornell", test_load(context, "builtin:cornell"), NULL, EVERYWHERE, 1024);
+    compare("builtin:furnace", test_load(context, "builtin:furnace"), NULL, EVERYWHERE, 1024);
     const vec3 room[2] = {{-2.0f, 0.0f, -2.0f}, {2.0f, 2.7f, 2.0f}};
-    compare("builtin:teapot-room", load("builtin:teapot-room"), NULL, room, 1024);
+    compare("builtin:teapot-room", test_load(context, "builtin:teapot-room"), NULL, room, 1024);
 }
 
 /// The small sun of the scene is met by one ray in 10,000: one that is 40° wide takes its place.
 TEST(a_sun_and_a_sky_through_windows)
 {
-    alp_scene *scene = load("builtin:windows");
+    alp_scene *scene = test_load(context, "builtin:windows");
     alp_lighting_options o = alp_lighting_options_default();
     for (uint32_t i = 0; i < scene->material_count; i++) {
         memset(scene->materials[i].emission, 0, sizeof scene->materials[i].emission);
@@ -141,8 +134,10 @@ TEST(a_clear_sky_over_open_country_and_a_court)
     o.sun.illuminance = 40000.0f;
     o.sun.size = 0.5f;
     const vec3 above[2] = {{-100.0f, -1.0f, -100.0f}, {100.0f, 100.0f, 100.0f}};
-    compare("builtin:terrain", load("builtin:terrain,triangles=5000"), &o, above, 1024);
-    compare("builtin:atrium", load("builtin:atrium,triangles=20000"), &o, EVERYWHERE, 1024);
+    compare("builtin:terrain", test_load(context, "builtin:terrain,triangles=5000"), &o, above,
+            1024);
+    compare("builtin:atrium", test_load(context, "builtin:atrium,triangles=20000"), &o, EVERYWHERE,
+            1024);
 }
 
 /// A room whose one wall shows a picture of 8 × 8 texels, most of them black, each channel

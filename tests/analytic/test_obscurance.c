@@ -135,8 +135,7 @@ TEST(black_surfaces_only_occlude)
 TEST(cornell_walls_bleed)
 {
     // The red wall stands at x ≈ .55 m, the green one at 0.
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_occlusion_options options = open_options();
     double at_red[3], at_green[3];
     obscurance(scene, (double[]){0.53, 0, 0.1}, &options, at_red);
@@ -154,8 +153,7 @@ static void gather(uint32_t workers, uint64_t seed, float values[2][POINTS][3])
 {
     static float positions[POINTS][3], normals[POINTS][3];
     alp_context *own = test_context(workers);
-    alp_scene *scene = NULL;
-    ASSERT_OK(own, alp_scene_load(own, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(own, "builtin:cornell");
     for (int i = 0; i < POINTS; i++) {
         positions[i][0] = 0.05f + 0.45f * (float)(i % 50) / 50.0f;
         positions[i][1] = 0.0f;

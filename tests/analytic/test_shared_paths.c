@@ -14,8 +14,7 @@ TEST_CONTEXT(2);
 
 static test_lit open_builtin(const char *name)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_scene *scene = test_load(context, name);
     return test_lit_open(scene, NULL);
 }
 
@@ -127,8 +126,7 @@ TEST(workers_change_nothing)
     for (int k = 0; k < 3; k++) {
         alp_context *other = test_context(workers[k]), *kept = context;
         context = other;
-        alp_scene *scene = NULL;
-        ASSERT_OK(other, alp_scene_load(other, "builtin:cornell", &scene));
+        alp_scene *scene = test_load(other, "builtin:cornell");
         test_lit lit = test_lit_open(scene, NULL);
         gather(&lit, true, 100, 1, values[k]);
         test_lit_close(&lit);

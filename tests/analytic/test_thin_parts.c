@@ -85,8 +85,7 @@ TEST_WITH_CONTEXT(no_light_through_a_gazebo, 2)
     if (path == NULL) {
         skip();
     }
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     alp_bake_options o = alp_bake_options_default();
     o.maps = ALP_MAP_LIGHT;
     o.atlas.size = SIZE;

@@ -188,8 +188,7 @@ alp_scene *wave_scene(alp_context *context)
         pack_write(asset, "'scene':0,'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],'meshes':[{"
                           "'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2},"
                           "'indices':3}]}]");
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     return scene;
 }
 

@@ -11,6 +11,7 @@
 #include <fnmatch.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 static test_case *cases;
 static test_surroundings *surroundings;
@@ -81,6 +82,7 @@ static test_case **choose(const char *file, const char *name, size_t *count)
 // --- running them --------------------------------------------------------------------------------
 
 static alp_context *context_of_case;
+static clock_t started;
 
 static const test_surroundings *surroundings_of(const test_case *c)
 {
@@ -102,6 +104,7 @@ static int before(void **state)
     if (c->run_with != NULL) {
         context_of_case = test_context(c->workers);
     }
+    started = clock();
     return 0;
 }
 
@@ -117,6 +120,10 @@ static void run(void **state)
 
 static int after(void **state)
 {
+    const double seconds = (double)(clock() - started) / CLOCKS_PER_SEC;
+    if (seconds >= 1.0) {
+        print_message("%.1f s of the cores\n", seconds);
+    }
     alp_context_destroy(context_of_case);
     context_of_case = NULL;
     const test_surroundings *s = surroundings_of(*state);

@@ -4,10 +4,10 @@
 //
 // Pixels are pooled in tiles of 8 × 8: z = Σ (x − y) / √ Σ (var x + var y), channel by channel, and
 // once over the whole picture, plainly and weighted. Pooled variances rest on nearly a thousand
-// degrees of freedom, so z is normal where nothing is wrong: over 12 seeds (`SHOW_SEEDS=12`) the mean
-// square of the tiles was 0.6 (a third of the Cornell box's tiles are black) to 1.1, the greatest
-// of 3,600 sums 3.5. 4 pictures × 26 sums × 3 channels beyond ±5 by chance: once in 5,600 changes
-// of the random numbers; as long as these stay, the test always says the same.
+// degrees of freedom, so z is normal where nothing is wrong: over 12 seeds (`SHOW_SEEDS=12`) the
+// mean square of the tiles was 0.6 (a third of the Cornell box's tiles are black) to 1.1, the
+// greatest of 3,600 sums 3.5. 4 pictures × 26 sums × 3 channels beyond ±5 by chance: once in 5,600
+// changes of the random numbers; as long as these stay, the test always says the same.
 //
 //     UPDATE_PICTURES=4096 build/dev/tests/test_truth test_stored_pictures pictures_agree
 //
@@ -89,8 +89,7 @@ static void render(const alp_scene *scene, const subject *s, uint32_t paths, uin
 
 static alp_scene *load(const subject *s)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, s->scene, &scene));
+    alp_scene *scene = test_load(context, s->scene);
     return scene;
 }
 

@@ -177,8 +177,7 @@ TEST(workers_change_no_vertex)
     float *first = NULL;
     for (int w = 0; w < 3; w++) {
         alp_context *context = test_context(workers[w]);
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
+        alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = alp_bake_options_default();
         options.atlas.mode = ALP_ATLAS_VERTEX;
         options.occlusion.samples = 8;

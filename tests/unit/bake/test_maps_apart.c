@@ -31,8 +31,7 @@ static void bake(const alp_scene *scene, unsigned maps, const alp_occlusion_opti
 TEST_WITH_CONTEXT(light_is_what_it_is_alone, 2)
 {
     static float alone[4 * TEXELS], beside[4 * TEXELS];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
+    alp_scene *scene = test_load(context, "builtin:torus-plane");
     alp_occlusion_options options[4];
     for (int i = 0; i < 4; i++) {
         options[i] = alp_occlusion_options_default();

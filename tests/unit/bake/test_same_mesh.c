@@ -157,8 +157,7 @@ static void compare(const alp_lightmap *a, const alp_lightmap *b, const alp_scen
 
 TEST_WITH_CONTEXT(three_formats_bake_the_same_occlusion, 2)
 {
-    alp_scene *original = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &original));
+    alp_scene *original = test_load(context, "builtin:torus-plane");
     alp_scene *scenes[] = {through_gltf(context, original), through_collada(context, original),
                            through_obj(context, original)};
     static const char *const names[] = {"glTF", "COLLADA", "OBJ"};

@@ -171,8 +171,7 @@ TEST_WITH_CONTEXT(a_scene_of_nothing_has_a_camera, 1)
 
 TEST_WITH_CONTEXT(a_camera_of_the_scene_is_taken_as_it_is, 1)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const alp_camera camera = choose(context, scene), own = alp_scene_get_camera(scene, 0);
     assert_same(&camera, &own);
     alp_scene_destroy(scene);

@@ -11,13 +11,6 @@ typedef float picture[PIXELS][4];
 
 TEST_CONTEXT(2);
 
-static alp_scene *load(alp_context *with, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(with, alp_scene_load(with, name, &scene));
-    return scene;
-}
-
 static alp_camera camera_at(vec3 position, vec3 target, float fov)
 {
     alp_camera c = {.vertical_fov = fov};
@@ -62,7 +55,7 @@ static const vec3 ON_WALL = {0.0f, 0.25f, 0.28f}, INTO_ROOM = {0.5f, 0.25f, 0.28
 TEST(weights_and_products)
 {
     static picture seen, product, weight, cosines[2];
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     float(*const pictures[])[4] = {seen, product, weight, cosines[0], cosines[1]};
     double sum = 0.0;
     test_log_clear();
@@ -109,7 +102,7 @@ TEST_SLOW(the_front_face_sees_what_a_camera_sees)
                                       {{0.15f, 0.1f, 0.4f}, {0.15f, 1.0f, 0.4f}}};
     static const uint32_t bounces[3] = {ALP_BOUNCES_CONVERGE, 0, 1};
     static picture seen;
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (int i = 0; i < 3; i++) {
         alp_render_options o = options_of(ALP_HEMICUBE_SEEN, places[i][0], places[i][1]);
         alp_image *image = NULL, *errors = NULL;
@@ -143,7 +136,7 @@ TEST_SLOW(the_front_face_sees_what_a_camera_sees)
 TEST(emitters_and_skies_are_seen)
 {
     static picture seen;
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o =
         options_of(ALP_HEMICUBE_SEEN, (vec3){0.278f, 0.4f, 0.28f}, (vec3){0.278f, 0.5f, 0.28f});
     o.bounces = 0;
@@ -152,7 +145,7 @@ TEST(emitters_and_skies_are_seen)
     assert_true(ahead[0] > ahead[1] && ahead[1] > ahead[2]);
     ASSERT_NEAR(ahead[0], 20.717, 0.05); // and a little that it reflects
     alp_scene_destroy(scene);
-    scene = load(context, "builtin:sphere-plane");
+    scene = test_load(context, "builtin:sphere-plane");
     o = options_of(ALP_HEMICUBE_SEEN, (vec3){0.0f, 8.0f, 0.0f}, (vec3){0.0f, 9.0f, 0.0f});
     alp_lamp lamp = alp_lamp_default();
     lamp.position[1] = 9.0f;
@@ -174,7 +167,7 @@ TEST(any_number_of_workers)
     static picture pictures[2];
     for (int i = 0; i < 2; i++) {
         alp_context *own = test_context(i == 0 ? 1 : 3);
-        alp_scene *scene = load(own, "builtin:cornell");
+        alp_scene *scene = test_load(own, "builtin:cornell");
         alp_render_options o = options_of(ALP_HEMICUBE_PRODUCT, ON_WALL, INTO_ROOM);
         o.atlas.size = 64;
         draw(scene, &o, pictures[i]);
@@ -190,7 +183,7 @@ TEST(what_is_no_hemicube_is_refused)
         uint32_t pixels;
         int show;
     } bad[] = {{0, 0}, {31, 0}, {1026, 0}, {32, -1}, {32, 5}};
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         alp_render_options o = options_of((alp_hemicube_show)bad[i].show, ON_WALL, INTO_ROOM);
         alp_image *image = NULL;
@@ -206,7 +199,7 @@ TEST(lack_of_memory_is_told)
 {
     int left = 1 << 30;
     alp_context *failing = test_context_failing(&left);
-    alp_scene *scene = load(failing, "builtin:furnace");
+    alp_scene *scene = test_load(failing, "builtin:furnace");
     alp_render_options o = options_of(ALP_HEMICUBE_SEEN, (vec3){0, 0, 0}, (vec3){0, 0, 1});
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     o.hemicube = 8;

@@ -15,13 +15,6 @@ TEST_CONTEXT(2);
 
 typedef float picture[PIXELS][4];
 
-static alp_scene *load(const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 static alp_render_options options_of(alp_render_method method, uint32_t samples)
 {
     alp_render_options o = alp_render_options_default();
@@ -97,7 +90,7 @@ static void assert_black(picture pixels, float alpha)
 TEST(every_pixel_of_the_furnace_is_two)
 {
     static picture pixels, error;
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     draw(scene, options_of(ALP_RENDER_RADIOSITY, 256), pixels, error);
     double mean = 0.0, squares = 0.0;
     for (int i = 0; i < PIXELS; i++) {
@@ -131,7 +124,7 @@ TEST(every_pixel_of_the_furnace_is_two)
 TEST(bounces_are_counted_as_the_reference_does)
 {
     static picture pixels;
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     for (uint32_t n = 1; n <= 3; n++) {
         alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 256);
         double mean = 0.0;
@@ -150,7 +143,7 @@ TEST(bounces_are_counted_as_the_reference_does)
 TEST(a_painted_map_is_shown_as_it_is)
 {
     static picture pixels;
-    alp_scene *scene = load("builtin:furnace"); // ρ = ½, Le = 1
+    alp_scene *scene = test_load(context, "builtin:furnace"); // ρ = ½, Le = 1
     alp_lightmap *lightmap = bake(scene, 16, NULL);
     paint(lightmap, 3.0f);
     alp_render_options o = options_of(ALP_RENDER_LIGHTMAP, 4);
@@ -168,7 +161,7 @@ TEST(a_painted_map_is_shown_as_it_is)
 TEST(without_bounces_it_is_the_reference)
 {
     static picture one, other;
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
     o.bounces = 0;
     draw(scene, o, one, NULL);
@@ -216,7 +209,7 @@ static void print(const char *scene, const char *what, difference d)
 TEST(cornell_is_like_the_reference)
 {
     static picture truth, truth_error, pixels, error;
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
     o.camera = alp_scene_get_camera(scene, 0);
     o.camera.target[1] -= 0.18f;
@@ -398,7 +391,7 @@ TEST(radiosity_goes_through_panes_as_the_reference_does)
 
 TEST(maps_without_light_are_refused)
 {
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     alp_render_options o = options_of(ALP_RENDER_LIGHTMAP, 1);
     alp_image *image = NULL;
     assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_INVALID_ARGUMENT);
@@ -428,7 +421,7 @@ static bool stop_at_light(void *user, const alp_progress *progress)
 
 TEST(the_solution_can_be_cancelled)
 {
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 1);
     alp_image *image = NULL;
     o.progress = stop_at_light;

@@ -200,8 +200,7 @@ TEST_WITH_CONTEXT(the_automatic_camera_sees_the_scene, 2)
 {
     const char *const names[] = {"builtin:sphere-plane", "builtin:cornell", "builtin:furnace"};
     for (int i = 0; i < 3; i++) {
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, names[i], &scene));
+        alp_scene *scene = test_load(context, names[i]);
         alp_render_options options = alp_render_options_default();
         options.width = options.height = 32;
         options.samples = 8;

@@ -380,8 +380,7 @@ TEST_WITH_CONTEXT(pages_do_not_matter, 2)
     options.occlusion.samples = 8;
     options.output = path;
     ASSERT_OK(context, alp_bake(one.source, &options, NULL, NULL));
-    alp_scene *written = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &written));
+    alp_scene *written = test_load(context, path);
     alpi_same_triangles same;
     ASSERT_OK(context, alpi_same_triangles_find(one.source, written, &same));
     uint32_t moved = 0;

@@ -43,8 +43,7 @@ static baked bake(alp_context *context, alp_scene *scene, const alp_bake_options
 static baked bake_builtin(const char *name, const alp_bake_options *options)
 {
     alp_context *context = test_context(2);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_scene *scene = test_load(context, name);
     return bake(context, scene, options);
 }
 
@@ -468,8 +467,7 @@ TEST(every_allocation_may_fail)
 {
     int left = 0;
     alp_context *context = test_context_failing(&left);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const alp_bake_options options = small_options(ALP_MAP_AO | ALP_MAP_LIGHT);
     baked b = bake(context, scene, &options);
     const char *folder = test_folder(), *path = test_path(folder, "page.html");

@@ -146,8 +146,7 @@ TEST(work_is_known_within_a_half)
 /// An estimate is of what is asked for: finite, and as much more as there is to do.
 TEST_WITH_CONTEXT(estimates_follow_the_options, 2)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options plain = alp_bake_options_default();
     plain.atlas.size = 128;
     plain.maps = ALP_MAP_LIGHT;

@@ -251,8 +251,7 @@ TEST(light_beyond_halves_is_scaled)
 
 TEST_WITH_CONTEXT(what_a_format_cannot_hold_is_refused, 1)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const char *folder = test_path(test_folder(), "none");
     const struct {
         const char *folder;
@@ -285,8 +284,7 @@ TEST(files_are_checked_by_their_names)
         FILE *file = fopen(test_path(folder, name), "wb");
         assert_non_null(file);
         fclose(file);
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+        alp_scene *scene = test_load(context, "builtin:cornell");
         assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_IO);
         o.overwrite = true;
         ASSERT_OK(context, alp_bake(scene, &o, NULL, NULL));

@@ -18,13 +18,6 @@ typedef struct light_map {
 
 TEST_CONTEXT(2);
 
-static alp_scene *load(const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 static alp_bake_options light_options(uint32_t samples)
 {
     alp_bake_options options = alp_bake_options_default();
@@ -128,7 +121,7 @@ static int compare(const void *a, const void *b)
 /// One number of a map's errors, and the 99th percentile of its texels', over its mean.
 TEST(the_report_says_what_the_map_says)
 {
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const alp_bake_options options = light_options(256);
     light_map m = bake(scene, &options);
     const uint32_t texels = m.count / 3;
@@ -160,7 +153,7 @@ TEST(the_report_says_what_the_map_says)
 /// would state 0.77 of the true error.
 TEST(rounds_state_what_interpolation_misses)
 {
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     light_map truth = find_truth(scene, 0.006f, NULL);
     const judgement j = judge(scene, light_options(1024), &truth);
     const double real = hypot(j.spread, j.bias);
@@ -177,7 +170,7 @@ TEST(rounds_state_what_interpolation_misses)
 /// have rays once more say by how much.
 TEST(rays_err_as_stated)
 {
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = light_options(64);
     options.sampling.accuracy = ALP_ADAPTIVE_OFF;
     light_map truth = find_truth(scene, 0.02f, NULL);
@@ -205,7 +198,7 @@ static double apart(const light_map *a, const light_map *b)
 TEST(seeds_that_follow_each_other_are_independent)
 {
     static const uint64_t seeds[3] = {5, 6, 500};
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = light_options(512);
     options.sampling.accuracy = ALP_ADAPTIVE_OFF;
     options.light.direct = ALP_DIRECT_OFF;
@@ -228,7 +221,7 @@ TEST(seeds_that_follow_each_other_are_independent)
 /// far from each other as stated while rays met the first samples for ever.
 TEST(corners_reflect_direct_light_as_it_becomes_known)
 {
-    alp_scene *scene = load("builtin:teapot-room");
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
     light_map truth = find_truth(scene, 0.02f, NULL);
     const judgement j = judge(scene, light_options(1024), &truth);
     printf("accuracy: error of light in rounds, teapot room, 64x64: stated %.2f %%, of other seeds "
@@ -246,7 +239,7 @@ TEST(corners_reflect_direct_light_as_it_becomes_known)
 TEST(some_surfaces_err_as_stated)
 {
     const char *const only = "*block";
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = light_options(65536);
     light_map truth = find_truth(scene, 0.01f, only);
     options.only = only;
@@ -263,7 +256,7 @@ TEST(some_surfaces_err_as_stated)
 /// What the first round misses by interpolation is more than its rays' noise here.
 TEST(lattices_get_finer_where_rays_do_not_help)
 {
-    alp_scene *scene = load("builtin:teapot-room");
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_bake_options options = test_light_options(192);
     alp_bake_report report;
     options.light.error = 0.01f;

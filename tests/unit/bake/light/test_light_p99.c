@@ -228,8 +228,7 @@ TEST(plans_know_what_draws_cost)
 /// Which of the two is too large is said.
 TEST(what_fell_short_is_told)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alpi_bake_job job = {.context = context, .scene = scene};
     job.options.light.error = 0.01f;
     test_log_clear();

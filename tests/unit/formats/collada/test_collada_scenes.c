@@ -49,8 +49,7 @@ TEST(triangle_counts)
     }
     for (size_t i = 0; i < SCENE_COUNT; i++) {
         alp_context *context = test_context(1);
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, scene_path(scenes[i].file), &scene));
+        alp_scene *scene = test_load(context, scene_path(scenes[i].file));
         print_message("%s: %u triangles, %u surfaces\n", scenes[i].file, scene->triangle_count,
                       scene->surface_count);
         assert_int_equal(scene->triangle_count, scenes[i].triangles);

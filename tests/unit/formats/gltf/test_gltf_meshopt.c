@@ -175,8 +175,7 @@ TEST_WITH_CONTEXT(filter_of_rotations, 1)
         asset, "'extensionsUsed':['EXT_mesh_gpu_instancing','EXT_meshopt_compression'],'nodes':[{"
                "'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{'ROTATION':1}}}}],"
                "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]");
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     assert_int_equal(scene->surface_count, COUNT);
     for (int i = 0; i < COUNT; i++) { // vertex 1 of the wave: x turned about y
         const float *p = scene->positions[scene->surfaces[i].first_vertex + 1];

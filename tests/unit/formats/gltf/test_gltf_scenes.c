@@ -87,8 +87,7 @@ TEST_WITH_CONTEXT(details, 1)
     if (path == NULL) {
         skip();
     }
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     assert_int_equal(scene->light_count, 3);
     alp_scene_destroy(scene);
     path = test_shared("scenes/objects/dutch_ship/dutch_ship_medium_1k.gltf");

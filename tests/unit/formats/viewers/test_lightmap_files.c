@@ -508,8 +508,7 @@ TEST(memory_may_end)
         alp_context *context = test_context_failing(&left);
         room r;
         room_create(&r);
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+        alp_scene *scene = test_load(context, "builtin:cornell");
         alp_result result = ALP_ERROR_OUT_OF_MEMORY;
         for (int allowed = 0; result != ALP_OK; allowed++) {
             uint8_t *bytes = NULL;

@@ -320,8 +320,7 @@ TEST(lifts_end_at_what_they_would_pass)
     // A coarse ball of smooth normals rests on a floor: between its vertices the smooth surface
     // that they describe is below the floor.
     alp_context *context = test_context(2);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:sphere-plane", &scene));
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
     validity_setup s;
     look(&s, scene, context);
     uint32_t low = 0, lifted = 0;

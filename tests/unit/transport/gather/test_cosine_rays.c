@@ -252,8 +252,7 @@ TEST(unit_squares)
 /// The factors of a closed cube's other faces sum to 1, ray for ray.
 TEST(a_closed_cube_sums_to_one)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:furnace", &scene));
+    alp_scene *scene = test_load(context, "builtin:furnace");
     test_probe p = test_probe_open(context, scene, NULL, 8);
     const alpi_cosine_rays rays = {.context = context, .samples = 64, .replicates = 4, .seed = 1};
     const alpi_gatherer g = alpi_cosine_rays_gatherer(&rays),

@@ -30,8 +30,7 @@ static void reflect_half(const void *user, const alpi_surface_point *points, uin
 TEST(a_closed_room_is_exact)
 {
     const float half = 0.5f;
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:furnace", &scene));
+    alp_scene *scene = test_load(context, "builtin:furnace");
     test_probe p = test_probe_open(context, scene, NULL, 6);
     const alpi_receiver_point point = test_probe_point((vec3){0.25f, 0.0f, 0.125f}, UP);
     float e[3];
@@ -200,8 +199,7 @@ TEST(workers_change_nothing)
     static test_patch patches[RECEIVERS];
     static const uint32_t workers[3] = {1, 2, 7};
     static alpi_reference_value made[3][RECEIVERS];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     test_probe p = test_probe_open(context, scene, NULL, 16);
     p.options.turned = true;
     for (uint32_t i = 0; i < RECEIVERS; i++) {

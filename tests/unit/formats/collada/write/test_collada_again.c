@@ -71,8 +71,7 @@ static char *bake(alp_context *context, const char *path, const form *f, float (
     static const float scales[] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
     float corner_uvs[TRIANGLES][3][2];
     uint32_t pages[TRIANGLES];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     assert_int_equal(scene->triangle_count, TRIANGLES);
     fill_uvs(scene, uvs);
     for (uint32_t t = 0; t < TRIANGLES; t++) {
@@ -141,8 +140,7 @@ static void assert_all_named(alp_context *context, const char *text)
 static void assert_coordinates(alp_context *context, const char *path, const form *f,
                                float (*uvs)[3][3][2])
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         const alpi_surface *surface = &scene->surfaces[scene->triangle_surface[t]];
         const bool left_out =

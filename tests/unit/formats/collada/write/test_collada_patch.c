@@ -200,8 +200,7 @@ static char *bake_square(alp_context *context, const char *from, const char *pat
         ASSERT_OK(context, alpi_file_write(context, path, true, text, size));
         free(text);
     }
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     assert_int_equal(scene->triangle_count, 2);
     ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, path, true));
     alp_scene_destroy(scene);
@@ -225,8 +224,7 @@ TEST_WITH_CONTEXT(set_that_nothing_names, 1)
                                  sets[i]);
         assert_non_null(strstr(text, input));
         assert_non_null(strstr(text, bind));
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, path, &scene));
+        alp_scene *scene = test_load(context, path);
         const alpi_material *material = &scene->materials[scene->surfaces[0].material];
         assert_int_not_equal(material->base_color_texture.image, ALPI_NONE);
         assert_int_equal(material->base_color_texture.uv_set, 0);
@@ -297,8 +295,7 @@ TEST_WITH_CONTEXT(images_go_along, 1)
     char *copy = alpi_format(context, "%s/tex/two words.png", to);
     ASSERT_OK(context, alpi_file_write(context, input, true, text, strlen(text)));
     ASSERT_OK(context, alpi_file_write(context, image, true, picture, sizeof picture));
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, input, &scene));
+    alp_scene *scene = test_load(context, input);
     const alpi_mesh_patch patch = {0};
     for (int round = 0; round < 2; round++) { // what is there already with the same bytes is fine
         ASSERT_OK(context, alpi_scene_write_patched(scene, &patch, output, round == 1));
@@ -323,8 +320,7 @@ TEST_WITH_CONTEXT(images_go_along, 1)
 /// A .dae is written only of a scene that was read from one.
 TEST_WITH_CONTEXT(other_scenes, 1)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const alpi_gltf_images images = {.occlusion = 1};
     assert_int_equal(alpi_collada_check_outputs(scene, &images, "out.dae", false),
                      ALP_ERROR_UNSUPPORTED);
