@@ -19,7 +19,8 @@ FUZZ_TARGETS ?=
 # Pictures of docs/gallery.md to make; empty: all that are quick.
 GALLERY ?=
 
-.PHONY: all demo gallery test fuzz format lint install clean help
+.PHONY: all demo gallery test test-fast test-integrations fuzz format lint lint-all install clean \
+        help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
@@ -41,6 +42,16 @@ test: ## Set up, build and run every test; ends in a line that counts them
 	@$(call build,dev)
 	@scripts/test.py dev
 
+test-fast: ## Run all but slow tests and integrations, which takes a minute or so
+	$(call setup,check)
+	@$(call build,dev)
+	@scripts/test.py dev fast
+
+test-integrations: ## Run what needs Blender or a browser; 'scripts/setup.sh browser' installs one
+	$(call setup,check)
+	@$(call build,dev)
+	@scripts/test.py dev integrations
+
 fuzz: ## Feed every reader made-up input under sanitizers, FUZZ_SECONDS (600) each of FUZZ_TARGETS
 	$(call setup,check)
 	@scripts/fuzz.sh --seconds $(FUZZ_SECONDS) $(FUZZ_TARGETS)
@@ -48,10 +59,15 @@ fuzz: ## Feed every reader made-up input under sanitizers, FUZZ_SECONDS (600) ea
 format: ## Format the sources
 	@scripts/lint.sh format
 
-lint: ## Check formatting, the law of the rooms, clang-tidy and cppcheck
+lint: ## Check formatting, the law of the rooms, cppcheck; clang-tidy reads what changed
 	$(call setup,check)
 	@$(call configure,dev)
 	@scripts/lint.sh
+
+lint-all: ## The same, with clang-tidy on every file
+	$(call setup,check)
+	@$(call configure,dev)
+	@scripts/lint.sh all
 
 install: ## Build and install to PREFIX (default /usr/local; DESTDIR is honoured)
 	$(call setup,build)
@@ -62,5 +78,5 @@ clean: ## Remove everything that was built
 	@rm -rf build demo
 
 help: ## This list
-	@sed -n 's/^\([a-z]*\):.*## /    make \1: /p' $(MAKEFILE_LIST) | awk -F': ' \
-	    '{printf "%-18s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z-]*\):.*## /    make \1: /p' $(MAKEFILE_LIST) | awk -F': ' \
+	    '{printf "%-27s %s\n", $$1, $$2}'

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Runs the tests of one preset and ends in a line that counts them.
 
-    scripts/test.py PRESET [ctest arguments ...]
+    scripts/test.py PRESET [fast|integrations] [ctest arguments ...]
 
-Counted are the cases inside our test programs (each writes a line per case) and, one each, the
-tests that only CTest knows. Skipped cases are listed with the reason they gave. Exit status: 0 if
-nothing failed and something passed, else 1.
+fast leaves out what is labelled slow or integration, and slow cases of other files. integrations
+runs only those that need big installs, such as Blender or a browser. Counted are the cases inside
+our test programs (each writes a line per case) and, one each, the tests that only CTest knows.
+Skipped cases are listed with the reason they gave. Exit status: 0 if nothing failed and something
+passed (of integrations all may be skipped), else 1.
 """
 import os
 import re
@@ -14,6 +16,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+TIERS = {"fast": ["--label-exclude", "^(slow|integration)$"],
+         "integrations": ["--label-regex", "^integration$"]}
 CASE = re.compile(r"^\[\s*(RUN|OK|SKIPPED|FAILED|ERROR)\s*\] (\w+)")
 
 
@@ -69,6 +73,8 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     preset, arguments = sys.argv[1], sys.argv[2:]
+    tier = arguments.pop(0) if arguments and arguments[0] in TIERS else "all"
+    arguments = TIERS.get(tier, []) + arguments
     os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
     report = os.path.abspath(f"build/{preset}/tests.xml")
     if os.path.exists(report):
@@ -76,7 +82,8 @@ def main():
     jobs = str(len(os.sched_getaffinity(0)))
     command = ["ctest", "--preset", preset, "-j", jobs, "--output-junit", report]
     command += ["--test-output-size-passed", "10000000", "--test-output-size-failed", "10000000"]
-    status = subprocess.run(command + arguments, check=False).returncode
+    environment = dict(os.environ, TEST_FAST="1") if tier == "fast" else None
+    status = subprocess.run(command + arguments, check=False, env=environment).returncode
     if not os.path.exists(report):
         sys.exit(f"test: ctest wrote no report (exit status {status})")
     passed, failed, skipped = count(report)
@@ -84,8 +91,11 @@ def main():
         print(f"skipped: {line}")
     for line in failed:
         print(f"failed: {line}")
+    if tier != "all":
+        print(f"{tier} tests only; 'make test' runs all")
     print(f"alpenglow: {passed} tests passed, {len(failed)} failed, {len(skipped)} skipped")
-    sys.exit(1 if failed or status != 0 or passed == 0 else 0)
+    nothing = passed == 0 and tier != "integrations"
+    sys.exit(1 if failed or status != 0 or nothing else 0)
 
 
 if __name__ == "__main__":

@@ -9,21 +9,7 @@ static const double PI = 3.14159265358979323846;
 static const double TOLERANCE = 1e-3; // of each coordinate of a unit vector
 static const double FAR = 1e5;        // stands for infinite
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static alp_occlusion_options open_options(void)
 {
@@ -70,9 +56,8 @@ static alp_scene *long_wall(double height)
     return test_mesh_scene(context, mesh, 0);
 }
 
-static void open_plane_keeps_its_normal(void **state)
+TEST(open_plane_keeps_its_normal)
 {
-    (void)state;
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-3, 0, 1}, (double[]){5, 1, -2}, (double[]){1, 3, -7});
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -89,9 +74,8 @@ static void open_plane_keeps_its_normal(void **state)
     alp_scene_destroy(scene);
 }
 
-static void walls_of_any_height_push_away(void **state)
+TEST(walls_of_any_height_push_away)
 {
-    (void)state;
     // Along the wall (z) an angle β, around it ψ from the wall's foot: open where ψ > α, tan α =
     // height. ∫ ω (n·ω) dω = (4/3) (−sin²α / 2, (π − α) / 2 + sin 2α / 4, 0).
     const double heights[] = {0.25, 1.0, 2.0, FAR};
@@ -108,9 +92,8 @@ static void walls_of_any_height_push_away(void **state)
     }
 }
 
-static void uniform_directions_count_the_same(void **state)
+TEST(uniform_directions_count_the_same)
 {
-    (void)state;
     // A quarter of the sphere: ∫ ω dω = (−π/2, π/2, 0), where the cosine gives (−2/3, π/3, 0).
     alp_scene *scene = long_wall(FAR);
     alp_occlusion_options options = open_options();
@@ -123,9 +106,8 @@ static void uniform_directions_count_the_same(void **state)
     alp_scene_destroy(scene);
 }
 
-static void corner_of_two_walls_points_out(void **state)
+TEST(corner_of_two_walls_points_out)
 {
-    (void)state;
     // Azimuths of a quarter circle are open: ∫ = (1/3, π/6, 1/3), turned away from both.
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){1, 0, -FAR}, (double[]){0, 0, FAR + 2}, (double[]){0, FAR, 0});
@@ -154,9 +136,8 @@ static double weight_exp(double t)
     return (exp(-4.0 * t) - exp(-4.0)) / (1.0 - exp(-4.0));
 }
 
-static void falloff_weighs_directions(void **state)
+TEST(falloff_weighs_directions)
 {
-    (void)state;
     // In front of an infinite wall at 1 m the ray (β, ψ) goes 1 / (sin β cos ψ) far: ∫ (1 − w) ω
     // (n·ω) dω over both angles, midpoint rule.
     double (*const weights[])(double) = {NULL, weight_linear, weight_smooth, weight_exp};
@@ -181,9 +162,8 @@ static void falloff_weighs_directions(void **state)
     alp_scene_destroy(scene);
 }
 
-static void inside_of_a_bowl(void **state)
+TEST(inside_of_a_bowl)
 {
-    (void)state;
     // From a point of a sphere, (n·ω) dω = dA / 4 of the sphere's area that ω reaches: the mean
     // direction is that to the missing cap, uniform over its area. Facets cost what they cost
     // occlusion: .003.
@@ -219,9 +199,8 @@ static void inside_of_a_bowl(void **state)
     }
 }
 
-static void closed_rooms_keep_the_normal(void **state)
+TEST(closed_rooms_keep_the_normal)
 {
-    (void)state;
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, ORIGIN, 1.0, 32, 16, 1.0, 0);
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -232,18 +211,4 @@ static void closed_rooms_keep_the_normal(void **state)
     bent_normal(scene, (double[]){0.1, 0.2, 0.3}, n, &options, bent);
     assert_along(bent, n, 1e-7);
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(open_plane_keeps_its_normal),
-        cmocka_unit_test(walls_of_any_height_push_away),
-        cmocka_unit_test(uniform_directions_count_the_same),
-        cmocka_unit_test(corner_of_two_walls_points_out),
-        cmocka_unit_test(falloff_weighs_directions),
-        cmocka_unit_test(inside_of_a_bowl),
-        cmocka_unit_test(closed_rooms_keep_the_normal),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -8,21 +8,7 @@
 #include <math.h>
 
 static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0}, GREY = {0.5f, 0.5f, 0.5f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(1);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(1);
 
 /// A floor of 20 m, and a quad besides where `quad` is one: emission of that alone.
 static alp_scene *make_floor(const vec3 *quad, float emission)
@@ -44,9 +30,8 @@ static alp_scene *make_floor(const vec3 *quad, float emission)
 // --- lamps and suns ------------------------------------------------------------------------------
 
 /// I cosθ / r², without noise and by one ray; 0 behind a quad, and on the side that looks away.
-static void a_lamp(void **state)
+TEST(a_lamp)
 {
-    (void)state;
     const vec3 shade[4] = {{1, 1, 1}, {3, 1, 1}, {3, 1, -1}, {1, 1, -1}};
     const alpi_light lamp = test_lamp((vec3){0, 3, 4}, 100.0f);
     test_stage s = test_stage_open(context, make_floor(shade, 0.0f), &lamp, 1, NULL);
@@ -67,9 +52,8 @@ static void a_lamp(void **state)
 }
 
 /// ∫ I cosθ/r² dA = I Ω: the mean over a rectangle is I Ω / A, also of a part that is lit.
-static void a_lamp_over_a_patch(void **state)
+TEST(a_lamp_over_a_patch)
 {
-    (void)state;
     // The shade reaches from x = 0 outwards at half the lamp's height: floor beyond x = 0 is dark.
     const vec3 shade[4] = {{0, 1, 9}, {9, 1, 9}, {9, 1, -9}, {0, 1, -9}};
     const alpi_light lamp = test_lamp((vec3){0, 2, 0}, 50.0f);
@@ -91,9 +75,8 @@ static void a_lamp_over_a_patch(void **state)
 }
 
 /// KHR_lights_punctual: clamp((cosθ − cos outer) / (cos inner − cos outer))².
-static void a_spot(void **state)
+TEST(a_spot)
 {
-    (void)state;
     alpi_light spot = test_lamp((vec3){0, 2, 0}, 10.0f);
     spot.kind = ALPI_LIGHT_SPOT;
     spot.direction = (vec3){0, -1, 0};
@@ -113,9 +96,8 @@ static void a_spot(void **state)
 }
 
 /// E⊥ cosθ, of a sun of any size that is above the horizon.
-static void a_sun(void **state)
+TEST(a_sun)
 {
-    (void)state;
     static const float sizes[] = {0.0f, 0.0093f, 0.4f};
     for (int k = 0; k < 3; k++) {
         alp_lighting_options o = alp_lighting_options_default();
@@ -152,9 +134,8 @@ static double visible_share(double a, double b)
     return b < 0.0 ? 1.0 - beyond : beyond;
 }
 
-static void a_half_covered_sun(void **state)
+TEST(a_half_covered_sun)
 {
-    (void)state;
     // The roof covers x < 0, 3 m up; the floor at x sees the edge at atan(x/3) left of the zenith.
     const vec3 roof[4] = {{-9, 3, 9}, {0, 3, 9}, {0, 3, -9}, {-9, 3, -9}};
     alpi_light sun = {.kind = ALPI_LIGHT_DIRECTIONAL,
@@ -181,9 +162,8 @@ static void a_half_covered_sun(void **state)
 // --- emitters ------------------------------------------------------------------------------------
 
 /// Oracle 6: a rectangle over its corner, and a wall seen from its foot.
-static void rectangles(void **state)
+TEST(rectangles)
 {
-    (void)state;
     const vec3 over[4] = {{0, 2, 0}, {1.5f, 2, 0}, {1.5f, 2, 0.7f}, {0, 2, 0.7f}};
     const vec3 wall[4] = {{0, 0, -1}, {1.2f, 0, -1}, {1.2f, 0.8f, -1}, {0, 0.8f, -1}};
     const test_patch p = test_point(DARK, UP);
@@ -244,9 +224,8 @@ static void add_many_tiles(alpi_builder *b) // more than are listed
 
 /// A ceiling of many triangles that fills half of the view is met by cosine-distributed rays too:
 /// both together give the closed form (four rectangles over their corners).
-static void a_near_ceiling(void **state)
+TEST(a_near_ceiling)
 {
-    (void)state;
     const double q = sqrt(5.0), f = 4.0 * 2.0 * (2.0 / q * atan(2.0 / q)) / (2.0 * ALPI_PI);
     shape_fn *const shapes[] = {add_tiles, add_many_tiles};
     for (int i = 0; i < 2; i++) {
@@ -279,9 +258,8 @@ static void add_far_tiles(alpi_builder *b) // too small to be met
 }
 
 /// A row of triangles of which a part is above the horizon, and their middle below it.
-static void a_ceiling_on_the_horizon(void **state)
+TEST(a_ceiling_on_the_horizon)
 {
-    (void)state;
     test_stage s = test_stage_open(context, make_shape(add_far_tiles, 1.0f), NULL, 0, NULL);
     const vec3 normal = vec3_normalize_or((vec3){1.0f, -0.15f, 0.0f}, UP); // from x = 1.8 on
     const test_patch p = test_point(DARK, normal);
@@ -317,9 +295,8 @@ static void add_disk(alpi_builder *b)
 }
 
 /// Oracle 5, coaxial and aside.
-static void a_disk(void **state)
+TEST(a_disk)
 {
-    (void)state;
     test_stage s = test_stage_open(context, make_shape(add_disk, 2.0f), NULL, 0, NULL);
     for (int k = 0; k < 2; k++) {
         const double h = 1.5, a = k == 0 ? 0.0 : 2.0;
@@ -346,9 +323,8 @@ static void add_ball(alpi_builder *b)
 }
 
 /// Oracle 4: F = c (r/d)². The far half of the ball is behind the near one.
-static void a_ball(void **state)
+TEST(a_ball)
 {
-    (void)state;
     test_stage s = test_stage_open(context, make_shape(add_ball, 1.0f), NULL, 0, NULL);
     const test_patch p = test_point(DARK, UP);
     const alpi_reference_value v = test_stage_direct(&s, &p, 16384, 2, NULL);
@@ -369,9 +345,8 @@ static void add_far_ball(alpi_builder *b)
 
 /// A far ball's triangles are drawn by what each gives: nothing is left to chance but where in each
 /// a sample falls: a hundredth of the distance.
-static void a_far_ball_has_hardly_any_noise(void **state)
+TEST(a_far_ball_has_hardly_any_noise)
 {
-    (void)state;
     test_stage s = test_stage_open(context, make_shape(add_far_ball, 1.0f), NULL, 0, NULL);
     const test_patch p = test_point(DARK, UP);
     const alpi_reference_value v = test_stage_direct(&s, &p, 16, 3, NULL);
@@ -389,9 +364,8 @@ static vec3 turned(vec3 p, double angle)
 }
 
 /// Oracle 11: a pentagon, partly below the horizon of a tilted receiver, from all azimuths alike.
-static void a_polygon_from_any_side(void **state)
+TEST(a_polygon_from_any_side)
 {
-    (void)state;
     static const vec3 shape[5] = {
         {1, 0.4f, -0.8f}, {1, 1.2f, -0.9f}, {1, 1.6f, 0.1f}, {1, 0.9f, 0.8f}, {1, 0.2f, 0.3f}};
     for (int k = 0; k < 8; k++) {
@@ -438,9 +412,8 @@ static void add_screens(alpi_builder *b)
 
 /// Three quarters of a strip are behind the first of two screens, a quarter behind both: what the
 /// points see that emitters are chosen by is not what all of them see.
-static void a_patch_that_is_partly_behind(void **state)
+TEST(a_patch_that_is_partly_behind)
 {
-    (void)state;
     enum { CUTS = 20000 };
     test_stage s = test_stage_open(context, make_shape(add_screens, 2.0f), NULL, 0, NULL);
     const test_patch strip = {{-3, 0, 0}, {4, 0, 0}, {0, 0, 1e-3f}, UP};
@@ -469,9 +442,8 @@ static alp_lighting_options sky_of(alp_sky_kind kind)
 }
 
 /// Oracles 1 and 2: πL, and πL (1 + cos t) / 2 of the upper half alone.
-static void an_even_sky(void **state)
+TEST(an_even_sky)
 {
-    (void)state;
     alp_lighting_options o = sky_of(ALP_SKY_CONSTANT);
     o.sky.strength = 3.0f;
     test_stage s = test_stage_open(context, make_floor(NULL, 0.0f), NULL, 0, &o);
@@ -504,9 +476,8 @@ static void an_even_sky(void **state)
 }
 
 /// π L (1 − F) before a wall that hides F.
-static void a_sky_beside_a_wall(void **state)
+TEST(a_sky_beside_a_wall)
 {
-    (void)state;
     const vec3 wall[4] = {{0, 0, -1}, {1.2f, 0, -1}, {1.2f, 0.8f, -1}, {0, 0.8f, -1}};
     const double w = 1.2, h = 0.8;
     const double f = (atan(w) - atan(w / sqrt(1 + h * h)) / sqrt(1 + h * h)) / (2 * ALPI_PI);
@@ -534,9 +505,8 @@ static double level_irradiance(const alpi_lighting *lighting)
 }
 
 /// An image of one bright and many dim pixels: drawn and met together make its integral.
-static void an_uneven_sky(void **state)
+TEST(an_uneven_sky)
 {
-    (void)state;
     enum { WIDTH = 32, HEIGHT = 16 };
     alp_image *image = NULL;
     ASSERT_OK(
@@ -574,27 +544,4 @@ static void an_uneven_sky(void **state)
     alpi_lighting_destroy(context, spots);
     test_stage_close(&s);
     alp_image_destroy(image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lamp),
-        cmocka_unit_test(a_lamp_over_a_patch),
-        cmocka_unit_test(a_spot),
-        cmocka_unit_test(a_sun),
-        cmocka_unit_test(a_half_covered_sun),
-        cmocka_unit_test(rectangles),
-        cmocka_unit_test(a_near_ceiling),
-        cmocka_unit_test(a_disk),
-        cmocka_unit_test(a_ceiling_on_the_horizon),
-        cmocka_unit_test(a_ball),
-        cmocka_unit_test(a_far_ball_has_hardly_any_noise),
-        cmocka_unit_test(a_polygon_from_any_side),
-        cmocka_unit_test(a_patch_that_is_partly_behind),
-        cmocka_unit_test(an_even_sky),
-        cmocka_unit_test(a_sky_beside_a_wall),
-        cmocka_unit_test(an_uneven_sky),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

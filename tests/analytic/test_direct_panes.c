@@ -7,21 +7,7 @@
 static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0};
 static const float ALPHA = 0.4f;
 static const vec3 COLOR = {1.0f, 0.5f, 0.25f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// A level square of half side `half` that looks down.
 static void add_lid(alpi_builder *b, float half, float height)
@@ -63,9 +49,8 @@ static double through(int channel)
     return (1.0 - a) * (1.0 - a + a * c);
 }
 
-static void lamps_and_skies_are_dimmed(void **state)
+TEST(lamps_and_skies_are_dimmed)
 {
-    (void)state;
     const test_patch p = test_point(DARK, UP);
     alpi_light lamp = test_lamp((vec3){0, 2, 0}, 8.0f);
     lamp.color = (vec3){1, 1, 1};
@@ -96,9 +81,8 @@ static double lid_factor(double a, double h)
 
 /// A small lid is asked alone, a large one met too; a pane that glows adds the share of its light
 /// that its alpha covers, and dims what is behind it as before.
-static void emitters_shine_through(void **state)
+TEST(emitters_shine_through)
 {
-    (void)state;
     static const float lids[] = {0.4f, 3.0f};
     const test_patch p = test_point(DARK, UP);
     for (int glow = 0; glow < 2; glow++) {
@@ -116,13 +100,4 @@ static void emitters_shine_through(void **state)
             test_stage_close(&s);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lamps_and_skies_are_dimmed),
-        cmocka_unit_test(emitters_shine_through),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -11,21 +11,7 @@
 #include <stdio.h>
 
 static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0}, GREY = {0.5f, 0.5f, 0.5f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 // --- parts ---------------------------------------------------------------------------------------
 
@@ -67,9 +53,8 @@ static alpi_light make_sun(float size)
                         .size = size};
 }
 
-static void parts_add_up(void **state)
+TEST(parts_add_up)
 {
-    (void)state;
     const alpi_light lights[5] = {test_lamp((vec3){0, 1.5f, -2}, 3.0f), make_sun(0.0f),
                                   test_lamp((vec3){0, 1, 0}, 0.0f), make_sun(0.1f),
                                   test_lamp((vec3){-2, 1, 0}, 2.0f)};
@@ -119,9 +104,8 @@ static void parts_add_up(void **state)
 }
 
 /// Each part is what its light gives alone.
-static void a_part_is_a_light_alone(void **state)
+TEST(a_part_is_a_light_alone)
 {
-    (void)state;
     const alpi_light lights[3] = {test_lamp((vec3){0, 1.5f, -2}, 3.0f), make_sun(0.1f),
                                   test_lamp((vec3){-2, 1, 0}, 2.0f)};
     const test_patch p = {{-1, 0, -1}, {0.5f, 0, 0}, {0, 0, 0.5f}, UP};
@@ -172,9 +156,8 @@ static alpi_light *make_many(bool suns)
 }
 
 /// Their sum where nothing is hidden, by one part with as many samples as one light has.
-static void ten_thousand_lights(void **state)
+TEST_SLOW(ten_thousand_lights)
 {
-    (void)state;
     for (int suns = 0; suns < 2; suns++) {
         alpi_builder b;
         alp_scene *scene = NULL;
@@ -265,8 +248,7 @@ static void judge(const char *name, const alpi_reference_value *a, const alpi_re
 
 static void compare(const char *name, const char *label, const alp_lighting_options *o)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_scene *scene = test_load(context, name);
     test_stage s = test_stage_open(context, scene, NULL, 0, o);
     triangle_list list = {.scene = scene};
     const bool furnace = strcmp(label, "furnace") == 0; // where all emit
@@ -294,9 +276,8 @@ static void compare(const char *name, const char *label, const alp_lighting_opti
     test_stage_close(&s);
 }
 
-static void agrees_with_the_reference(void **state)
+TEST(agrees_with_the_reference)
 {
-    (void)state;
     alp_lighting_options sky = alp_lighting_options_default();
     sky.sky.kind = ALP_SKY_CLEAR;
     sky.sky.strength = 1e-4f;
@@ -312,9 +293,8 @@ static void agrees_with_the_reference(void **state)
 
 /// Over many receivers that differ in their random numbers alone, error over standard error has
 /// mean 0 and spread 1: of a lamp seen past a box's edge, of a near quad and a clear sky.
-static void standard_error_is_true(void **state)
+TEST(standard_error_is_true)
 {
-    (void)state;
     enum { COPIES = 1024 };
     const alpi_light lamp = test_lamp((vec3){0, 1.5f, -2}, 3.0f);
     alp_lighting_options o = alp_lighting_options_default();
@@ -348,14 +328,4 @@ static void standard_error_is_true(void **state)
     assert_true(sqrt(squares) < 1.65);
     ASSERT_NEAR(sqrt(stated / real), 1.0, 0.12); // 4 standard errors of two sums of 1024 squares
     test_stage_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_add_up),           cmocka_unit_test(a_part_is_a_light_alone),
-        TEST_OF_FIGURES(ten_thousand_lights),     cmocka_unit_test(agrees_with_the_reference),
-        cmocka_unit_test(standard_error_is_true),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -11,21 +11,7 @@
 
 static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0}, GREY = {0.5f, 0.5f, 0.5f};
 static const vec3 QUAD[4] = {{-1, 2, -0.5f}, {1, 2, -0.5f}, {1, 2, 0.5f}, {-1, 2, 0.5f}};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(1);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(1);
 
 /// The quad, of radiance 3, and a dark one besides where `screen` is one.
 static test_stage open_quad(alp_context *made_in, bool two_sided, const vec3 *screen)
@@ -88,9 +74,8 @@ static void gather(const test_stage *s, const test_patch *points, const uint32_t
 
 /// From any point and side, above the horizon and below: the closed form, and no noise, however few
 /// the samples and however little of the quad is above the horizon.
-static void all_of_it(void **state)
+TEST(all_of_it)
 {
-    (void)state;
     static test_patch points[POINTS];
     static alpi_reference_value values[POINTS];
     scatter(points);
@@ -112,9 +97,8 @@ static void all_of_it(void **state)
 }
 
 /// Behind a screen all is dark, without noise.
-static void nothing_of_it(void **state)
+TEST(nothing_of_it)
 {
-    (void)state;
     const vec3 screen[4] = {{-9, 1, -9}, {9, 1, -9}, {9, 1, 9}, {-9, 1, 9}};
     test_stage s = open_quad(context, false, screen);
     const test_patch p = {{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, UP};
@@ -124,9 +108,8 @@ static void nothing_of_it(void **state)
 }
 
 /// What lies on the quad, on either side, does not see it.
-static void on_it(void **state)
+TEST(on_it)
 {
-    (void)state;
     test_stage s = open_quad(context, true, NULL);
     for (int k = 0; k < 2; k++) {
         const test_patch p = {
@@ -139,9 +122,8 @@ static void on_it(void **state)
 /// A screen halfway hides all beyond x = −.7 + 2 · .3 = −.1 of the quad from x = −.7. Over seeds
 /// the mean of few samples errs by less than 1 %, most of it from the ratio of means, and the
 /// stated error is true.
-static void a_penumbra(void **state)
+TEST_SLOW(a_penumbra)
 {
-    (void)state;
     enum { SEEDS = 1024 };
     const vec3 screen[4] = {{-0.4f, 1, -5}, {5, 1, -5}, {5, 1, 5}, {-0.4f, 1, 5}};
     const vec3 seen[4] = {{-1, 2, -0.5f}, {-0.1f, 2, -0.5f}, {-0.1f, 2, 0.5f}, {-1, 2, 0.5f}};
@@ -198,9 +180,8 @@ static double error_beside(const test_stage *s, uint32_t count, double e, double
 
 /// A screen hides a hundredth of the quad, which the first samples of one receiver may not find:
 /// those beside it do, and nobody is biased.
-static void neighbours_find(void **state)
+TEST(neighbours_find)
 {
-    (void)state;
     const vec3 screen[4] = {{-0.005f, 1, -5}, {0.005f, 1, -5}, {0.005f, 1, 5}, {-0.005f, 1, 5}};
     const vec3 hidden[4] = {
         {-0.01f, 2, -0.5f}, {0.01f, 2, -0.5f}, {0.01f, 2, 0.5f}, {-0.01f, 2, 0.5f}};
@@ -257,9 +238,8 @@ static seeds_found gather_fewest(const test_stage *s, const test_patch alike[BLO
 /// Blocks of receivers below a strip that hides a fiftieth of the quad, by the fewest samples there
 /// are: half of those will do where neighbours and scouts find all clear, and who stops there is
 /// neither biased nor too sure. In full light all do.
-static void a_half_first(void **state)
+TEST(a_half_first)
 {
-    (void)state;
     enum { SEEDS = 1024, SAMPLES = ALPI_DIRECT_REPLICATES };
     const vec3 screen[4] = {{-0.01f, 1, -5}, {0.01f, 1, -5}, {0.01f, 1, 5}, {-0.01f, 1, 5}};
     const vec3 hidden[4] = {
@@ -292,9 +272,8 @@ static void a_half_first(void **state)
 /// The same of patches whose form factors differ from point to point, by a few hundredths: in full
 /// light half of the points tells their mean. What is stated of it is that of points which know
 /// nothing of each other, as there is no other half to say how much better a net of them is.
-static void a_half_of_patches(void **state)
+TEST(a_half_of_patches)
 {
-    (void)state;
     enum { SEEDS = 512, SAMPLES = ALPI_DIRECT_REPLICATES };
     static test_patch alike[BLOCKS];
     for (uint32_t i = 0; i < BLOCKS; i++) {
@@ -315,9 +294,8 @@ static void a_half_of_patches(void **state)
 /// The same bits alone or among others where nothing is hidden, though some are cut by the horizon
 /// or near, and by the loops for other machines. (What is left of variances, rounding, is scaled by
 /// what all of a call tell: see direct_sums.h.)
-static void the_same_bits(void **state)
+TEST(the_same_bits)
 {
-    (void)state;
     static test_patch points[POINTS];
     static alpi_reference_value values[POINTS], others[POINTS];
     scatter(points);
@@ -358,9 +336,8 @@ static void ragged_parallel_for(void *user, uint32_t count, uint32_t grain, alp_
 
 /// Receivers side by side share penumbrae, and who is beside whom is the list's to say, not the
 /// host's: the same bits however it cuts loops.
-static void a_host_changes_nothing(void **state)
+TEST(a_host_changes_nothing)
 {
-    (void)state;
     static test_patch points[POINTS];
     static alpi_reference_value values[POINTS], others[POINTS];
     static const vec3 screen[4] = {// which the first samples of few receivers find
@@ -414,9 +391,8 @@ static void check_rays(const test_stage *s, const test_patch *points, uint32_t c
 
 /// Rays that are sent are no more than is told: however few receivers share the scouts, and where
 /// others look for what the samples missed.
-static void no_more_rays_than_are_told(void **state)
+TEST(no_more_rays_than_are_told)
 {
-    (void)state;
     enum { MOST = 16 };
     const vec3 screen[4] = {{-0.4f, 1, -5}, {5, 1, -5}, {5, 1, 5}, {-0.4f, 1, 5}};
     static test_patch points[POINTS];
@@ -433,21 +409,4 @@ static void no_more_rays_than_are_told(void **state)
         check_rays(&s, &points[i], 1, 8);
     }
     test_stage_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_of_it),
-        cmocka_unit_test(nothing_of_it),
-        cmocka_unit_test(on_it),
-        TEST_OF_FIGURES(a_penumbra),
-        cmocka_unit_test(neighbours_find),
-        cmocka_unit_test(a_half_first),
-        cmocka_unit_test(a_half_of_patches),
-        cmocka_unit_test(the_same_bits),
-        cmocka_unit_test(a_host_changes_nothing),
-        cmocka_unit_test(no_more_rays_than_are_told),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

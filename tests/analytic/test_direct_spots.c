@@ -14,21 +14,7 @@
 
 enum { HEIGHT = 64, WIDTH = 2 * HEIGHT, COPIES = 512 };
 static const vec3 UP = {0, 1, 0}, DARK = {0, 0, 0}, GREY = {0.5f, 0.5f, 0.5f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// Dim noise, a red lamp at +X, a blue one at −X, both about 45° high, and a green one below.
 static alp_image *make_picture(void)
@@ -135,9 +121,8 @@ static void sum_looks(const alpi_sky_looks *looks, vec3 normal, const vec3 *from
 
 /// What is picked at even distances has the looks' weights, and no weight is below a cosine that a
 /// normal as far off as the slack may have.
-static void picks_follow_the_weights(void **state)
+TEST(picks_follow_the_weights)
 {
-    (void)state;
     enum { PICKS = 1 << 18 };
     stage s = start(false);
     static const vec3 normals[] = {{0, 1, 0}, {0.6f, 0, 0.8f}, {-0.48f, -0.6f, 0.64f}};
@@ -183,9 +168,8 @@ static void picks_follow_the_weights(void **state)
 
 /// Where nothing is in between, what there is is known: without noise, by eight rays, of colours
 /// that few of the looks have or none of the eight.
-static void an_open_floor_is_exact(void **state)
+TEST(an_open_floor_is_exact)
 {
-    (void)state;
     stage s = start(false);
     for (int i = 0; i < 6; i++) {
         const double tilt = 0.5 * i;
@@ -207,9 +191,8 @@ static void an_open_floor_is_exact(void **state)
 
 /// A roof hides the red lamp, the blue one, or a part of one; a ratio of means is as good as
 /// unbiased, and what is stated is true.
-static void a_roof_hides_looks(void **state)
+TEST(a_roof_hides_looks)
 {
-    (void)state;
     stage s = start(true);
     static test_patch copies[COPIES];
     static alpi_reference_value values[COPIES];
@@ -264,9 +247,8 @@ static void place_curved(const void *user, uint32_t receiver, uint32_t count,
     }
 }
 
-static void a_curved_receiver_misses_nothing(void **state)
+TEST(a_curved_receiver_misses_nothing)
 {
-    (void)state;
     enum { STEPS = 256 };
     stage s = start(false);
     double truth[3] = {0.0, 0.0, 0.0};
@@ -312,9 +294,8 @@ static void a_curved_receiver_misses_nothing(void **state)
 
 /// Paths that draw spots and meet the soft sky find what paths find that draw from the picture:
 /// beside other lights, and where light is asked for after a bounce.
-static void paths_find_all_light(void **state)
+TEST(paths_find_all_light)
 {
-    (void)state;
     stage s = start_with(true, true);
     alpi_lighting *spots = s.all.lighting;
     for (int i = 0; i <= 4; i++) {
@@ -339,9 +320,8 @@ static void paths_find_all_light(void **state)
 }
 
 /// By direction it is the light of the looks, as much of it as there is.
-static void light_has_its_directions(void **state)
+TEST(light_has_its_directions)
 {
-    (void)state;
     stage s = start(false);
     const test_patch p = test_point((vec3){1, 5, 2}, UP);
     const test_patches one = {.count = 1, .patches = &p, .offset = 1e-6f};
@@ -377,17 +357,4 @@ static void light_has_its_directions(void **state)
         }
     }
     finish(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(picks_follow_the_weights),
-        cmocka_unit_test(an_open_floor_is_exact),
-        cmocka_unit_test(a_roof_hides_looks),
-        cmocka_unit_test(a_curved_receiver_misses_nothing),
-        cmocka_unit_test(paths_find_all_light),
-        cmocka_unit_test(light_has_its_directions),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

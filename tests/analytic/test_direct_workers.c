@@ -6,6 +6,8 @@
 #include "scene/sky/sky.h"
 #include "test_direct_stage.h"
 
+#include <stdlib.h>
+
 enum { POINTS = 32, PARTS = 3 };
 static test_patch patches[POINTS];
 
@@ -52,32 +54,30 @@ static void gather(const test_stage *stage, uint32_t workers, const uint32_t *li
     alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+static void gather_all(uint32_t workers, const void *stage, void *made)
 {
-    (void)state;
-    static result results[5];
-    static const uint32_t workers[4] = {1, 2, 7, 32};
-    alp_context *context = test_context(1);
+    gather(stage, workers, NULL, 0, made);
+}
+
+TEST_WITH_CONTEXT(workers_change_nothing, 1)
+{
+    static result listed;
     test_stage stage = open_cornell(context, NULL);
-    for (int k = 0; k < 4; k++) {
-        gather(&stage, workers[k], NULL, 0, &results[k]);
-        assert_memory_equal(&results[k], &results[0], sizeof results[0]);
-    }
-    assert_true(results[0].values[7].mean[0] > 0.0f && results[0].values[7].variance[0] > 0.0f);
+    result *all = test_any_workers(gather_all, &stage, sizeof *all);
+    assert_true(all->values[7].mean[0] > 0.0f && all->values[7].variance[0] > 0.0f);
     const uint32_t some[2] = {7, 3};
-    gather(&stage, 2, some, 2, &results[4]);
+    gather(&stage, 2, some, 2, &listed);
     for (int i = 0; i < 2; i++) {
         const uint32_t t = some[i]; // their variances are scaled by what all of a list tell
-        assert_memory_equal(results[4].values[t].mean, results[0].values[t].mean,
-                            sizeof results[0].values[0].mean);
+        assert_memory_equal(listed.values[t].mean, all->values[t].mean, sizeof all->values[0].mean);
         for (int p = 0; p < PARTS; p++) {
-            assert_memory_equal(results[4].parts[t][p].mean, results[0].parts[t][p].mean,
-                                sizeof results[0].parts[0][0].mean);
+            assert_memory_equal(listed.parts[t][p].mean, all->parts[t][p].mean,
+                                sizeof all->parts[0][0].mean);
         }
     }
-    assert_true(results[4].values[5].mean[0] == 0.0f); // not in the list
+    assert_true(listed.values[5].mean[0] == 0.0f); // not in the list
+    free(all);
     test_stage_close(&stage);
-    alp_context_destroy(context);
 }
 
 /// A picture of a sky: every fifth pixel is bright.
@@ -95,10 +95,8 @@ static alp_image *bright_pixels(alp_context *context)
 
 /// The box's own lamp is a polygon, and what comes in by its open side spots of a sky: of variances
 /// a part is scaled by what all receivers tell.
-static void nor_with_spots(void **state)
+TEST_WITH_CONTEXT(nor_with_spots, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_lighting_options o = alp_lighting_options_default();
     alp_image *picture = bright_pixels(context);
     o.sky.kind = ALP_SKY_IMAGE;
@@ -107,21 +105,16 @@ static void nor_with_spots(void **state)
     alpi_lighting *whole = stage.lighting, *soft = NULL;
     ASSERT_OK(context, alpi_lighting_split_sky(whole, &o, &soft, &stage.lighting));
     assert_non_null(alpi_sky_spot_looks(alpi_lighting_sky(stage.lighting)));
-    static result results[3];
-    static const uint32_t workers[3] = {1, 2, 7};
-    for (int k = 0; k < 3; k++) {
-        gather(&stage, workers[k], NULL, 0, &results[k]);
-        assert_memory_equal(&results[k], &results[0], sizeof results[0]);
-    }
+    result *all = test_any_workers(gather_all, &stage, sizeof *all);
     for (int p = 0; p < PARTS; p++) {
-        assert_true(results[0].parts[POINTS - 1][p].mean[0] > 0.0f);
+        assert_true(all->parts[POINTS - 1][p].mean[0] > 0.0f);
     }
-    assert_true(results[0].values[POINTS - 1].variance[0] > 0.0f);
+    assert_true(all->values[POINTS - 1].variance[0] > 0.0f);
+    free(all);
     alpi_lighting_destroy(context, soft);
     alpi_lighting_destroy(context, whole);
     test_stage_close(&stage);
     alp_image_destroy(picture);
-    alp_context_destroy(context);
 }
 
 /// What the user hears, and when the answer is no.
@@ -140,9 +133,8 @@ static bool listen(void *user, const alp_progress *progress)
     return ++l->calls != l->refuse_at;
 }
 
-static void one_receiver_can_be_cancelled(void **state)
+TEST(one_receiver_can_be_cancelled)
 {
-    (void)state;
     // 2^26 samples of one receiver take minutes.
     for (uint32_t workers = 1; workers <= 2; workers++) {
         alp_context *context = test_context(workers);
@@ -170,10 +162,8 @@ static void one_receiver_can_be_cancelled(void **state)
 }
 
 /// Rays are counted as they are traced, and progress ends at its total.
-static void counts_are_true(void **state)
+TEST_WITH_CONTEXT(counts_are_true, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     test_stage stage = open_cornell(context, NULL);
     const alpi_direct_options o = test_stage_options(&stage, 64);
     const test_patches floor = floor_patches();
@@ -192,13 +182,11 @@ static void counts_are_true(void **state)
     assert_in_range(output.rays - 5, (2 * 64 + 16 + 1) * POINTS, (3 * 64 + 1) * POINTS - 1);
     alpi_direct_destroy(direct);
     test_stage_close(&stage);
-    alp_context_destroy(context);
 }
 
 /// Of lamps enough to be drawn, emitters and a sky.
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     enum { LAMPS = 80 };
     int left = 0;
     alp_context *context = test_context_failing(&left);
@@ -207,8 +195,7 @@ static void every_allocation_may_fail(void **state)
     for (int i = 0; i < LAMPS; i++) {
         lamps[i] = test_lamp((vec3){0.005f * (float)i, 0.3f, -0.2f}, 0.1f);
     }
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     test_stage stage = test_stage_open(context, scene, lamps, LAMPS, NULL);
     const alpi_direct_options o = test_stage_options(&stage, 8);
     alpi_direct *direct = NULL;
@@ -228,9 +215,8 @@ static void every_allocation_may_fail(void **state)
 }
 
 /// In plain shadow rays: one; two of an uneven sky; of listed triangles by their number.
-static void the_time_of_a_sample_is_told(void **state)
+TEST(the_time_of_a_sample_is_told)
 {
-    (void)state;
     const struct {
         const char *scene;
         alp_sky_kind sky;
@@ -263,17 +249,4 @@ static void the_time_of_a_sample_is_told(void **state)
         alp_image_destroy(picture);
         alp_context_destroy(context);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(nor_with_spots),
-        cmocka_unit_test(one_receiver_can_be_cancelled),
-        cmocka_unit_test(counts_are_true),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(the_time_of_a_sample_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

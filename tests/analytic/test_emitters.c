@@ -51,9 +51,8 @@ static double closed_form(const vec3 (*triangles)[3], uint32_t count, vec3 point
     return sum;
 }
 
-static void one_triangle_from_any_side(void **state)
+TEST(one_triangle_from_any_side)
 {
-    (void)state;
     for (int i = 0; i < 8; i++) {
         double angle = ALPI_PI / 4.0 * i + 0.1;
         // Above and beside, partly below the horizon of `tilted`.
@@ -73,9 +72,8 @@ static void one_triangle_from_any_side(void **state)
     }
 }
 
-static void a_rectangle_is_two_triangles(void **state)
+TEST(a_rectangle_is_two_triangles)
 {
-    (void)state;
     // Over its corner (oracle 6), clipped where it dips below the horizon, and seen from behind.
     const vec3 lamp[2][3] = {{{0, 2, 0}, {1.5f, 2, 0}, {1.5f, 2, 0.7f}},
                              {{0, 2, 0}, {1.5f, 2, 0.7f}, {0, 2, 0.7f}}};
@@ -114,9 +112,8 @@ static void make_disk(vec3 triangles[CORNERS][3], double a, double h, double rad
     }
 }
 
-static void a_disk_of_64_corners(void **state)
+TEST(a_disk_of_64_corners)
 {
-    (void)state;
     static vec3 disk[CORNERS][3];
     // The polygon's area is sin(2π/64)/(2π/64) of the circle's: a radius larger by half of that has
     // its area; what is left at the rim cancels to 1e-4.
@@ -138,9 +135,8 @@ static void a_disk_of_64_corners(void **state)
 }
 
 /// Two lamps, one of 4,000 times the power, far away, one weak and near.
-static void a_strong_and_a_weak_lamp(void **state)
+TEST(a_strong_and_a_weak_lamp)
 {
-    (void)state;
     const vec3 lamps[2][3] = {{{0, 1, 0}, {0.1f, 1, 0}, {0, 1, 0.1f}},
                               {{20, 30, 0}, {21, 30, 0}, {20, 30, 1}}};
     stage s = start(lamps, 2, (vec3){1, 1, 1});
@@ -177,9 +173,8 @@ static void a_strong_and_a_weak_lamp(void **state)
 }
 
 /// A picture of black and white squares, 8 × 8, over a triangle.
-static void a_texture_is_as_its_sum(void **state)
+TEST(a_texture_is_as_its_sum)
 {
-    (void)state;
     const vec3 lamp[1][3] = {{{-1, 1, -1}, {2, 1.2f, -1}, {-1, 1, 2}}};
     stage s = start(lamp, 1, (vec3){5, 5, 5});
     enum { SIDE = 8, CUTS = 1024 };
@@ -218,9 +213,8 @@ static void a_texture_is_as_its_sum(void **state)
 
 /// A picture 64 wide of which one texel shines, on 2 of 200 triangles: looks at 16 places miss it,
 /// and the 190 that are far from it are no lights.
-static void a_spark_is_found_and_darkness_left_out(void **state)
+TEST(a_spark_is_found_and_darkness_left_out)
 {
-    (void)state;
     enum { PIECES = 200, SIDE = 64 };
     static vec3 strip[PIECES][3];
     for (int i = 0; i < PIECES; i++) {
@@ -271,9 +265,8 @@ static void a_spark_is_found_and_darkness_left_out(void **state)
 
 /// 10,000 small squares in a ceiling, drawn by the hierarchy, against one lamp of the same outline
 /// and power: the same light, and not much more noise.
-static void ten_thousand_are_as_one(void **state)
+TEST_SLOW(ten_thousand_are_as_one)
 {
-    (void)state;
     enum { SIDE = 100, COUNT = SIDE * SIDE * 2 };
     vec3(*small)[3] = calloc(COUNT, sizeof *small);
     assert_non_null(small);
@@ -305,18 +298,4 @@ static void ten_thousand_are_as_one(void **state)
     finish(&many);
     finish(&one);
     free(small);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_triangle_from_any_side),
-        cmocka_unit_test(a_rectangle_is_two_triangles),
-        cmocka_unit_test(a_disk_of_64_corners),
-        cmocka_unit_test(a_strong_and_a_weak_lamp),
-        cmocka_unit_test(a_texture_is_as_its_sum),
-        cmocka_unit_test(a_spark_is_found_and_darkness_left_out),
-        TEST_OF_FIGURES(ten_thousand_are_as_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

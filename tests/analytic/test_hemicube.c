@@ -9,21 +9,7 @@
 #include <math.h>
 
 static const vec3 BLACK = {0, 0, 0};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(1);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(1);
 
 // --- what pixels can tell ------------------------------------------------------------------------
 
@@ -118,9 +104,8 @@ static vec3 direction_of(uint32_t k)
 // --- light without edges -------------------------------------------------------------------------
 
 /// E = πL for any resolution, axis and turn: to the rounding of the weights.
-static void a_constant_sky_is_exact(void **state)
+TEST(a_constant_sky_is_exact)
 {
-    (void)state;
     static const uint32_t resolutions[] = {2, 4, 6, 10, 14, 64, 130};
     const alp_lighting_options o = test_sky_of(ALP_SKY_CONSTANT);
     test_probe p = test_probe_open(context, test_probe_quad(context, NULL), &o, 2);
@@ -166,9 +151,8 @@ static double crossed_by_horizon(uint32_t n, const alpi_hemicube_frame *f, vec3 
 /// E = πL (1 + cos t)/2 of a sky that is bright above the horizon alone, at a tilt of t. Where the
 /// surface itself is tilted against its shading normal, rays below it are traced, as the reference
 /// traces them: with nothing in their way, all of a constant sky is there.
-static void horizons_count_by_whole_pixels(void **state)
+TEST(horizons_count_by_whole_pixels)
 {
-    (void)state;
     for (int own = 0; own < 2; own++) {
         const alp_lighting_options o = test_sky_of(own ? ALP_SKY_CONSTANT : ALP_SKY_HEMISPHERE);
         test_probe p = test_probe_open(context, test_probe_quad(context, NULL), &o, 32);
@@ -239,9 +223,8 @@ static double hold(const test_probe *p, const alpi_hemicube_frame *frame, const 
 
 /// Wide quads above and beside, cut by the horizon and not: the error falls by more than a pixel's
 /// size, 1/n, because it is as often up as down.
-static void a_large_polygon(void **state)
+TEST(a_large_polygon)
 {
-    (void)state;
     // Faces the origin; 4 m × 3 m, 2 m away.
     const vec3 quad[4] = {{-2, 2, -1}, {2, 2, -1}, {2, 2, 2}, {-2, 2, 2}};
     static const uint32_t resolutions[] = {8, 32, 128};
@@ -295,9 +278,8 @@ static const vec3 SMALL[4] = {
 
 /// A small emitter goes from the zenith to below the horizon, across the edge between two faces, or
 /// the corner where three meet, and once round through four upright edges.
-static void a_small_emitter_sweeps_over_edges_and_corners(void **state)
+TEST(a_small_emitter_sweeps_over_edges_and_corners)
 {
-    (void)state;
     const uint32_t steps = 160;
     test_probe p = test_probe_open(context, test_probe_quad(context, SMALL), NULL, 32);
     for (int sweep = 0; sweep < 3; sweep++) {
@@ -316,9 +298,8 @@ static void a_small_emitter_sweeps_over_edges_and_corners(void **state)
 
 /// Not more lost than won: at places drawn about two edges, their corner, the horizon and nowhere
 /// special, the mean error is zero.
-static void nothing_is_lost_at_edges(void **state)
+TEST(nothing_is_lost_at_edges)
 {
-    (void)state;
     enum { PLACES = 1500 };
     static const double centres[5][3] = {
         {1, 0.3, 1}, {1, 1, 0.4}, {1, 1, 1}, {1, -0.2, 0.1}, {0.4, 0.3, 1}};
@@ -380,14 +361,12 @@ static pixel_count lamp_pixels(uint32_t n, const test_patch *patch, uint32_t i)
 
 /// At points of floor and walls, past the blocks: what is seen of the lamp where a straight edge
 /// hides some of it has no longer a rim than the whole.
-static void direct_light_in_the_cornell_box(void **state)
+TEST(direct_light_in_the_cornell_box)
 {
-    (void)state;
     enum { POINTS = 96, N = 64 };
     static test_patch patches[POINTS];
     static alpi_reference_value values[POINTS];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     test_probe p = test_probe_open(context, scene, NULL, N);
     for (uint32_t i = 0; i < POINTS; i++) {
         const vec2 u = alpi_sample_2d(9, i);
@@ -475,14 +454,12 @@ static double value_of(const alp_lightmap *l, alp_map map, uint32_t texel)
 
 /// Texels that see all of the lamp: off by what its rim crosses, and right in the mean. What sees
 /// nothing of it gets nothing.
-static void a_bake_may_count_emitters(void **state)
+TEST(a_bake_may_count_emitters)
 {
-    (void)state;
     const alp_bake_options told = counting(ALP_EMITTERS_ANALYTIC);
     const alp_bake_options counts = counting(ALP_EMITTERS_COUNTED);
     alp_bake_report reports[2];
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_lightmap *analytic = bake(scene, &told, &reports[0]);
     alp_lightmap *counted = bake(scene, &counts, &reports[1]);
     const double scale = ALPI_PI * LAMP_RADIANCE;
@@ -528,9 +505,8 @@ static void a_bake_may_count_emitters(void **state)
 }
 
 /// Lamps, suns and skies are no surfaces: the same bits either way.
-static void other_lights_are_not_counted(void **state)
+TEST(other_lights_are_not_counted)
 {
-    (void)state;
     alp_lamp lamp = alp_lamp_default();
     alp_scene *scene = NULL;
     lamp.position[1] = 1.0f;
@@ -554,11 +530,9 @@ static void other_lights_are_not_counted(void **state)
     alp_scene_destroy(scene);
 }
 
-static void what_cannot_be_counted_is_refused(void **state)
+TEST(what_cannot_be_counted_is_refused)
 {
-    (void)state;
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (int i = 0; i < 5; i++) {
         alp_bake_options o = counting(ALP_EMITTERS_COUNTED);
         o.light.direct = ALP_DIRECT_ON;
@@ -570,20 +544,4 @@ static void what_cannot_be_counted_is_refused(void **state)
         assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     }
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_constant_sky_is_exact),
-        cmocka_unit_test(horizons_count_by_whole_pixels),
-        cmocka_unit_test(a_large_polygon),
-        cmocka_unit_test(a_small_emitter_sweeps_over_edges_and_corners),
-        cmocka_unit_test(nothing_is_lost_at_edges),
-        cmocka_unit_test(direct_light_in_the_cornell_box),
-        cmocka_unit_test(a_bake_may_count_emitters),
-        cmocka_unit_test(other_lights_are_not_counted),
-        cmocka_unit_test(what_cannot_be_counted_is_refused),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -68,10 +68,8 @@ static alp_lighting_options options_of(const alp_lamp *lamps, uint32_t count)
     return o;
 }
 
-static void a_lamp_gives_intensity_over_distance_squared(void **state)
+TEST_WITH_CONTEXT(a_lamp_gives_intensity_over_distance_squared, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     alp_lamp lamp = point_lamp();
     const alp_lighting_options o = options_of(&lamp, 1);
@@ -91,13 +89,10 @@ static void a_lamp_gives_intensity_over_distance_squared(void **state)
     ASSERT_NEAR((double)s.light.x / 4e-6, 1.0, 1e-6);
     alpi_lighting_destroy(context, lighting);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_spot_lights_its_cone(void **state)
+TEST_WITH_CONTEXT(a_spot_lights_its_cone, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     for (int i = 0; i < 40; i++) {
         const double angle = 0.02 * i + 0.005; // not on an edge
@@ -113,14 +108,11 @@ static void a_spot_lights_its_cone(void **state)
         alpi_lighting_destroy(context, lighting);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The file's lights, then lamps, then the sun; each by its name.
-static void lamps_stand_between_file_and_sun(void **state)
+TEST_WITH_CONTEXT(lamps_stand_between_file_and_sun, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     scene->lights = ALPI_NEW(context, alpi_light, 1);
     assert_non_null(scene->lights);
@@ -147,14 +139,11 @@ static void lamps_stand_between_file_and_sun(void **state)
     ASSERT_ESTIMATE(test_light_estimate(lighting, ORIGIN, UP, 40000, 1), sum);
     alpi_lighting_destroy(context, lighting);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Every texel of a bake of the small ground has what the lamp and the spot give at the origin.
-static void a_bake_has_their_light(void **state)
+TEST_WITH_CONTEXT(a_bake_has_their_light, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     const alp_lamp lamps[2] = {point_lamp(), spot_lamp(0.45)};
     alp_bake_options o = alp_bake_options_default();
@@ -184,7 +173,6 @@ static void a_bake_has_their_light(void **state)
     assert_true(covered > 100);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 typedef struct wrong_lamp {
@@ -253,10 +241,8 @@ static void check_refused(alp_context *context, const alp_scene *scene,
     }
 }
 
-static void wrong_values_are_refused(void **state)
+TEST_WITH_CONTEXT(wrong_values_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     wrong_lamp wrong[WRONG_COUNT];
     make_wrong(wrong);
@@ -272,14 +258,11 @@ static void wrong_values_are_refused(void **state)
     const alp_lighting_options many = options_of(&lamp, 1000001);
     check_refused(context, scene, &many, "1000001 lamps");
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// What a point lamp does not read may be anything; the ends of ranges are inside.
-static void ends_of_ranges_are_good(void **state)
+TEST_WITH_CONTEXT(ends_of_ranges_are_good, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = small_ground(context);
     alp_lamp lamps[4] = {point_lamp(), spot_lamp(0.1), spot_lamp(0.1), alp_lamp_default()};
     lamps[0].inner_cone = lamps[0].direction[0] = NAN;
@@ -301,12 +284,10 @@ static void ends_of_ranges_are_good(void **state)
     assert_true(alpi_lighting_is_dark(lighting)); // of 0 candela
     alpi_lighting_destroy(context, lighting);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void memory_may_run_out(void **state)
+TEST(memory_may_run_out)
 {
-    (void)state;
     int left = 1000;
     alp_context *context = test_context_failing(&left);
     alp_scene *scene = small_ground(context);
@@ -326,18 +307,4 @@ static void memory_may_run_out(void **state)
     assert_in_range(needed, 4, 100); // at least itself, its lights, their names and the sun's
     alp_scene_destroy(scene);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lamp_gives_intensity_over_distance_squared),
-        cmocka_unit_test(a_spot_lights_its_cone),
-        cmocka_unit_test(lamps_stand_between_file_and_sun),
-        cmocka_unit_test(a_bake_has_their_light),
-        cmocka_unit_test(wrong_values_are_refused),
-        cmocka_unit_test(ends_of_ranges_are_good),
-        cmocka_unit_test(memory_may_run_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,21 +10,7 @@
 #include <math.h>
 
 static const vec3 ONE = {1, 1, 1}, ZERO = {0, 0, 0};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static void put_lamp(alp_scene *scene, vec3 position)
 {
@@ -92,9 +78,8 @@ static alp_scene *make_box(float albedo, bool inside)
 }
 
 /// A closed room that gives back all light or more would never grow dark: albedo is at most .95.
-static void albedo_of_one_and_more(void **state)
+TEST_SLOW(albedo_of_one_and_more)
 {
-    (void)state;
     for (int gather = 0; gather < 2; gather++) {
         for (int k = 0; k < 2; k++) {
             alp_scene *scene = make_box(k == 0 ? 1.0f : 7.0f, true);
@@ -110,9 +95,8 @@ static void albedo_of_one_and_more(void **state)
 }
 
 /// Black, and the user is told.
-static void no_light_at_all(void **state)
+TEST(no_light_at_all)
 {
-    (void)state;
     for (int gather = 0; gather < 2; gather++) {
         alp_scene *scene = make_box(0.5f, true);
         const alp_bake_options o = light_options((alp_gather)gather);
@@ -125,9 +109,8 @@ static void no_light_at_all(void **state)
 
 /// A room that was modelled inside out: its walls are black from within, where nothing is baked,
 /// and let light through where the user says that they have one side.
-static void rooms_inside_out(void **state)
+TEST(rooms_inside_out)
 {
-    (void)state;
     for (int gather = 0; gather < 2; gather++) {
         alp_scene *scene = make_box(0.5f, false);
         alp_bake_options o = light_options((alp_gather)gather);
@@ -149,9 +132,8 @@ static void rooms_inside_out(void **state)
 
 /// Light that is shut in a solid reaches nothing outside it; on a surface and in a corner it gives
 /// what it gives, in numbers.
-static void lamps_in_walls(void **state)
+TEST(lamps_in_walls)
 {
-    (void)state;
     static const vec3 places[] = {{0.5f, 0.5f, 0.5f}, {0.5f, 1.0f, 0.5f}, {0, 0, 0}};
     for (int gather = 0; gather < 2; gather++) {
         for (int k = 0; k < 3; k++) {
@@ -173,9 +155,8 @@ static void lamps_in_walls(void **state)
 
 /// Two meshes with the same coordinates for a lightmap: charts are made anew, unless the user keeps
 /// what cannot be kept.
-static void instances_that_share_coordinates(void **state)
+TEST(instances_that_share_coordinates)
 {
-    (void)state;
     static const float uvs[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static const float floor[4][3] = {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
     static const float other[4][3] = {{2, 0, 1}, {3, 0, 1}, {3, 0, 0}, {2, 0, 0}};
@@ -202,16 +183,4 @@ static void instances_that_share_coordinates(void **state)
         assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_DATA);
         alp_scene_destroy(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST_OF_FIGURES(albedo_of_one_and_more),
-        cmocka_unit_test(no_light_at_all),
-        cmocka_unit_test(rooms_inside_out),
-        cmocka_unit_test(lamps_in_walls),
-        cmocka_unit_test(instances_that_share_coordinates),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -10,25 +10,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static alp_context *context;
+TEST_CONTEXT(2);
 
 /// 16 replicates measure the spread (Student's t of 15 degrees of freedom), of hundreds of texels:
 /// the largest of 500 is beyond this once in 10,000 bakes.
 static const double STANDARD_ERRORS = 9.0;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
 
 // --- bakes ---------------------------------------------------------------------------------------
 
@@ -163,9 +149,8 @@ static double exact_wide_sun(vec3 position, vec3 normal)
 }
 
 /// Oracle 3's light: E = E⊥ cosθ⁺, of a point and of a disk.
-static void a_solid_under_a_sun(void **state)
+TEST(a_solid_under_a_sun)
 {
-    (void)state;
     alp_bake_options o = light_options(16);
     o.light.lighting.sun.azimuth = (float)AZIMUTH;
     o.light.lighting.sun.elevation = (float)ELEVATION;
@@ -188,9 +173,8 @@ static double exact_sky(vec3 position, vec3 normal)
     return ALPI_PI * (2.0 * (1.0 + c) + 0.5 * (1.0 - c)) / 2.0;
 }
 
-static void a_solid_under_a_sky(void **state)
+TEST(a_solid_under_a_sky)
 {
-    (void)state;
     alp_bake_options o = light_options(256);
     o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
     o.light.lighting.sky.up[1] = 2.0f;
@@ -211,9 +195,8 @@ static double exact_lamp(vec3 position, vec3 normal)
 
 /// A texel is the mean over its area. Half of one is h = 0.06 m, the lamp r = 2.7 m away: its
 /// middle is right to (h/r)² = 5e-4 of it, and twice that leaves room for the cosine.
-static void a_solid_under_a_lamp(void **state)
+TEST(a_solid_under_a_lamp)
 {
-    (void)state;
     const alp_bake_options o = light_options(16);
     alp_scene *scene = make_solid();
     test_lit_set_lamps(scene,
@@ -229,9 +212,8 @@ static void a_solid_under_a_lamp(void **state)
 // --- closed rooms --------------------------------------------------------------------------------
 
 /// Oracle 14: the furnace is of radiance 2 everywhere, E = 2π; after no bounce it is of 1.
-static void every_texel_of_the_furnace(void **state)
+TEST(every_texel_of_the_furnace)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         alp_bake_options o = light_options(256);
         alp_scene *scene = NULL;
@@ -262,9 +244,8 @@ static void every_texel_of_the_furnace(void **state)
 
 /// A room of one albedo with a box in it and a glowing ceiling: the mean of the texels by their
 /// area is Φ / ((1 − ρ) A), as each texel's value is the mean over it.
-static void the_mean_over_a_closed_room(void **state)
+TEST(the_mean_over_a_closed_room)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     alp_lightmap *lightmap = NULL;
@@ -304,9 +285,8 @@ static void the_mean_over_a_closed_room(void **state)
 /// A block on a slab under an even sky, and a bar through the slab that looks out on both sides.
 /// The block's lower side is black to the last bit, although rays from it meet the bar in texels
 /// that are half out of the slab.
-static void nothing_below_a_block_is_lit(void **state)
+TEST(nothing_below_a_block_is_lit)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     alp_lightmap *lightmap = NULL;
@@ -367,9 +347,8 @@ static alp_scene *make_case(int kind)
 
 /// In a case of clear single-sided glass there is the light that would be there without it; to
 /// occlusion, which glass is solid to, it is as if it had two sides. A solid case is dark inside.
-static void what_stands_in_a_glass_case(void **state)
+TEST(what_stands_in_a_glass_case)
 {
-    (void)state;
     enum { PAGE = 128 };
     static float ao[CASES][PAGE * PAGE];
     for (int i = 0; i < CASES; i++) {
@@ -430,9 +409,8 @@ static alp_scene *make_sunk_posts(void)
 /// E = 2π wherever there is light, on walls and ceiling too, whose rays meet texels of floor and
 /// posts that lie in each other in part. As dark as the mean of their points those would cost .7 %.
 /// By one round of rays, and by rounds for an error.
-static void a_room_about_sunk_posts(void **state)
+TEST(a_room_about_sunk_posts)
 {
-    (void)state;
     for (int rounds = 0; rounds < 2; rounds++) {
         alp_scene *scene = make_sunk_posts();
         alp_lightmap *lightmap = NULL;
@@ -459,19 +437,4 @@ static void a_room_about_sunk_posts(void **state)
         alp_lightmap_destroy(lightmap);
         alp_scene_destroy(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_solid_under_a_sun),
-        cmocka_unit_test(a_solid_under_a_sky),
-        cmocka_unit_test(a_solid_under_a_lamp),
-        cmocka_unit_test(every_texel_of_the_furnace),
-        cmocka_unit_test(the_mean_over_a_closed_room),
-        cmocka_unit_test(nothing_below_a_block_is_lit),
-        cmocka_unit_test(what_stands_in_a_glass_case),
-        cmocka_unit_test(a_room_about_sunk_posts),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

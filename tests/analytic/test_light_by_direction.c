@@ -18,21 +18,7 @@
 #include <stdio.h>
 
 enum { MAPS = ALP_MAP_LIGHT | ALP_MAP_SH | ALP_MAP_DIRECTION, CHANNEL = 1 };
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 // --- bakes ---------------------------------------------------------------------------------------
 
@@ -136,9 +122,8 @@ static void hold_even(const alp_lightmap *l, double radiance, double noise, cons
 /// 2: .36 / √256 for c_00, and .96 · √(3) / 2 / √256 for what lies across the normal.
 static const double NOISE_OF_RAYS = 0.052;
 
-static void a_solid_under_an_even_sky(void **state)
+TEST(a_solid_under_an_even_sky)
 {
-    (void)state;
     static const struct {
         const char *name;
         uint32_t bounces;
@@ -165,9 +150,8 @@ static void a_solid_under_an_even_sky(void **state)
 /// Radiance 2 above and ½ below: of the hemisphere about a normal at an angle a to the vertical,
 /// the lune of solid angle 2a is below. This changes over the horizon's band, whose mean is a ratio
 /// of 16 rays; the mean over the solid shows what bias is left.
-static void a_solid_under_two_half_skies(void **state)
+TEST(a_solid_under_two_half_skies)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         alp_scene *scene = make_solid();
         alp_lightmap *lightmap = NULL;
@@ -198,9 +182,8 @@ static void a_solid_under_two_half_skies(void **state)
 }
 
 /// Oracle 14: radiance 2 from everywhere, direct and bounced.
-static void the_furnace(void **state)
+TEST(the_furnace)
 {
-    (void)state;
     for (int adaptive = 0; adaptive < 2; adaptive++) {
         alp_scene *scene = NULL;
         alp_lightmap *lightmap = NULL;
@@ -224,9 +207,8 @@ static const vec3 LAMP = {3.0f, 2.0f, 1.0f};
 /// I/r² Y(ω) where it is seen. Half a texel is h = 0.06 m, the lamp 2.7 m away: its middle is right
 /// to a few squares of h/r, 5e-4, of the coefficients, and to a third of h/r where the lamp is so
 /// low that one side of the texel gets all of the light. Dark texels point along the normal.
-static void a_solid_under_a_lamp(void **state)
+TEST(a_solid_under_a_lamp)
 {
-    (void)state;
     uint32_t lit = 0, dark = 0;
     double worst = 0.0;
     alp_scene *scene = make_solid();
@@ -297,9 +279,8 @@ static vec3 light_vector(const vec3 corners[4])
 /// A floor of 2 m under a rectangle 1 m above it, of radiance 1. At least 64 points of it tell the
 /// solid angle and what of the light vector lies across the normal, to 1 % or less, as it is
 /// narrow; what lies along is the irradiance, a closed form. Twice that is the limit.
-static void a_floor_under_a_rectangle(void **state)
+TEST(a_floor_under_a_rectangle)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     alp_lightmap *lightmap = NULL;
@@ -353,9 +334,8 @@ static alp_lightmap *bake_cornell(const alp_bake_options *options, alp_scene **s
 /// The first band gives E back: direct light, what is bounced, the sky and all rounds of rays are
 /// in both maps alike, to floats. A cubic that was kept from going below zero is not, in one of
 /// them.
-static void the_first_band_is_the_irradiance(void **state)
+TEST(the_first_band_is_the_irradiance)
 {
-    (void)state;
     static const struct {
         const char *name;
         alp_gather gather;
@@ -417,9 +397,8 @@ static double difference(const alp_lightmap *a, const alp_lightmap *b, double *m
 }
 
 /// Interpolated texels are as far from traced ones as two bakes with other seeds are.
-static void interpolation_is_within_the_noise(void **state)
+TEST(interpolation_is_within_the_noise)
 {
-    (void)state;
     alp_lightmap *maps[3];
     alp_scene *scenes[3] = {NULL, NULL, NULL};
     double noise, adaptive, mean;
@@ -441,9 +420,8 @@ static void interpolation_is_within_the_noise(void **state)
     }
 }
 
-static void workers_change_nothing(void **state)
+TEST(workers_change_nothing)
 {
-    (void)state;
     alp_lightmap *maps[2];
     alp_scene *scenes[2] = {NULL, NULL};
     alp_bake_options o = light_options(64);
@@ -465,19 +443,4 @@ static void workers_change_nothing(void **state)
         alp_scene_destroy(scenes[k]);
         alp_context_destroy(contexts[k]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_solid_under_an_even_sky),
-        cmocka_unit_test(a_solid_under_two_half_skies),
-        cmocka_unit_test(the_furnace),
-        cmocka_unit_test(a_solid_under_a_lamp),
-        cmocka_unit_test(a_floor_under_a_rectangle),
-        cmocka_unit_test(the_first_band_is_the_irradiance),
-        cmocka_unit_test(interpolation_is_within_the_noise),
-        cmocka_unit_test(workers_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -8,21 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 // --- receivers in free space ---------------------------------------------------------------------
 
@@ -89,9 +75,8 @@ static double hold(const alpi_reference_value *values, const double *exact, uint
 
 /// Oracles 1 and 2: E = π L whatever the tilt t; under a hemisphere π (up (1 + cos t) + down (1 −
 /// cos t)) / 2. A picture that is one colour is a constant sky.
-static void skies_over_any_tilt(void **state)
+TEST(skies_over_any_tilt)
 {
-    (void)state;
     static const char *const names[] = {"constant", "hemisphere", "picture of one colour"};
     static const alp_sky_kind kinds[] = {ALP_SKY_CONSTANT, ALP_SKY_HEMISPHERE, ALP_SKY_IMAGE};
     vec3 axes[AXES];
@@ -147,9 +132,8 @@ static alp_lighting_options sun_of(double size)
 
 /// Oracle 3's source: E = E⊥ cosθ⁺, where the disk is not cut by the receiver's own horizon.
 /// Without size that is exact; so is a disk of any size in the mean, because the cosine is linear.
-static void a_sun_gives_its_lux_times_the_cosine(void **state)
+TEST(a_sun_gives_its_lux_times_the_cosine)
 {
-    (void)state;
     static const double sizes[] = {0.0, 0.0093, 0.2};
     const double sun[3] = {cos(ELEVATION) * sin(AZIMUTH), sin(ELEVATION),
                            cos(ELEVATION) * cos(AZIMUTH)};
@@ -243,9 +227,8 @@ static double lamp_irradiance(const alpi_light *l, vec3 point, vec3 normal)
 
 /// Each lamp alone, and all together: nothing is left to chance where nothing is hidden, but with
 /// several lamps one of them is drawn in proportion to what it gives, which is as exact.
-static void lamps_and_spots(void **state)
+TEST(lamps_and_spots)
 {
-    (void)state;
     alpi_light lamps[LAMPS];
     vec3 axes[AXES];
     make_lamps(lamps);
@@ -313,9 +296,8 @@ static alp_scene *table(float albedo, float emission)
 
 /// L = Le + ρ/π E at what is seen: under a sun E⊥ cosθ, under a sky π L, and Le of its own; past
 /// the edge of the table there is the sky, which counts as met where it shines.
-static void what_a_camera_sees(void **state)
+TEST(what_a_camera_sees)
 {
-    (void)state;
     alp_lighting_options o = sun_of(0.6);
     o.sky.kind = ALP_SKY_HEMISPHERE;
     o.sky.up[1] = 40.0f;
@@ -348,15 +330,4 @@ static void what_a_camera_sees(void **state)
     ASSERT_NEAR(v.mean[1], 0.25 * 0.4 / ALPI_PI * 1000.0 * sin(ELEVATION),
                 STANDARD_ERRORS * sqrt((double)v.variance[1]));
     test_lit_close(&lit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(skies_over_any_tilt),
-        cmocka_unit_test(a_sun_gives_its_lux_times_the_cosine),
-        cmocka_unit_test(lamps_and_spots),
-        cmocka_unit_test(what_a_camera_sees),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

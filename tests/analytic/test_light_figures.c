@@ -21,21 +21,7 @@ typedef struct figure {
 } figure;
 
 static vec3 store[TRIANGLE_LIMIT][3], placed[TRIANGLE_LIMIT][3];
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 // --- figures -------------------------------------------------------------------------------------
 
@@ -148,9 +134,8 @@ enum { RIM = 256 };
 
 /// Oracle 5, over the middle and beside it. The polygon of 256 corners has the circle's area: what
 /// its rim leaves out and adds cancels to (2π/256)²/10 = 6e-5 of it or better.
-static void a_disk(void **state)
+TEST(a_disk)
 {
-    (void)state;
     const double h = 1.5, step = 2.0 * ALPI_PI / RIM, even = sqrt(step / sin(step));
     for (int k = 0; k < 2; k++) {
         const double a = k == 0 ? 0.0 : 2.0;
@@ -171,9 +156,8 @@ static void a_disk(void **state)
 }
 
 /// Oracle 6: over its corner, and a wall that begins at the foot of its own.
-static void a_rectangle_and_a_wall(void **state)
+TEST(a_rectangle_and_a_wall)
 {
-    (void)state;
     const vec3 over[4] = {{0, 1, 0}, {3, 1, 0}, {3, 1, 2.5f}, {0, 1, 2.5f}};
     const figure rectangle = polygon("rectangle over its corner", over, 4);
     const double A = 3.0, B = 2.5, sa = sqrt(1.0 + A * A), sb = sqrt(1.0 + B * B);
@@ -211,9 +195,8 @@ static figure sphere(const char *name, double x, double y, double radius)
 
 /// Oracle 4: from straight above down to where it touches the horizon, and resting on the plane.
 /// The facets are within 1e-3 of the sphere (the square of half a facet's angle, π/80).
-static void a_sphere(void **state)
+TEST(a_sphere)
 {
-    (void)state;
     static const double elevations[] = {90.0, 45.0, 15.0};
     const double radius = 0.5, distance = 2.0;
     const figure resting = sphere("sphere on the plane", 0.8, radius, radius);
@@ -232,9 +215,8 @@ static void a_sphere(void **state)
 }
 
 /// Oracle 11: a pentagon that is turned through the horizon until little of it is left.
-static void a_polygon_through_the_horizon(void **state)
+TEST(a_polygon_through_the_horizon)
 {
-    (void)state;
     static const vec3 flat[5] = {
         {-0.9f, 0, 0.1f}, {-0.3f, 0, -0.8f}, {0.7f, 0, -0.6f}, {1.0f, 0, 0.4f}, {0.1f, 0, 0.9f}};
     double before = 1.0, largest = 0.0;
@@ -258,9 +240,8 @@ static void a_polygon_through_the_horizon(void **state)
 }
 
 /// An L: concave, in four triangles; and its back, which is dark whichever way light is found.
-static void a_concave_polygon_and_its_back(void **state)
+TEST(a_concave_polygon_and_its_back)
 {
-    (void)state;
     const vec3 c[6] = {{0, 1, 0},       {1, 1, 0},    {1, 1, 0.4f},
                        {0.4f, 1, 0.4f}, {0.4f, 1, 1}, {0, 1, 1}};
     static const int parts[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
@@ -293,16 +274,4 @@ static void a_concave_polygon_and_its_back(void **state)
         ASSERT_NEAR(test_lit_point(&r, p.at, p.y).mean[1], 0.0, 0.0);
         test_lit_close(&lit);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_disk),
-        cmocka_unit_test(a_rectangle_and_a_wall),
-        cmocka_unit_test(a_sphere),
-        cmocka_unit_test(a_polygon_through_the_horizon),
-        cmocka_unit_test(a_concave_polygon_and_its_back),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

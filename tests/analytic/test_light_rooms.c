@@ -10,24 +10,10 @@
 #include <math.h>
 #include <stdio.h>
 
-static alp_context *context;
+TEST_CONTEXT(2);
 
 /// As seldom as 4 standard errors where 16 replicates measure the spread (Student's t).
 static const double STANDARD_ERRORS = 5.5;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
 
 static uint32_t grey(alpi_builder *b, const char *name, double albedo, double emission)
 {
@@ -60,9 +46,8 @@ static alp_scene *make_plates(double R, const double albedo[2], const double exi
 /// Oracle 13: B1 = (M1 + ρ1 M2) / (1 − ρ1 ρ2), which makes E1 = (M2 + ρ2 M1) / (1 − ρ1 ρ2); after n
 /// bounces the first n + 1 terms of that. Beyond 500 m there is 1/500² = 4e-6 of the hemisphere, at
 /// each way to and fro; the longest row here has ten that count.
-static void two_plates(void **state)
+TEST(two_plates)
 {
-    (void)state;
     static const double albedos[3][2] = {{0.5, 0.8}, {0.2, 0.9}, {0.0, 0.7}};
     static const double exitances[3][2] = {{1.0, 3.0}, {2.0, 0.0}, {1.0, 1.0}};
     static const uint32_t bounces[] = {0, 1, 2, 3, ALPI_REFERENCE_BOUNCE_LIMIT};
@@ -147,9 +132,8 @@ static const double FACETS = 4e-3;
 
 /// Oracle 15: a lamp of flux Φ = 4π I in the middle. Directly I/r² at the facet; indirectly
 /// Φ ρ / ((1 − ρ) 4π r²) everywhere. Over all facets the mean is Φ / ((1 − ρ) A), exactly.
-static void a_lamp_in_a_sphere(void **state)
+TEST(a_lamp_in_a_sphere)
 {
-    (void)state;
     static const double albedos[] = {0.5, 0.8};
     for (int i = 0; i < 2; i++) {
         const double rho = albedos[i], intensity = 2.0;
@@ -213,9 +197,8 @@ static double lamp_factor(const alp_scene *scene, vec3 position, vec3 normal)
 
 /// A part of the sphere that glows gives the same to every point of it, directly too (M F, of
 /// facets nearly so): E = M F + Φ ρ / ((1 − ρ) 4π r²).
-static void a_glowing_cap_of_a_sphere(void **state)
+TEST(a_glowing_cap_of_a_sphere)
 {
-    (void)state;
     const double rho = 0.5;
     alp_scene *scene = make_sphere(rho, 10);
     double lamp = 0.0;
@@ -282,9 +265,8 @@ static alp_scene *make_cube(double albedo, double ceiling_albedo, double ceiling
 /// Oracle 16: ceiling M = 1 and ρ = 0, ρ = .5 elsewhere. B = ρ E is .1552 on the floor, .179 in its
 /// middle and .1640 on the walls, known to the digits given; and all that is emitted is absorbed:
 /// (1 − ρ) (E floor + 4 E walls) + E ceiling = 1, exactly.
-static void a_cube_with_a_glowing_ceiling(void **state)
+TEST(a_cube_with_a_glowing_ceiling)
 {
-    (void)state;
     test_lit lit = test_lit_open(make_cube(0.5, 0.0, 1.0 / ALPI_PI, false), NULL);
     alpi_reference r = test_lit_reference(&lit, ALPI_REFERENCE_BOUNCE_LIMIT, 65536);
     for (uint32_t i = 0; i < 3; i++) {
@@ -326,9 +308,8 @@ static void a_cube_with_a_glowing_ceiling(void **state)
 
 /// In a closed room of one albedo the mean of E is Φ / ((1 − ρ) A): with a box in it that makes
 /// shadows, lit by its ceiling and by a lamp.
-static void the_mean_over_a_room_with_shadows(void **state)
+TEST(the_mean_over_a_room_with_shadows)
 {
-    (void)state;
     static const alpi_light lamp = {.kind = ALPI_LIGHT_POINT,
                                     .color = {1, 1, 1},
                                     .intensity = 0.2f,
@@ -350,16 +331,4 @@ static void the_mean_over_a_room_with_shadows(void **state)
                error_of(&v) / exact);
         test_lit_close(&lit);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_plates),
-        cmocka_unit_test(a_lamp_in_a_sphere),
-        cmocka_unit_test(a_glowing_cap_of_a_sphere),
-        cmocka_unit_test(a_cube_with_a_glowing_ceiling),
-        cmocka_unit_test(the_mean_over_a_room_with_shadows),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -16,21 +16,7 @@
 static const double SIDE = 0.05, STRIP = 0.02, EDGE = 0.025, HEIGHT = 1.0, HALF_WIDTH = 2.0;
 static const double ALBEDO = 0.8;
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// Half of what the strip could see is a wall that a level sun shines on, above a black box's
 /// shadow. Only the wall reflects, and sees nothing that does: what the strip gets has bounced
@@ -125,9 +111,8 @@ enum { MOST = 256 };
 /// the mean for all rays it would be +72.6 %.
 static const double FAR_HITS = -0.053;
 
-static void the_foot_of_a_wall(void **state)
+TEST(the_foot_of_a_wall)
 {
-    (void)state;
     static double found[MOST][3];
     alp_scene *scene = make_wall();
     const alp_bake_options o = wall_options();
@@ -149,9 +134,8 @@ static void the_foot_of_a_wall(void **state)
 
 /// The sun's place taken by a lamp of a picture, of which paths from near surfaces draw: as paths
 /// of the reference find it, but for what arrives from farther away than a texel's side.
-static void under_a_lamp_of_the_sky(void **state)
+TEST(under_a_lamp_of_the_sky)
 {
-    (void)state;
     enum { WIDTH = 512, ROWS = WIDTH / 2 };
     static double found[MOST][3], truth[MOST][3];
     const alp_image_info info = {WIDTH, ROWS, 3, ALP_COMPONENT_FLOAT};
@@ -185,9 +169,8 @@ static void under_a_lamp_of_the_sky(void **state)
 }
 
 /// The same bits where light by direction is wanted too, and for one worker.
-static void whoever_asks(void **state)
+TEST(whoever_asks)
 {
-    (void)state;
     static double found[MOST][3], again[MOST][3];
     alp_scene *scene = make_wall();
     alp_bake_options o = wall_options();
@@ -209,14 +192,4 @@ static void whoever_asks(void **state)
             context = two;
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_foot_of_a_wall),
-        cmocka_unit_test(under_a_lamp_of_the_sky),
-        cmocka_unit_test(whoever_asks),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -12,21 +12,7 @@
 
 enum { POINTS = 48 };
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static const vec3 EVERYWHERE[2] = {{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};
 
@@ -110,29 +96,20 @@ static void compare(const char *name, alp_scene *scene, const alp_lighting_optio
     }
 }
 
-static alp_scene *load(const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
-
 // --- scenes --------------------------------------------------------------------------------------
 
-static void rooms_with_lamps(void **state)
+TEST(rooms_with_lamps)
 {
-    (void)state;
-    compare("builtin:cornell", load("builtin:cornell"), NULL, EVERYWHERE, 1024);
-    compare("builtin:furnace", load("builtin:furnace"), NULL, EVERYWHERE, 1024);
+    compare("builtin:cornell", test_load(context, "builtin:cornell"), NULL, EVERYWHERE, 1024);
+    compare("builtin:furnace", test_load(context, "builtin:furnace"), NULL, EVERYWHERE, 1024);
     const vec3 room[2] = {{-2.0f, 0.0f, -2.0f}, {2.0f, 2.7f, 2.0f}};
-    compare("builtin:teapot-room", load("builtin:teapot-room"), NULL, room, 1024);
+    compare("builtin:teapot-room", test_load(context, "builtin:teapot-room"), NULL, room, 1024);
 }
 
 /// The small sun of the scene is met by one ray in 10,000: one that is 40° wide takes its place.
-static void a_sun_and_a_sky_through_windows(void **state)
+TEST(a_sun_and_a_sky_through_windows)
 {
-    (void)state;
-    alp_scene *scene = load("builtin:windows");
+    alp_scene *scene = test_load(context, "builtin:windows");
     alp_lighting_options o = alp_lighting_options_default();
     for (uint32_t i = 0; i < scene->material_count; i++) {
         memset(scene->materials[i].emission, 0, sizeof scene->materials[i].emission);
@@ -148,9 +125,8 @@ static void a_sun_and_a_sky_through_windows(void **state)
     compare("builtin:windows", scene, &o, room, 2048);
 }
 
-static void a_clear_sky_over_open_country_and_a_court(void **state)
+TEST(a_clear_sky_over_open_country_and_a_court)
 {
-    (void)state;
     alp_lighting_options o = alp_lighting_options_default();
     o.sky.kind = ALP_SKY_CLEAR;
     o.sun.azimuth = 1.0f;
@@ -158,15 +134,16 @@ static void a_clear_sky_over_open_country_and_a_court(void **state)
     o.sun.illuminance = 40000.0f;
     o.sun.size = 0.5f;
     const vec3 above[2] = {{-100.0f, -1.0f, -100.0f}, {100.0f, 100.0f, 100.0f}};
-    compare("builtin:terrain", load("builtin:terrain,triangles=5000"), &o, above, 1024);
-    compare("builtin:atrium", load("builtin:atrium,triangles=20000"), &o, EVERYWHERE, 1024);
+    compare("builtin:terrain", test_load(context, "builtin:terrain,triangles=5000"), &o, above,
+            1024);
+    compare("builtin:atrium", test_load(context, "builtin:atrium,triangles=20000"), &o, EVERYWHERE,
+            1024);
 }
 
 /// A room whose one wall shows a picture of 8 × 8 texels, most of them black, each channel
 /// another's.
-static void a_picture_that_glows(void **state)
+TEST(a_picture_that_glows)
 {
-    (void)state;
     enum { SIDE = 8 };
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -200,9 +177,8 @@ static void a_picture_that_glows(void **state)
 
 /// A coarse ball of smooth normals that glows: from where its normals look below its facets, it
 /// would light itself. It is convex, so that no bounce brings anything.
-static void a_smooth_ball_does_not_light_itself(void **state)
+TEST(a_smooth_ball_does_not_light_itself)
 {
-    (void)state;
     enum { PATHS = 1 << 14 };
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -223,16 +199,4 @@ static void a_smooth_ball_does_not_light_itself(void **state)
         ASSERT_NEAR(all.mean[0], first.mean[0], 0.0); // by the same paths
     }
     test_lit_close(&lit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rooms_with_lamps),
-        cmocka_unit_test(a_sun_and_a_sky_through_windows),
-        cmocka_unit_test(a_clear_sky_over_open_country_and_a_court),
-        cmocka_unit_test(a_picture_that_glows),
-        cmocka_unit_test(a_smooth_ball_does_not_light_itself),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

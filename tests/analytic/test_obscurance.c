@@ -7,21 +7,7 @@
 static const double TOLERANCE = 1e-3;
 static const double FAR = 1e5; // stands for infinite
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static alp_occlusion_options open_options(void)
 {
@@ -63,9 +49,8 @@ static void obscurance(const alp_scene *scene, const double position[3],
 static const float COLOR[3] = {0.8f, 0.3f, 0.1f}, BLACK[3] = {0, 0, 0};
 static const double ORIGIN[3] = {0, 0, 0}, UP[3] = {0, 1, 0};
 
-static void closed_room_shows_its_albedo(void **state)
+TEST(closed_room_shows_its_albedo)
 {
-    (void)state;
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, ORIGIN, 1.0, 32, 16, 1.0, 0);
     alp_scene *scene = colored_scene(mesh, COLOR, false);
@@ -80,9 +65,8 @@ static void closed_room_shows_its_albedo(void **state)
     alp_scene_destroy(scene);
 }
 
-static void plate_overhead_reflects(void **state)
+TEST(plate_overhead_reflects)
 {
-    (void)state;
     // Oracle 11: W = 1 − F + F ρ, from both sides of a double-sided plate.
     const double corners[4][3] = {
         {-0.4, 0.7, 1}, {0.9, 0.7, 1}, {0.9, 0.7, -0.5}, {-0.4, 0.7, -0.5}};
@@ -126,9 +110,8 @@ static double accessibility(const alp_scene *scene, const alp_occlusion_options 
     return test_occlusion(scene, ORIGIN, UP, options);
 }
 
-static void black_surfaces_only_occlude(void **state)
+TEST(black_surfaces_only_occlude)
 {
-    (void)state;
     alp_scene *black = near_wall(BLACK), *colored = near_wall(COLOR);
     alp_occlusion_options options = open_options();
     for (int falloff = ALP_FALLOFF_NONE; falloff <= ALP_FALLOFF_EXP; falloff++) {
@@ -149,12 +132,10 @@ static void black_surfaces_only_occlude(void **state)
     alp_scene_destroy(colored);
 }
 
-static void cornell_walls_bleed(void **state)
+TEST(cornell_walls_bleed)
 {
-    (void)state;
     // The red wall stands at x ≈ .55 m, the green one at 0.
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_occlusion_options options = open_options();
     double at_red[3], at_green[3];
     obscurance(scene, (double[]){0.53, 0, 0.1}, &options, at_red);
@@ -172,8 +153,7 @@ static void gather(uint32_t workers, uint64_t seed, float values[2][POINTS][3])
 {
     static float positions[POINTS][3], normals[POINTS][3];
     alp_context *own = test_context(workers);
-    alp_scene *scene = NULL;
-    ASSERT_OK(own, alp_scene_load(own, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(own, "builtin:cornell");
     for (int i = 0; i < POINTS; i++) {
         positions[i][0] = 0.05f + 0.45f * (float)(i % 50) / 50.0f;
         positions[i][1] = 0.0f;
@@ -192,9 +172,8 @@ static void gather(uint32_t workers, uint64_t seed, float values[2][POINTS][3])
     alp_context_destroy(own);
 }
 
-static void workers_change_no_bit_and_seeds_do(void **state)
+TEST(workers_change_no_bit_and_seeds_do)
 {
-    (void)state;
     static float one[2][POINTS][3], other[2][POINTS][3];
     const uint32_t workers[] = {2, 7, 32};
     gather(1, 5, one);
@@ -214,9 +193,8 @@ static void workers_change_no_bit_and_seeds_do(void **state)
     }
 }
 
-static void many_samples_add_up(void **state)
+TEST(many_samples_add_up)
 {
-    (void)state;
     // More than one round holds; and a number that is no multiple of four.
     alp_scene *scene = near_wall(COLOR);
     alp_occlusion_options options = open_options();
@@ -227,9 +205,8 @@ static void many_samples_add_up(void **state)
     alp_scene_destroy(scene);
 }
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
-    (void)state;
     alp_scene *scene = near_wall(COLOR);
     const float p[3] = {0, 0, 0}, n[3] = {0, 1, 0}, longer[3] = {0, 1.1f, 0};
     float out[3] = {7, 7, 7};
@@ -245,18 +222,4 @@ static void bad_arguments_are_refused(void **state)
     ASSERT_OK(context, alp_obscurance_at_points(scene, 0, NULL, NULL, NULL, NULL, NULL));
     ASSERT_OK(context, alp_bent_normals_at_points(scene, 0, NULL, NULL, NULL, NULL, NULL));
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_room_shows_its_albedo),
-        cmocka_unit_test(plate_overhead_reflects),
-        cmocka_unit_test(black_surfaces_only_occlude),
-        cmocka_unit_test(cornell_walls_bleed),
-        cmocka_unit_test(workers_change_no_bit_and_seeds_do),
-        cmocka_unit_test(many_samples_add_up),
-        cmocka_unit_test(bad_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -14,7 +14,7 @@ static const double FAR = 1e5; // stands for infinite: what it cuts off is below
 /// README.
 #define CLOSED_FORM(actual, expected) closed_form((actual), (expected), #actual, __FILE__, __LINE__)
 
-static alp_context *context;
+TEST_CONTEXT(2);
 static double largest_error;
 static int point_count;
 
@@ -43,20 +43,6 @@ static alp_occlusion_options open_options(void)
     return o;
 }
 
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
-
 /// A wall in the plane x = `at`, facing −x, from z0 to z1 and y0 to y1.
 static void add_wall(test_mesh *mesh, double at, double z0, double z1, double y0, double y1)
 {
@@ -70,9 +56,8 @@ static void add_floor(test_mesh *mesh, double half)
                    (double[]){0, 0, -2 * half});
 }
 
-static void open_plane_is_exactly_one(void **state)
+TEST(open_plane_is_exactly_one)
 {
-    (void)state;
     // Oracle 2 at tilt 0, on a plane in general position, near and far from the origin.
     const double far_from_origin[] = {0.0, 1.0, 1e4};
     for (int i = 0; i < 3; i++) {
@@ -101,9 +86,8 @@ static void open_plane_is_exactly_one(void **state)
     }
 }
 
-static void wide_planes_do_not_shade_themselves(void **state)
+TEST(wide_planes_do_not_shade_themselves)
 {
-    (void)state;
     // Near the origin of a wide plane a position is exact and its triangle's corners are far: only
     // the triangle's size tells how far a ray must be lifted.
     for (double wide = 1.0; wide < 1e6; wide *= 100.0) {
@@ -135,9 +119,8 @@ static void wide_planes_do_not_shade_themselves(void **state)
     }
 }
 
-static void tilted_receiver_over_a_plane(void **state)
+TEST(tilted_receiver_over_a_plane)
 {
-    (void)state;
     // Oracle 2: openness (1 + cos t) / 2.
     test_mesh *mesh = test_mesh_start();
     add_floor(mesh, FAR);
@@ -155,9 +138,8 @@ static void tilted_receiver_over_a_plane(void **state)
     report("oracle 2, tilted receiver over a plane");
 }
 
-static void sphere_above_and_on_a_plane(void **state)
+TEST(sphere_above_and_on_a_plane)
 {
-    (void)state;
     // Oracle 4: F = c (r/d)² above the horizon; resting on the plane at lateral x, R³/(x²+R²)^1.5.
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){0, 1, 0}, 1.0, 512, 256, 1.0, 1);
@@ -176,9 +158,8 @@ static void sphere_above_and_on_a_plane(void **state)
     report("oracle 4, sphere above and on a plane");
 }
 
-static void parallel_and_perpendicular_rectangles(void **state)
+TEST(parallel_and_perpendicular_rectangles)
 {
-    (void)state;
     // Oracle 6 and the table of reference values.
     alp_occlusion_options options = open_options();
     double up[3] = {0, 1, 0}, origin[3] = {0, 0, 0};
@@ -207,9 +188,8 @@ static void parallel_and_perpendicular_rectangles(void **state)
     report("oracle 6, parallel and perpendicular rectangles");
 }
 
-static void walls_corners_and_trenches(void **state)
+TEST(walls_corners_and_trenches)
 {
-    (void)state;
     alp_occlusion_options options = open_options();
     double up[3] = {0, 1, 0}, origin[3] = {0, 0, 0};
     test_mesh *mesh = test_mesh_start(); // oracle 7: infinite wall of height H at x
@@ -278,9 +258,8 @@ static double weight_exp(double t)
     return (exp(-4.0 * t) - exp(-4.0)) / (1.0 - exp(-4.0));
 }
 
-static void distance_limit_and_falloff(void **state)
+TEST(distance_limit_and_falloff)
 {
-    (void)state;
     double (*const weights[])(double) = {weight_none, weight_linear, weight_smooth, weight_exp};
     test_mesh *mesh = test_mesh_start();
     add_wall(mesh, 1.0, -FAR, FAR, 0, FAR);
@@ -300,9 +279,8 @@ static void distance_limit_and_falloff(void **state)
     report("oracle 8, distance limit and the four fall-offs");
 }
 
-static void cones_see_only_their_cone(void **state)
+TEST(cones_see_only_their_cone)
 {
-    (void)state;
     // A coaxial disk of radius R at height h (oracle 5) seen in a cone of half-angle a: the share
     // is sin²θ / sin²a with θ the disk's half-angle; uniform directions (1 − cos θ) / (1 − cos a).
     test_mesh *mesh = test_mesh_start();
@@ -332,9 +310,8 @@ static void cones_see_only_their_cone(void **state)
     report("oracle 5, disk seen in cones");
 }
 
-static void inside_of_a_cut_sphere(void **state)
+TEST(inside_of_a_cut_sphere)
 {
-    (void)state;
     // Oracle 10: openness (1 − z_c)/2 at every point of the true sphere. A facet's exact answer is
     // the form factor of the rim polygon about the facet's normal (oracle 11); both are asked for.
     enum { SLICES = 256, STACKS = 128 };
@@ -378,9 +355,8 @@ static void inside_of_a_cut_sphere(void **state)
     report("oracle 10 and 11, inside of a cut sphere");
 }
 
-static void closed_cube_and_opposite_squares(void **state)
+TEST(closed_cube_and_opposite_squares)
 {
-    (void)state;
     // Oracle 12: mean over a unit square of what an opposite / adjacent square takes: .199824896
     // and .200043776; a closed cube takes all. Mean over a 16 × 16 midpoint grid of receivers.
     enum { GRID = 16 };
@@ -415,9 +391,8 @@ static void closed_cube_and_opposite_squares(void **state)
     report("oracle 12, mean over squares of a cube");
 }
 
-static void one_sided_is_open_from_behind(void **state)
+TEST(one_sided_is_open_from_behind)
 {
-    (void)state;
     test_mesh *mesh = test_mesh_start(); // a ceiling that faces up: seen from behind
     test_mesh_quad(mesh, (double[]){-1, 1, 1}, (double[]){2, 0, 0}, (double[]){0, 0, -2});
     double up[3] = {0, 1, 0}, origin[3] = {0, 0, 0};
@@ -437,9 +412,8 @@ static void one_sided_is_open_from_behind(void **state)
     }
 }
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
-    (void)state;
     test_mesh *mesh = test_mesh_start();
     add_floor(mesh, 1.0);
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -469,23 +443,4 @@ static void bad_arguments_are_refused(void **state)
     assert_true(out == 7.0f);
     ASSERT_OK(context, alp_occlusion_at_points(scene, 0, NULL, NULL, NULL, NULL, NULL));
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(open_plane_is_exactly_one),
-        cmocka_unit_test(wide_planes_do_not_shade_themselves),
-        cmocka_unit_test(tilted_receiver_over_a_plane),
-        cmocka_unit_test(sphere_above_and_on_a_plane),
-        cmocka_unit_test(parallel_and_perpendicular_rectangles),
-        cmocka_unit_test(walls_corners_and_trenches),
-        cmocka_unit_test(distance_limit_and_falloff),
-        cmocka_unit_test(cones_see_only_their_cone),
-        cmocka_unit_test(inside_of_a_cut_sphere),
-        cmocka_unit_test(closed_cube_and_opposite_squares),
-        cmocka_unit_test(one_sided_is_open_from_behind),
-        cmocka_unit_test(bad_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

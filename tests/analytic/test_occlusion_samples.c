@@ -24,10 +24,8 @@ static alp_occlusion_options open_options(uint32_t samples)
     return options;
 }
 
-static void any_number_of_samples_counts_exactly(void **state)
+TEST_WITH_CONTEXT(any_number_of_samples_counts_exactly, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1.0, 16, 8, 1.0, 0);
     alp_scene *closed = test_mesh_scene(context, mesh, 1);
@@ -41,13 +39,10 @@ static void any_number_of_samples_counts_exactly(void **state)
         }
     }
     alp_scene_destroy(closed);
-    alp_context_destroy(context);
 }
 
-static void a_run_of_samples_continues_the_sequence(void **state)
+TEST_WITH_CONTEXT(a_run_of_samples_continues_the_sequence, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = lid_scene(context);
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
@@ -84,13 +79,10 @@ static void a_run_of_samples_continues_the_sequence(void **state)
     alpi_occlusion_release(&setup);
     assert_true(different > 0); // else a second run of samples would be the first one again
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void quarters_take_equal_shares_of_what_is_no_multiple(void **state)
+TEST_WITH_CONTEXT(quarters_take_equal_shares_of_what_is_no_multiple, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = lid_scene(context);
     alpi_tracer *tracer = NULL;
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
@@ -124,14 +116,11 @@ static void quarters_take_equal_shares_of_what_is_no_multiple(void **state)
     alpi_point_array_destroy(context, &points);
     alpi_occlusion_release(&setup);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_receiver_has_its_own_samples(void **state)
+TEST_WITH_CONTEXT(every_receiver_has_its_own_samples, 1)
 {
-    (void)state;
     enum { COUNT = 1024 };
-    alp_context *context = test_context(1);
     alp_scene *scene = lid_scene(context);
     static float positions[COUNT][3], normals[COUNT][3], values[COUNT];
     for (int i = 0; i < COUNT; i++) {
@@ -151,13 +140,10 @@ static void every_receiver_has_its_own_samples(void **state)
     // mean).
     ASSERT_NEAR(mean, 1.0 - 0.138531606, 2e-3);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_shading_normal_is_the_axis(void **state)
+TEST_WITH_CONTEXT(the_shading_normal_is_the_axis, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = lid_scene(context);
     const double corners[4][3] = {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};
     const double point[3] = {0, 0, 0}, shading[3] = {0.8, 0.6, 0.0};
@@ -166,15 +152,12 @@ static void the_shading_normal_is_the_axis(void **state)
     ASSERT_OK(context, alp_occlusion_at_points(scene, 1, position, up, axis, &options, &value));
     ASSERT_NEAR(value, 1.0 - test_polygon_form_factor(point, shading, corners, 4), 1e-3);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void rays_start_on_the_geometric_side(void **state)
+TEST_WITH_CONTEXT(rays_start_on_the_geometric_side, 1)
 {
-    (void)state;
     // A floor seen from above with an axis that points into it: every ray hits the floor. Had the
     // start been moved along the axis, it would be below the floor and every ray free.
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-9, 1, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
     alp_scene *scene = test_mesh_scene(context, mesh, 1);
@@ -186,13 +169,10 @@ static void rays_start_on_the_geometric_side(void **state)
     ASSERT_OK(context, alp_occlusion_at_points(scene, 1, position, down, down, &options, &value));
     ASSERT_NEAR(value, 1.0, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_automatic_distance_is_a_fifth_of_the_diagonal(void **state)
+TEST_WITH_CONTEXT(the_automatic_distance_is_a_fifth_of_the_diagonal, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){5, 0, 0}, (double[]){2, 0, 0}, (double[]){0, 3, 6});
     alp_scene *scene = test_mesh_scene(context, mesh, 1);
@@ -201,19 +181,4 @@ static void the_automatic_distance_is_a_fifth_of_the_diagonal(void **state)
     options.distance = 0.75f;
     ASSERT_NEAR(alp_occlusion_distance(scene, &options), 0.75, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_number_of_samples_counts_exactly),
-        cmocka_unit_test(a_run_of_samples_continues_the_sequence),
-        cmocka_unit_test(quarters_take_equal_shares_of_what_is_no_multiple),
-        cmocka_unit_test(every_receiver_has_its_own_samples),
-        cmocka_unit_test(the_shading_normal_is_the_axis),
-        cmocka_unit_test(rays_start_on_the_geometric_side),
-        cmocka_unit_test(the_automatic_distance_is_a_fifth_of_the_diagonal),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

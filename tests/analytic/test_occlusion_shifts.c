@@ -114,9 +114,8 @@ static void check(const trial *trials, size_t count)
     alp_context_destroy(context);
 }
 
-static void directions_of_neighbours_are_not_correlated(void **state)
+TEST(directions_of_neighbours_are_not_correlated)
 {
-    (void)state;
     const trial trials[] = {
         {{false}, ALP_FALLOFF_NONE, 4, 4},     {{false}, ALP_FALLOFF_NONE, 16, 16},
         {{false}, ALP_FALLOFF_NONE, 64, 64},   {{false}, ALP_FALLOFF_NONE, 100, 100},
@@ -125,9 +124,8 @@ static void directions_of_neighbours_are_not_correlated(void **state)
     check(trials, sizeof trials / sizeof *trials);
 }
 
-static void the_beginning_of_a_long_sequence_is_as_good(void **state)
+TEST(the_beginning_of_a_long_sequence_is_as_good)
 {
-    (void)state;
     const trial trials[] = {
         {{false}, ALP_FALLOFF_NONE, 4096, 64},
         {{false}, ALP_FALLOFF_NONE, 4096, 256},
@@ -136,9 +134,8 @@ static void the_beginning_of_a_long_sequence_is_as_good(void **state)
     check(trials, sizeof trials / sizeof *trials);
 }
 
-static void lengths_of_neighbours_are_not_correlated(void **state)
+TEST(lengths_of_neighbours_are_not_correlated)
 {
-    (void)state;
     const trial trials[] = {
         {{false}, ALP_FALLOFF_SMOOTH, 16, 16},
         {{false}, ALP_FALLOFF_SMOOTH, 64, 64},
@@ -147,24 +144,12 @@ static void lengths_of_neighbours_are_not_correlated(void **state)
     check(trials, sizeof trials / sizeof *trials);
 }
 
-static void places_of_neighbours_are_not_correlated(void **state)
+TEST(places_of_neighbours_are_not_correlated)
 {
-    (void)state;
     const trial trials[] = {
         {{true}, ALP_FALLOFF_NONE, 16, 16},
         {{true}, ALP_FALLOFF_NONE, 64, 64},
         {{true}, ALP_FALLOFF_NONE, 300, 300},
     };
     check(trials, sizeof trials / sizeof *trials);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_of_neighbours_are_not_correlated),
-        cmocka_unit_test(the_beginning_of_a_long_sequence_is_as_good),
-        cmocka_unit_test(lengths_of_neighbours_are_not_correlated),
-        cmocka_unit_test(places_of_neighbours_are_not_correlated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

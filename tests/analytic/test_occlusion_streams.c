@@ -83,9 +83,8 @@ static alpi_occlusion_sums send_rays(const rays *r, uint32_t count, uint32_t ste
     return sums;
 }
 
-static void every_ray_counts_once(void **state)
+TEST(every_ray_counts_once)
 {
-    (void)state;
     static const uint32_t steps[] = {UINT32_MAX / 2, 65, 7};
     for (int k = 0; k < 12 * SAMPLE_COUNTS; k++) {
         const bool extended = k % 2 != 0, streams = k / 2 % 2 != 0;
@@ -121,9 +120,8 @@ static void assert_same(const alpi_occlusion_sums *a, const alpi_occlusion_sums 
     }
 }
 
-static void streams_packets_parts_and_steps_agree(void **state)
+TEST(streams_packets_parts_and_steps_agree)
 {
-    (void)state;
     // A ray that grazes an edge may be decided either way: with these seeds none does.
     static const uint32_t counts[] = {1, 7, 8, 9, 15, RECEIVERS};
     // Of which of its receiver's points a sample leaves hangs on the others that are sent with it,
@@ -151,13 +149,4 @@ static void streams_packets_parts_and_steps_agree(void **state)
         alpi_occlusion_sums_destroy(r.context, &whole);
         tear_down(&r);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_ray_counts_once),
-        cmocka_unit_test(streams_packets_parts_and_steps_agree),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,10 +24,8 @@ static double z_score(const alp_scene *scene, const double p[3], const double n[
     return mean / sqrt(variance / SEEDS + 1e-16);
 }
 
-static void errors_average_out(void **state)
+TEST_WITH_CONTEXT(errors_average_out, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start(); // a 1 × 1 panel overhead and a wall aside
     test_mesh_quad(mesh, (double[]){0, 1, 0}, (double[]){1, 0, 0}, (double[]){0, 0, 1});
     test_mesh_quad(mesh, (double[]){-0.7, 0, 0}, (double[]){0, 3, 0}, (double[]){0, 0, 1.5});
@@ -47,15 +45,12 @@ static void errors_average_out(void **state)
         assert_true(fabs(z) < 4.0);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void stratification_pays(void **state)
+TEST_WITH_CONTEXT(stratification_pays, 1)
 {
-    (void)state;
     // The error of N stratified rays falls faster than N^-1/2: at 1,024 rays it must be well below
     // that of independent rays, √(A(1−A)/N) = .0153.
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-0.5, 1, -0.5}, (double[]){1.7, 0, 0}, (double[]){0, 0, 1.3});
     alp_scene *scene = test_mesh_scene(context, mesh, 1);
@@ -75,14 +70,4 @@ static void stratification_pays(void **state)
     print_message("rmse %.5f, independent rays %.5f\n", rmse, independent);
     assert_true(rmse < 0.35 * independent);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_average_out),
-        cmocka_unit_test(stratification_pays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

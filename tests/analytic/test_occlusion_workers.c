@@ -2,6 +2,8 @@
 // The number of workers changes no bit; another seed changes many.
 #include "test_scenes.h"
 
+#include <stdlib.h>
+
 enum { POINTS = 3000 };
 
 static void gather(uint32_t workers, uint64_t seed, uint32_t samples, float *values)
@@ -29,22 +31,18 @@ static void gather(uint32_t workers, uint64_t seed, uint32_t samples, float *val
     alp_context_destroy(context);
 }
 
-static void any_number_of_workers_gives_the_same_bits(void **state)
+static void gather_seed(uint32_t workers, const void *seed, void *values)
 {
-    (void)state;
-    static float one[POINTS], other[POINTS];
-    const uint32_t workers[] = {2, 7, 32};
-    gather(1, 5, 64, one);
-    for (size_t i = 0; i < sizeof workers / sizeof *workers; i++) {
-        memset(other, 0, sizeof other);
-        gather(workers[i], 5, 64, other);
-        assert_memory_equal(one, other, sizeof one);
-    }
+    gather(workers, *(const uint64_t *)seed, 64, values);
 }
 
-static void another_seed_gives_other_bits(void **state)
+TEST(any_number_of_workers_gives_the_same_bits)
 {
-    (void)state;
+    free(test_any_workers(gather_seed, &(uint64_t){5}, POINTS * sizeof(float)));
+}
+
+TEST(another_seed_gives_other_bits)
+{
     static float one[POINTS], other[POINTS];
     gather(2, 5, 64, one);
     gather(2, 6, 64, other);
@@ -55,11 +53,9 @@ static void another_seed_gives_other_bits(void **state)
     assert_true(different > POINTS / 10);
 }
 
-static void rounds_of_samples_add_up(void **state)
+TEST_WITH_CONTEXT(rounds_of_samples_add_up, 2)
 {
-    (void)state;
     // More samples than one round holds: a prefix of the sequence of a longer run is not lost.
-    alp_context *context = test_context(2);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 1, 0}, (double[]){1, 0, 0}, (double[]){0, 0, 1});
     alp_scene *scene = test_mesh_scene(context, mesh, 1);
@@ -70,15 +66,4 @@ static void rounds_of_samples_add_up(void **state)
     double value = test_occlusion(scene, (double[]){0, 0, 0}, (double[]){0, 1, 0}, &options);
     ASSERT_NEAR(value, 1.0 - 0.138531606, 1e-4);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
-        cmocka_unit_test(another_seed_gives_other_bits),
-        cmocka_unit_test(rounds_of_samples_add_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

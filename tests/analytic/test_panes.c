@@ -11,21 +11,7 @@
 static const double PI = 3.14159265358979323846;
 static const vec3 UP = {0.0f, 1.0f, 0.0f}, DARK = {0.0f, 0.0f, 0.0f};
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// Adds a horizontal square of half side 50 m, facing up.
 static void add_level(alpi_builder *b, float height)
@@ -113,9 +99,8 @@ static alpi_reference_value direct_at(const test_lit *lit, uint32_t samples, vec
 }
 
 /// Every combination of the first 2^i panes, under a sun without size: nothing is left to chance.
-static void a_sun_is_filtered_by_every_pane(void **state)
+TEST(a_sun_is_filtered_by_every_pane)
 {
-    (void)state;
     for (uint32_t set = 1; set < 16; set++) {
         pane_material some[4];
         uint32_t count = 0;
@@ -146,9 +131,8 @@ static void a_sun_is_filtered_by_every_pane(void **state)
 
 /// A floor in a box of panes under an even sky: E = πL through the panes, by rays that ask the sky
 /// and by those that meet it alone.
-static void a_sky_is_seen_through_panes(void **state)
+TEST(a_sky_is_seen_through_panes)
 {
-    (void)state;
     for (uint32_t i = 0; i < 3; i++) {
         alpi_builder b;
         alp_scene *scene = NULL;
@@ -179,9 +163,8 @@ static void a_sky_is_seen_through_panes(void **state)
 }
 
 /// Nothing changes in a furnace when a clear pane without colour stands in it.
-static void a_clear_pane_is_not_seen(void **state)
+TEST(a_clear_pane_is_not_seen)
 {
-    (void)state;
     const pane_material clear = {{1.0f, 1.0f, 1.0f}, -1.0f, 1.0f, 0.0f};
     const float rho = 0.5f;
     alpi_builder b;
@@ -208,9 +191,8 @@ static void a_clear_pane_is_not_seen(void **state)
 
 /// A lit room with a coloured pane across it: asking lights and meeting them agree after any number
 /// of bounces, so a pane keeps and passes by the same shares for both.
-static void both_ways_to_light_agree_behind_panes(void **state)
+TEST(both_ways_to_light_agree_behind_panes)
 {
-    (void)state;
     const pane_material tinted = {{0.9f, 0.5f, 0.2f}, 0.6f, 0.5f, 0.0f};
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -264,9 +246,8 @@ static void look_down(const void *user, uint32_t count, const uint64_t *pixels, 
 }
 
 /// A mask cuts before anything is transmitted: below its cutoff there is a hole, above it the pane.
-static void a_mask_cuts_panes(void **state)
+TEST(a_mask_cuts_panes)
 {
-    (void)state;
     for (int cut = 0; cut < 2; cut++) {
         alp_scene *scene = make_stack(&PANES[1], 1);
         scene->materials[1].alpha_mode = ALPI_ALPHA_MASK;
@@ -288,9 +269,8 @@ static void a_mask_cuts_panes(void **state)
 }
 
 /// Before nothing, a black pane fills as much of a pixel as it takes from what is behind.
-static void a_pane_covers_what_it_takes(void **state)
+TEST(a_pane_covers_what_it_takes)
 {
-    (void)state;
     static const float alphas[] = {0.0f, 0.25f, 1.0f};
     for (int i = 0; i < 3; i++) {
         const pane_material black = {{0.0f, 0.0f, 0.0f}, alphas[i], 0.0f, 0.0f};
@@ -312,9 +292,8 @@ static void a_pane_covers_what_it_takes(void **state)
 
 /// A glowing pane over a lamp, seen from above: L = a Le of the pane + what it lets through of the
 /// lamp's.
-static void the_eye_sees_through_panes(void **state)
+TEST(the_eye_sees_through_panes)
 {
-    (void)state;
     const pane_material pane = {{1.0f, 0.5f, 0.25f}, 0.25f, 0.0f, 0.0f};
     alpi_builder b;
     alp_scene *scene = NULL;
@@ -338,18 +317,4 @@ static void the_eye_sees_through_panes(void **state)
     }
     ASSERT_NEAR(covered, 1.0, 0.0);
     test_lit_close(&lit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sun_is_filtered_by_every_pane),
-        cmocka_unit_test(a_sky_is_seen_through_panes),
-        cmocka_unit_test(a_clear_pane_is_not_seen),
-        cmocka_unit_test(both_ways_to_light_agree_behind_panes),
-        cmocka_unit_test(a_mask_cuts_panes),
-        cmocka_unit_test(a_pane_covers_what_it_takes),
-        cmocka_unit_test(the_eye_sees_through_panes),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -45,9 +45,8 @@ static void clear(alp_context *context, alp_scene *scene, alpi_lighting *lightin
     alp_context_destroy(context);
 }
 
-static void a_lamp_gives_intensity_over_distance_squared(void **state)
+TEST(a_lamp_gives_intensity_over_distance_squared)
 {
-    (void)state;
     alp_context *context = test_context(1);
     const alpi_light light = lamp((vec3){0, 3, 4}, 100.0f);
     alp_scene *scene = light_scene(context, &light, 1);
@@ -68,9 +67,8 @@ static void a_lamp_gives_intensity_over_distance_squared(void **state)
 }
 
 /// KHR_lights_punctual: clamp(1 − (d/range)⁴) / d².
-static void a_range_ends_light_without_an_edge(void **state)
+TEST(a_range_ends_light_without_an_edge)
 {
-    (void)state;
     alp_context *context = test_context(1);
     alpi_light light = lamp(ORIGIN, 16.0f);
     light.range = 4.0f;
@@ -84,9 +82,8 @@ static void a_range_ends_light_without_an_edge(void **state)
     clear(context, scene, lighting);
 }
 
-static void a_spot_fades_between_its_cones(void **state)
+TEST(a_spot_fades_between_its_cones)
 {
-    (void)state;
     alp_context *context = test_context(1);
     alpi_light light = lamp((vec3){0, 2, 0}, 8.0f);
     light.kind = ALPI_LIGHT_SPOT;
@@ -113,9 +110,8 @@ static void a_spot_fades_between_its_cones(void **state)
 }
 
 /// inner = outer: an edge that is as wide as the extension's 0.001 of a cosine.
-static void a_spot_of_one_cone_has_an_edge(void **state)
+TEST(a_spot_of_one_cone_has_an_edge)
 {
-    (void)state;
     alp_context *context = test_context(1);
     alpi_light light = lamp((vec3){0, 1, 0}, 1.0f);
     light.kind = ALPI_LIGHT_SPOT;
@@ -141,9 +137,8 @@ static alp_lighting_options sun_options(double azimuth, double elevation, float 
     return o;
 }
 
-static void a_sun_gives_its_lux_times_the_cosine(void **state)
+TEST(a_sun_gives_its_lux_times_the_cosine)
 {
-    (void)state;
     const float five = (float)(5.0 * ALPI_PI / 180.0);
     const float sizes[] = {0.0f, 0.0093f, five, 1e-6f, 1e-4f, (float)(ALPI_PI / 2.0)};
     for (int i = 0; i < 6; i++) {
@@ -178,9 +173,8 @@ static void a_sun_gives_its_lux_times_the_cosine(void **state)
 
 /// Half of a disk on the horizon: E = E⊥/(π sin²h) ∫ of the upper half = L · 2h³/3 for a small
 /// half-angle h, as the cosine above the horizon is y and ∫ y over half a disk is 2h³/3.
-static void a_sun_on_the_horizon_gives_its_upper_half(void **state)
+TEST(a_sun_on_the_horizon_gives_its_upper_half)
 {
-    (void)state;
     alp_context *context = test_context(1);
     alp_scene *scene = light_scene(context, &(alpi_light){0}, 1);
     scene->light_count = 0;
@@ -193,9 +187,8 @@ static void a_sun_on_the_horizon_gives_its_upper_half(void **state)
     clear(context, scene, lighting);
 }
 
-static void the_file_s_suns_get_a_size(void **state)
+TEST(the_file_s_suns_get_a_size)
 {
-    (void)state;
     alp_context *context = test_context(1);
     const alpi_light lights[2] = {{.kind = ALPI_LIGHT_DIRECTIONAL,
                                    .color = {1, 1, 1},
@@ -223,9 +216,8 @@ static void the_file_s_suns_get_a_size(void **state)
 }
 
 /// 16 are asked one by one, 17 stand in a tree, a directional one beside it: the sum is the same.
-static void many_lamps_add_up(void **state)
+TEST(many_lamps_add_up)
 {
-    (void)state;
     enum { LIMIT = 10000 };
     static alpi_light lights[LIMIT];
     const uint32_t counts[] = {2, 16, 18, LIMIT};
@@ -263,19 +255,4 @@ static void many_lamps_add_up(void **state)
         }
         clear(context, scene, lighting);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lamp_gives_intensity_over_distance_squared),
-        cmocka_unit_test(a_range_ends_light_without_an_edge),
-        cmocka_unit_test(a_spot_fades_between_its_cones),
-        cmocka_unit_test(a_spot_of_one_cone_has_an_edge),
-        cmocka_unit_test(a_sun_gives_its_lux_times_the_cosine),
-        cmocka_unit_test(a_sun_on_the_horizon_gives_its_upper_half),
-        cmocka_unit_test(the_file_s_suns_get_a_size),
-        cmocka_unit_test(many_lamps_add_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

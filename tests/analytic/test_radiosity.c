@@ -8,21 +8,7 @@
 #include <stdio.h>
 
 static const vec3 ONE = {1, 1, 1}, ZERO = {0, 0, 0};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static double root(float variance)
 {
@@ -53,9 +39,8 @@ static alp_scene *make_cube(double albedo, double radiance, double ceiling_albed
 /// Oracle 14: all surfaces emit M = 1; after n bounces E = (1 − ρ^(n+1)) / (1 − ρ) everywhere. What
 /// errs is direct light: every ray of every pass meets something. A texel's error is its own direct
 /// light's and a mean over many others', which is smaller.
-static void furnaces_after_every_bounce(void **state)
+TEST(furnaces_after_every_bounce)
 {
-    (void)state;
     static const double albedos[] = {0.2, 0.5, 0.8, 0.95};
     static const uint32_t bounces[] = {1, 3, UINT32_MAX};
     for (int i = 0; i < 4; i++) {
@@ -89,9 +74,8 @@ static void furnaces_after_every_bounce(void **state)
 
 /// Each bounce leaves ρ^(n+1) / (1 − ρ^(n+1)) of all light so far to those after it: passes end
 /// where that is below the tolerance, or with the bounces that are asked for.
-static void passes_end_at_the_tolerance(void **state)
+TEST(passes_end_at_the_tolerance)
 {
-    (void)state;
     static const struct {
         double tolerance;
         uint32_t bounces, passes;
@@ -127,9 +111,8 @@ static test_radiant_options patch_options(void)
 static const double PATCH_ERROR = 4e-3;
 
 /// Oracle 16 with one constant patch a face: its closed form is of such patches alone.
-static void a_cube_of_six_patches(void **state)
+TEST(a_cube_of_six_patches)
 {
-    (void)state;
     test_radiant r;
     test_radiant_options o = patch_options();
     test_radiant_open(make_cube(0.5, 0.0, 0.0, 1.0 / ALPI_PI), &o, &r);
@@ -161,9 +144,8 @@ static alp_scene *make_plates(double half, const double albedo[2], const double 
 /// Oracle 13, E1 = (M2 + ρ2 M1) / (1 − ρ1 ρ2), of plates a kilometre wide and a metre apart, in the
 /// middle; and of two unit squares with a patch each, where all goes through the form factor F of
 /// oracle 12: E1 = F (M2 + ρ2 F M1) / (1 − ρ1 ρ2 F²).
-static void two_plates(void **state)
+TEST(two_plates)
 {
-    (void)state;
     static const double albedo[2] = {0.5, 0.8}, exitance[2] = {1.0, 3.0};
     for (int wide = 0; wide < 2; wide++) {
         test_radiant r;
@@ -205,9 +187,8 @@ static void two_plates(void **state)
 // --- texels --------------------------------------------------------------------------------------
 
 /// Oracle 16, the continuous solution, known to the digits given. By rays and by hemicubes.
-static void a_cube_of_texels(void **state)
+TEST(a_cube_of_texels)
 {
-    (void)state;
     for (uint32_t cube = 0; cube <= 16; cube += 16) {
         test_radiant r;
         test_radiant_options o = test_radiant_default();
@@ -245,9 +226,8 @@ enum { SLICES = 96, STACKS = 48 };
 
 /// Oracle 15: indirectly Φ ρ / ((1 − ρ) 4π r²) everywhere; E = Φ / ((1 − ρ) A) in the mean,
 /// exactly. Each facet is a chart.
-static void a_lamp_in_a_sphere(void **state)
+TEST(a_lamp_in_a_sphere)
 {
-    (void)state;
     const double rho = 0.8, intensity = 2.0, flux = 4.0 * ALPI_PI * intensity;
     test_radiant r;
     test_radiant_options o = test_radiant_default();
@@ -284,17 +264,4 @@ static void a_lamp_in_a_sphere(void **state)
     assert_true(worst < 6e-3);
     assert_true(alp_atlas_get_info(r.atlas).charts > 4096);
     test_radiant_close(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnaces_after_every_bounce),
-        cmocka_unit_test(passes_end_at_the_tolerance),
-        cmocka_unit_test(a_cube_of_six_patches),
-        cmocka_unit_test(two_plates),
-        cmocka_unit_test(a_cube_of_texels),
-        cmocka_unit_test(a_lamp_in_a_sphere),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

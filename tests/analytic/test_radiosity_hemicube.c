@@ -13,21 +13,7 @@
 // such a point alone may decide a root mean square: the worst of a hundred are left out, five.
 enum { POINTS = 100, LEFT_OUT = 5, RAYS = 65536 };
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// A point somewhere in each of some random texels: in their middles some would lie exactly in the
 /// plane of what they touch, where rays that start there may meet it or not.
@@ -128,9 +114,8 @@ static double hemicube_error(const test_radiant *r, const points *p, uint32_t n,
 
 /// At most 1 % at 64² and ½ % at 128²; more under an open sky, where what is bright is
 /// seen through windows and arches and is not much larger than a pixel: about what was measured.
-static void hemicubes_find_what_rays_find(void **state)
+TEST(hemicubes_find_what_rays_find)
 {
-    (void)state;
     static const struct {
         const char *name;
         bool sky;
@@ -174,10 +159,4 @@ static void hemicubes_find_what_rays_find(void **state)
         assert_true(fine < scenes[i].limits[1]);
         test_radiant_close(&r);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hemicubes_find_what_rays_find)};
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

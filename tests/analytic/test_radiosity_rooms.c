@@ -10,21 +10,7 @@
 static const vec3 ONE = {1, 1, 1}, ZERO = {0, 0, 0};
 /// Different in each channel.
 static const vec3 ALBEDO = {0.3f, 0.6f, 0.9f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static void put_lamp(alp_scene *scene, vec3 position)
 {
@@ -122,9 +108,8 @@ static alp_scene *make_ball(void)
 
 /// Φ / ((1 − ρ) A), to the 0.3 % that are promised, in each channel: by what the solver holds, and
 /// by what texels gather of it.
-static void the_mean_over_closed_rooms(void **state)
+TEST(the_mean_over_closed_rooms)
 {
-    (void)state;
     static const char *const names[] = {"an L with a lamp", "pillars", "a ball"};
     for (int i = 0; i < 3; i++) {
         alp_scene *scene = i == 0 ? make_corner_room() : i == 1 ? make_pillars() : make_ball();
@@ -165,9 +150,8 @@ static void the_mean_over_closed_rooms(void **state)
 // --- energy --------------------------------------------------------------------------------------
 
 /// emitted = absorbed + escaped + behind + unshot, each measured apart.
-static void energy_is_accounted_for(void **state)
+TEST(energy_is_accounted_for)
 {
-    (void)state;
     static const char *const names[] = {"builtin:cornell", "builtin:windows",
                                         "builtin:teapot-room"};
     for (int i = 0; i < 3; i++) {
@@ -203,13 +187,4 @@ static void energy_is_accounted_for(void **state)
             test_radiant_close(&r);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mean_over_closed_rooms),
-        cmocka_unit_test(energy_is_accounted_for),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

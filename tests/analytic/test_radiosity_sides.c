@@ -7,21 +7,7 @@
 #include <stdio.h>
 
 static const vec3 ZERO = {0, 0, 0}, HALF = {0.5f, 0.5f, 0.5f};
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static void put_lamp(alp_scene *scene, vec3 position)
 {
@@ -48,9 +34,8 @@ static const float *cell_of(const test_radiant *r, uint32_t texel, alpi_side sid
 
 // --- darkness ------------------------------------------------------------------------------------
 
-static void a_closed_room_without_light_is_black(void **state)
+TEST(a_closed_room_without_light_is_black)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     test_radiant r;
@@ -101,9 +86,8 @@ static alp_scene *make_parted(bool slab)
     return scene;
 }
 
-static void thin_walls_let_nothing_through(void **state)
+TEST(thin_walls_let_nothing_through)
 {
-    (void)state;
     for (int slab = 0; slab < 2; slab++) {
         test_radiant r;
         const test_radiant_options o = test_radiant_default();
@@ -133,9 +117,8 @@ static void thin_walls_let_nothing_through(void **state)
 
 /// The same where floor, ceiling and sides go on under the wall: only texels that it crosses, and
 /// blocks of them, can mix both halves.
-static void walls_across_charts(void **state)
+TEST(walls_across_charts)
 {
-    (void)state;
     for (uint32_t spacing = 1; spacing <= 4; spacing += 3) {
         alpi_builder b;
         alp_scene *scene = NULL;
@@ -215,9 +198,8 @@ static double bounced_to_floor(alp_scene *scene, uint32_t hemicube)
 
 /// Each side of a double-sided sheet reflects its own light: none of what falls on the other, and
 /// as much as a sheet that faces there. A single-sided one is black from behind.
-static void sides_keep_their_light_apart(void **state)
+TEST(sides_keep_their_light_apart)
 {
-    (void)state;
     for (uint32_t cube = 0; cube <= 16; cube += 16) {
         for (int down = 0; down < 2; down++) {
             assert_true(bounced_to_floor(make_sheet(down != 0, true, 2.0f), cube) == 0.0);
@@ -231,15 +213,4 @@ static void sides_keep_their_light_apart(void **state)
         assert_true(single > 0.05 && front == single);
         ASSERT_NEAR(back, front, 0.01 * front); // other random points: 200 blocks of 256 rays
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_closed_room_without_light_is_black),
-        cmocka_unit_test(thin_walls_let_nothing_through),
-        cmocka_unit_test(walls_across_charts),
-        cmocka_unit_test(sides_keep_their_light_apart),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -54,9 +54,8 @@ static test_radiant_options options_of(uint32_t hemicube)
 
 enum { TEXEL_LIMIT = 4096 };
 
-static void kept_or_not_and_workers(void **state)
+TEST(kept_or_not_and_workers)
 {
-    (void)state;
     static const uint32_t workers[3] = {1, 2, 7};
     static alpi_reference_value first[TEXEL_LIMIT];
     static float cells[2 * TEXEL_LIMIT][4];
@@ -87,11 +86,9 @@ static void kept_or_not_and_workers(void **state)
 
 /// The light of two lamps is the sum of that of each, along the same rays. Each value is a sum of
 /// hundreds of floats of the cells, three bounces deep.
-static void light_adds_up(void **state)
+TEST_WITH_CONTEXT(light_adds_up, 2)
 {
-    (void)state;
     static alpi_reference_value alone[3][TEXEL_LIMIT];
-    alp_context *context = test_context(2);
     double worst = 0.0;
     for (unsigned lamps = 1; lamps <= 3; lamps++) {
         test_radiant r;
@@ -109,15 +106,12 @@ static void light_adds_up(void **state)
         test_radiant_close(&r);
     }
     printf("accuracy: radiosity of two lamps and its sum over each: %.1e apart\n", worst);
-    alp_context_destroy(context);
 }
 
 /// A lamp in the middle of a cube: the six faces have the same mean, and so have the
 /// quarters of each. 1,024 rays a block.
-static void a_symmetric_room_has_a_symmetric_map(void **state)
+TEST_WITH_CONTEXT(a_symmetric_room_has_a_symmetric_map, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alpi_builder b;
     alp_scene *scene = NULL;
     test_radiant r;
@@ -164,15 +158,4 @@ static void a_symmetric_room_has_a_symmetric_map(void **state)
            "%.1e\n",
            worst);
     test_radiant_close(&r);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kept_or_not_and_workers),
-        cmocka_unit_test(light_adds_up),
-        cmocka_unit_test(a_symmetric_room_has_a_symmetric_map),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

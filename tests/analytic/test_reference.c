@@ -10,21 +10,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 /// The unit cube from inside; its ceiling is a surface of its own.
 static alp_scene *make_cube(float albedo, float emission, float ceiling_albedo,
@@ -50,9 +36,8 @@ static alp_scene *make_cube(float albedo, float emission, float ceiling_albedo,
 // --- furnaces ------------------------------------------------------------------------------------
 
 /// Oracle 14: with M = πLe and albedo ρ, E = M Σ ρ^k over k = 0 … n after n bounces.
-static void furnace_after_n_bounces(void **state)
+TEST(furnace_after_n_bounces)
 {
-    (void)state;
     static const float albedos[] = {0.2f, 0.5f, 0.8f, 0.95f};
     static const uint32_t bounces[] = {0, 1, 2, 5, 15, ALPI_REFERENCE_BOUNCE_LIMIT};
     double worst = 0.0;
@@ -83,9 +68,8 @@ static void furnace_after_n_bounces(void **state)
 }
 
 /// Oracle 1: under an even sky an open plane gets E = πL, and the sky is white behind it.
-static void even_sky_over_a_plane(void **state)
+TEST(even_sky_over_a_plane)
 {
-    (void)state;
     alp_lighting_options o = alp_lighting_options_default();
     o.sky.kind = ALP_SKY_CONSTANT;
     o.sky.strength = 3.0f;
@@ -110,9 +94,8 @@ static void even_sky_over_a_plane(void **state)
 // --- statistics ----------------------------------------------------------------------------------
 
 /// Over seeds, error over standard error has mean 0 and spread 1.
-static void standard_error_is_true(void **state)
+TEST(standard_error_is_true)
 {
-    (void)state;
     test_lit l = test_lit_open(make_cube(0.5f, 0.0f, 0.5f, 1.0f), NULL);
     const vec3 at = {0.2f, 0.0f, 0.7f}, up = {0.0f, 1.0f, 0.0f};
     alpi_reference many = test_lit_reference(&l, 4, 1u << 18);
@@ -135,14 +118,4 @@ static void standard_error_is_true(void **state)
     printf("accuracy: reference, error over standard error, 256 seeds: mean %+.2f, spread %.2f\n",
            mean, sqrt(squares));
     test_lit_close(&l);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnace_after_n_bounces),
-        cmocka_unit_test(even_sky_over_a_plane),
-        cmocka_unit_test(standard_error_is_true),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -5,8 +5,15 @@
 
 #include "transport/paths/reference.h"
 
+#include <stdlib.h>
+
 enum { POINTS = 128 }; // of 112 paths: four ranges of 36
 static float positions[POINTS][3], normals[POINTS][3], offsets[POINTS];
+
+typedef struct traced_scene {
+    alp_scene *scene;
+    alpi_tracer *tracer; // the scene's
+} traced_scene;
 
 static void gather(const alp_scene *scene, const alpi_tracer *tracer, uint32_t workers,
                    const uint32_t *list, uint32_t list_count, alpi_reference_value *values)
@@ -34,38 +41,29 @@ static void gather(const alp_scene *scene, const alpi_tracer *tracer, uint32_t w
     alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+static void gather_all(uint32_t workers, const void *stage, void *values)
 {
-    (void)state;
-    static alpi_reference_value values[5][POINTS];
-    static const uint32_t workers[4] = {1, 2, 7, 32};
-    alp_context *context = test_context(1);
-    alp_scene *scene = NULL;
-    alpi_tracer *tracer = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
-    ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+    const traced_scene *s = stage;
+    gather(s->scene, s->tracer, workers, NULL, POINTS, values);
+}
+
+TEST_WITH_CONTEXT(workers_change_nothing, 1)
+{
+    static alpi_reference_value listed[POINTS];
+    traced_scene s = {NULL, NULL};
+    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &s.scene));
+    ASSERT_OK(context, alpi_tracer_for_scene(s.scene, NULL, NULL, &s.tracer, NULL));
     for (uint32_t i = 0; i < POINTS; i++) {
         vec3_store(positions[i], (vec3){0.05f + 0.0035f * (float)i, 0.0f, -0.4f});
         vec3_store(normals[i], (vec3){0.0f, 1.0f, 0.0f});
         offsets[i] = 1e-6f;
     }
-    for (int k = 0; k < 4; k++) {
-        gather(scene, tracer, workers[k], NULL, POINTS, values[k]);
-        assert_memory_equal(values[k], values[0], sizeof values[0]);
-    }
-    assert_true(values[0][7].mean[0] > 0.0f && values[0][7].variance[0] > 0.0f);
+    alpi_reference_value *all = test_any_workers(gather_all, &s, POINTS * sizeof *all);
+    assert_true(all[7].mean[0] > 0.0f && all[7].variance[0] > 0.0f);
     const uint32_t some[2] = {7, 3};
-    gather(scene, tracer, 2, some, 2, values[4]);
-    assert_memory_equal(&values[4][7], &values[0][7], sizeof values[0][7]);
-    assert_memory_equal(&values[4][3], &values[0][3], sizeof values[0][3]);
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(workers_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    gather(s.scene, s.tracer, 2, some, 2, listed);
+    assert_memory_equal(&listed[7], &all[7], sizeof all[7]);
+    assert_memory_equal(&listed[3], &all[3], sizeof all[3]);
+    free(all);
+    alp_scene_destroy(s.scene);
 }

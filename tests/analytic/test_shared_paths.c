@@ -10,26 +10,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 static test_lit open_builtin(const char *name)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
+    alp_scene *scene = test_load(context, name);
     return test_lit_open(scene, NULL);
 }
 
@@ -63,9 +48,8 @@ static void gather(const test_lit *lit, bool share, uint32_t samples, uint64_t s
     test_lit_irradiance(&r, positions, normals, 1e-6f, POINTS, values);
 }
 
-static void a_block_keeps_its_light(void **state)
+TEST(a_block_keeps_its_light)
 {
-    (void)state;
     test_lit lit = open_builtin("builtin:cornell");
     alpi_reference_value alone[POINTS], shared[POINTS];
     gather(&lit, false, 256, 1, alone);
@@ -82,9 +66,8 @@ static void a_block_keeps_its_light(void **state)
     test_lit_close(&lit);
 }
 
-static void sharing_is_unbiased(void **state)
+TEST(sharing_is_unbiased)
 {
-    (void)state;
     test_lit lit = open_builtin("builtin:cornell");
     alpi_reference_value alone[POINTS], shared[POINTS];
     gather(&lit, false, 1u << 14, 1, alone);
@@ -109,9 +92,8 @@ static void sharing_is_unbiased(void **state)
 
 /// Error against many paths, over seeds. Direct light is no one's to share: what is left of the
 /// noise is more than an eighth of its square.
-static void sharing_leaves_less_noise(void **state)
+TEST(sharing_leaves_less_noise)
 {
-    (void)state;
     test_lit lit = open_builtin("builtin:cornell");
     alpi_reference_value truth[POINTS], values[POINTS];
     double squares[2] = {0.0, 0.0}, stated = 0.0;
@@ -137,16 +119,14 @@ static void sharing_leaves_less_noise(void **state)
     test_lit_close(&lit);
 }
 
-static void workers_change_nothing(void **state)
+TEST(workers_change_nothing)
 {
-    (void)state;
     alpi_reference_value values[3][POINTS];
     static const uint32_t workers[3] = {1, 2, 7};
     for (int k = 0; k < 3; k++) {
         alp_context *other = test_context(workers[k]), *kept = context;
         context = other;
-        alp_scene *scene = NULL;
-        ASSERT_OK(other, alp_scene_load(other, "builtin:cornell", &scene));
+        alp_scene *scene = test_load(other, "builtin:cornell");
         test_lit lit = test_lit_open(scene, NULL);
         gather(&lit, true, 100, 1, values[k]);
         test_lit_close(&lit);
@@ -170,9 +150,8 @@ static void ragged_parallel_for(void *user, uint32_t count, uint32_t grain, alp_
     }
 }
 
-static void a_host_changes_nothing(void **state)
+TEST(a_host_changes_nothing)
 {
-    (void)state;
     alpi_reference_value values[2][POINTS];
     for (int k = 0; k < 2; k++) {
         alp_context_options options = alp_context_options_default();
@@ -192,9 +171,8 @@ static void a_host_changes_nothing(void **state)
 
 /// A lit room with a wall in the middle whose back is open: a way from a receiver to where its
 /// neighbour's path arrived may be open where the way back is not.
-static void open_backs_are_open_one_way(void **state)
+TEST(open_backs_are_open_one_way)
 {
-    (void)state;
     alpi_builder b;
     alp_scene *scene = NULL;
     const vec3 dark = {0, 0, 0}, grey = {0.7f, 0.7f, 0.7f};
@@ -243,9 +221,8 @@ static bool refuse_second(void *user, const alp_progress *progress)
 }
 
 /// One receiver with paths for half a minute is left in the middle.
-static void a_long_receiver_hears_the_end(void **state)
+TEST(a_long_receiver_hears_the_end)
 {
-    (void)state;
     test_lit lit = open_builtin("builtin:cornell");
     float positions[1][3] = {{0.2f, 0.0f, 0.1f}}, normals[1][3] = {{0.0f, 1.0f, 0.0f}};
     float offsets[1] = {1e-6f};
@@ -264,18 +241,4 @@ static void a_long_receiver_hears_the_end(void **state)
     assert_int_equal(l.calls, 2);
     assert_true(l.done < l.total);
     test_lit_close(&lit);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_keeps_its_light),
-        cmocka_unit_test(sharing_is_unbiased),
-        cmocka_unit_test(sharing_leaves_less_noise),
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(a_host_changes_nothing),
-        cmocka_unit_test(open_backs_are_open_one_way),
-        cmocka_unit_test(a_long_receiver_hears_the_end),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

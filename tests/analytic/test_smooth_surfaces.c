@@ -152,10 +152,8 @@ static void assert_open(alp_context *context)
     ASSERT_NEAR(all.least, 1.0, 1.0 / 256.0);
 }
 
-static void coarse_spheres_are_open(void **state)
+TEST_WITH_CONTEXT(coarse_spheres_are_open, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     static const uint32_t shapes[][2] = {{5, 4}, {6, 4}, {8, 6}, {12, 8}, {24, 12}, {16, 5}};
     for (int i = 0; i < 6; i++) {
         make_sphere(shapes[i][0], shapes[i][1], 1.0, 1.0);
@@ -167,15 +165,12 @@ static void coarse_spheres_are_open(void **state)
         // What it was before, so that this test would see it.
         assert_true(bake(context, 256, ALPI_TEXEL_NO_LIFT).least < 0.99);
     }
-    alp_context_destroy(context);
 }
 
-static void a_bowl_keeps_its_closed_form(void **state)
+TEST_WITH_CONTEXT(a_bowl_keeps_its_closed_form, 2)
 {
-    (void)state;
     // Oracle 10: a sphere seen from inside through its cut at height z is (1 − z) / 2 open at every
     // point. Facets cost .003 (physics), 1,024 samples of a texel up to .03.
-    alp_context *context = test_context(2);
     const double cuts[] = {0.0, 0.5, -0.3};
     for (int i = 0; i < 3; i++) {
         make_sphere(64, 32, cuts[i], -1.0);
@@ -186,14 +181,4 @@ static void a_bowl_keeps_its_closed_form(void **state)
         ASSERT_NEAR(lifted.most, (1.0 - cuts[i]) / 2.0, 0.04);
         ASSERT_NEAR(lifted.mean, plain.mean, 0.0); // nothing to lift
     }
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coarse_spheres_are_open),
-        cmocka_unit_test(a_bowl_keeps_its_closed_form),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

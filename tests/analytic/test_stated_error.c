@@ -99,13 +99,11 @@ static double stated_over_true(alp_context *context, map_case *m, uint32_t sampl
     return sqrt(stated / real);
 }
 
-static void maps_state_their_error(void **state)
+TEST_WITH_CONTEXT(maps_state_their_error, 2)
 {
-    (void)state;
     static const char *const names[] = {"builtin:cornell",     "builtin:sphere-plane",
                                         "builtin:torus-plane", "builtin:teapot-room",
                                         "builtin:bowl",        "builtin:furnace"};
-    alp_context *context = test_context(2);
     for (int i = 0; i < 6; i++) {
         map_case m;
         open_case(context, names[i], 80, &m);
@@ -117,7 +115,6 @@ static void maps_state_their_error(void **state)
         }
         close_case(context, &m);
     }
-    alp_context_destroy(context);
 }
 
 /// Where nearly all is open, as on most of a plane with a sphere, rays that lie in strata err less
@@ -144,12 +141,10 @@ static void find_z(alp_context *context, map_case *m, float accuracy, double *me
     *spread = sqrt(squares / count);
 }
 
-static void texels_state_their_error(void **state)
+TEST_WITH_CONTEXT(texels_state_their_error, 2)
 {
-    (void)state;
     static const char *const names[] = {"builtin:cornell", "builtin:sphere-plane",
                                         "builtin:torus-plane", "builtin:teapot-room"};
-    alp_context *context = test_context(2);
     for (int i = 0; i < 4; i++) {
         map_case m;
         double mean = 0.0, spread = 0.0;
@@ -168,14 +163,4 @@ static void texels_state_their_error(void **state)
         assert_true(spread > LEAST_SPREAD && spread < 1.25);
         close_case(context, &m);
     }
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_state_their_error),
-        cmocka_unit_test(texels_state_their_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

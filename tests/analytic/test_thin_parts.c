@@ -79,16 +79,13 @@ static void check_texel(const alp_lightmap *map, uint32_t t, tally *found)
     }
 }
 
-static void no_light_through_a_gazebo(void **state)
+TEST_WITH_CONTEXT(no_light_through_a_gazebo, 2)
 {
-    (void)state;
     const char *path = test_shared("scenes/architecture/gazebo.obj");
     if (path == NULL) {
         skip();
     }
-    alp_context *context = test_context(2);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, path, &scene));
+    alp_scene *scene = test_load(context, path);
     alp_bake_options o = alp_bake_options_default();
     o.maps = ALP_MAP_LIGHT;
     o.atlas.size = SIZE;
@@ -107,11 +104,4 @@ static void no_light_through_a_gazebo(void **state)
     assert_true(found.away > 1000 && found.hidden > 500 && found.open > 500);
     alp_lightmap_destroy(map);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_light_through_a_gazebo)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,9 +10,8 @@
 
 #define TRIANGLES(p) "<triangles count='1'>" TEST_COLLADA_INPUT "<p>" p "</p></triangles>"
 
-static void wrong_documents(void **state)
+TEST_WITH_CONTEXT(wrong_documents, 1)
 {
-    (void)state;
     static const struct {
         const char *inside, *words;
     } cases[] = {
@@ -57,7 +56,6 @@ static void wrong_documents(void **state)
          "circle"},
         {"<node>", "may be truncated"},
     };
-    alp_context *context = test_context(1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_scene *scene = NULL;
         assert_int_equal(test_collada_scene(context, cases[i].inside, &scene),
@@ -66,7 +64,6 @@ static void wrong_documents(void **state)
         test_message_has(context, cases[i].words);
         test_message_has(context, "test.dae: ");
     }
-    alp_context_destroy(context);
 }
 
 /// Text as it stands, not inside <COLLADA>.
@@ -78,10 +75,8 @@ static alp_result read_text(alp_context *context, const char *text)
     return result;
 }
 
-static void other_text(void **state)
+TEST_WITH_CONTEXT(other_text, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     assert_int_equal(read_text(context, ""), ALP_ERROR_INVALID_DATA);
     test_message_has(context, "empty");
     assert_int_equal(read_text(context, "no XML"), ALP_ERROR_INVALID_DATA);
@@ -91,18 +86,15 @@ static void other_text(void **state)
     assert_int_equal(read_text(context, "<?xml version=\"1.0\" encoding=\"UTF-7\"?><COLLADA/>"),
                      ALP_ERROR_UNSUPPORTED);
     test_message_has(context, "UTF-7");
-    alp_context_destroy(context);
 }
 
 /// A billion laughs, a file of the machine, a file of the net: refused where they are declared.
-static void entities(void **state)
+TEST_WITH_CONTEXT(entities, 1)
 {
-    (void)state;
     static const char *const texts[] = {
         "<!DOCTYPE COLLADA [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;\">]><COLLADA>&b;</COLLADA>",
         "<!DOCTYPE COLLADA [<!ENTITY x SYSTEM \"file:///etc/passwd\">]><COLLADA>&x;</COLLADA>",
         "<!DOCTYPE COLLADA [<!ENTITY % x SYSTEM \"http://localhost/x\"> %x;]><COLLADA/>"};
-    alp_context *context = test_context(1);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         assert_int_equal(read_text(context, texts[i]), ALP_ERROR_UNSUPPORTED);
         test_message_has(context, "line 1");
@@ -110,14 +102,11 @@ static void entities(void **state)
     // named from outside: it is not opened, so nothing is missed
     ASSERT_OK(context,
               read_text(context, "<!DOCTYPE COLLADA SYSTEM \"http://localhost/x\"><COLLADA/>"));
-    alp_context_destroy(context);
 }
 
-static void nesting(void **state)
+TEST_WITH_CONTEXT(nesting, 1)
 {
-    (void)state;
     enum { DEEP = 100000 };
-    alp_context *context = test_context(1);
     char *text = malloc(DEEP * 3 + 32);
     assert_non_null(text);
     size_t at = (size_t)sprintf(text, "<COLLADA>");
@@ -129,13 +118,11 @@ static void nesting(void **state)
     assert_int_equal(read_text(context, text), ALP_ERROR_LIMIT);
     test_message_has(context, "1000");
     free(text);
-    alp_context_destroy(context);
 }
 
 /// Thirty nodes that each show the next twice: a thousand million at the end.
-static void doubling(void **state)
+TEST_WITH_CONTEXT(doubling, 1)
 {
-    (void)state;
     static char text[8000];
     size_t at = (size_t)sprintf(text, "<library_nodes>");
     for (int i = 0; i < 30; i++) {
@@ -148,17 +135,14 @@ static void doubling(void **state)
             "<node id='a30'/></library_nodes><library_visual_scenes><visual_scene id='s'><node>"
             "<instance_node url='#a0'/></node></visual_scene></library_visual_scenes>%s",
             TEST_COLLADA_SCENE);
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     assert_int_equal(test_collada_scene(context, text, &scene), ALP_ERROR_LIMIT);
     test_message_has(context, "4194304");
-    alp_context_destroy(context);
 }
 
 /// What EXPECT.tsv says of the crafted files.
-static void crafted(void **state)
+TEST(crafted)
 {
-    (void)state;
     static const struct {
         const char *file;
         alp_result result;
@@ -192,13 +176,4 @@ static void crafted(void **state)
         alp_scene_destroy(scene);
         alp_context_destroy(context);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_documents), cmocka_unit_test(other_text), cmocka_unit_test(entities),
-        cmocka_unit_test(nesting),         cmocka_unit_test(doubling),   cmocka_unit_test(crafted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,9 +83,8 @@ static void check_odd(const char *path)
     alp_context_destroy(context);
 }
 
-static void crafted_files(void **state)
+TEST(crafted_files)
 {
-    (void)state;
     const char *table = test_shared("scenes/broken/crafted/EXPECT.tsv");
     if (table == NULL) {
         skip();
@@ -115,9 +114,8 @@ static void crafted_files(void **state)
     assert_in_range(checked, 45, 1000);
 }
 
-static void third_party_files(void **state)
+TEST(third_party_files)
 {
-    (void)state;
     if (test_shared("scenes") == NULL) {
         skip();
     }
@@ -131,9 +129,8 @@ static void third_party_files(void **state)
 #define ASSET "'asset':{'version':'2.0'}"
 
 /// Structures that no table has.
-static void hostile_structures(void **state)
+TEST_WITH_CONTEXT(hostile_structures, 1)
 {
-    (void)state;
     static const struct {
         const char *json, *words;
         alp_result code;
@@ -167,7 +164,6 @@ static void hostile_structures(void **state)
         {"{" ASSET ",'nodes':[{'scale':[1,1]}]}", "scale must be an array of 3 numbers",
          ALP_ERROR_INVALID_DATA},
     };
-    alp_context *context = test_context(1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_scene *scene;
         assert_int_equal(test_gltf_scene(context, cases[i].json, NULL, 0, &scene), cases[i].code);
@@ -175,15 +171,12 @@ static void hostile_structures(void **state)
         test_message_has(context, cases[i].words);
         test_message_has(context, "test.glb: ");
     }
-    alp_context_destroy(context);
 }
 
 /// An index past the end where vertices are copied one by one: without normals.
-static void index_without_normals(void **state)
+TEST_WITH_CONTEXT(index_without_normals, 1)
 {
-    (void)state;
     static const float bin[16] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    alp_context *context = test_context(1);
     alp_scene *scene;
     const char *json =
         "{" ASSET ",'buffers':[{'byteLength':64}],'bufferViews':[{'buffer':0,'byteLength':64}],"
@@ -194,13 +187,11 @@ static void index_without_normals(void **state)
     assert_int_equal(test_gltf_scene(context, json, bin, sizeof bin, &scene),
                      ALP_ERROR_INVALID_DATA);
     test_message_has(context, "mesh 0, primitive 0: index 0 is 1065353216, but there are 3");
-    alp_context_destroy(context);
 }
 
 /// A chain of nodes as long as the file: no recursion may follow it.
-static void deep_nodes(void **state)
+TEST_WITH_CONTEXT(deep_nodes, 1)
 {
-    (void)state;
     enum { DEPTH = 100000 };
     char *json = malloc(DEPTH * 32 + 256);
     assert_non_null(json);
@@ -209,7 +200,6 @@ static void deep_nodes(void **state)
         end += sprintf(end, "{'children':[%d]},", i + 1);
     }
     sprintf(end, "{}]}");
-    alp_context *context = test_context(1);
     alp_scene *scene;
     ASSERT_OK(context, test_gltf_scene(context, json, NULL, 0, &scene));
     alp_scene_destroy(scene);
@@ -220,13 +210,11 @@ static void deep_nodes(void **state)
     assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_LIMIT);
     test_message_has(context, "levels deep, the limit is 1000");
     free(json);
-    alp_context_destroy(context);
 }
 
 /// Each of these takes a hundred times its bytes in the parser's tree: 4 GB out of 50 MB.
-static void values_are_counted(void **state)
+TEST_WITH_CONTEXT(values_are_counted, 1)
 {
-    (void)state;
     const size_t count = (1 << 24) - 1; // with the array and the whole, one too many
     char *json = malloc(3 * count + 64);
     assert_non_null(json);
@@ -235,19 +223,16 @@ static void values_are_counted(void **state)
         memcpy(end, "{},", 3);
     }
     memcpy(end - 1, "]}", 3);
-    alp_context *context = test_context(1);
     alp_scene *scene;
     assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_LIMIT);
     test_message_has(context, "16777217 objects and arrays, 33554432 values; the limits are "
                               "16777216 and 67108864");
     free(json);
-    alp_context_destroy(context);
 }
 
 /// A few nodes that would place more triangles than we take: refused before memory is asked for.
-static void expansion_is_limited(void **state)
+TEST_WITH_CONTEXT(expansion_is_limited, 1)
 {
-    (void)state;
     char *json = malloc(1 << 16);
     assert_non_null(json);
     char *end = json + sprintf(json, "{" ASSET ",'accessors':[{'componentType':5126,'type':'VEC3',"
@@ -257,19 +242,15 @@ static void expansion_is_limited(void **state)
         end += sprintf(end, "%s{'mesh':0}", i > 0 ? "," : "");
     }
     sprintf(end, "]}");
-    alp_context *context = test_context(1);
     alp_scene *scene;
     assert_int_equal(test_gltf_scene(context, json, NULL, 0, &scene), ALP_ERROR_LIMIT);
     test_message_has(context, "268435456");
     assert_in_range(alp_context_peak_memory(context), 1, 1 << 20);
     free(json);
-    alp_context_destroy(context);
 }
 
-static void other_kinds(void **state)
+TEST_WITH_CONTEXT(other_kinds, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene;
     assert_int_equal(alp_scene_load(context, "absent.dae", &scene), ALP_ERROR_IO);
     test_message_has(context, "absent.dae");
@@ -281,16 +262,4 @@ static void other_kinds(void **state)
     assert_int_equal(alp_scene_load(context, NULL, &scene), ALP_ERROR_INVALID_ARGUMENT);
     assert_int_equal(alp_scene_load(NULL, "x", &scene), ALP_ERROR_INVALID_ARGUMENT);
     assert_null(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crafted_files),        cmocka_unit_test(third_party_files),
-        cmocka_unit_test(hostile_structures),   cmocka_unit_test(deep_nodes),
-        cmocka_unit_test(values_are_counted),   cmocka_unit_test(index_without_normals),
-        cmocka_unit_test(expansion_is_limited), cmocka_unit_test(other_kinds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,9 +80,8 @@ static void check_refused(const file *f, alp_result expected, const char *words)
     alp_context_destroy(context);
 }
 
-static void sizes_that_no_file_holds(void **state)
+TEST_WITH_CONTEXT(sizes_that_no_file_holds, 1)
 {
-    (void)state;
     static file f;
     start_png(&f, 16000, 16000, 6); // 1 GB of pixels
     end_png(&f, 100);
@@ -104,26 +103,21 @@ static void sizes_that_no_file_holds(void **state)
                                    0,   0,   0x2f, 0,   0,  0, 0,   0,   0,   0,   0,   0};
     f.size = 0;
     put(&f, webp, sizeof webp);
-    alp_context *context = test_context(1);
     alp_image *image = NULL;
     alp_result result = alpi_image_decode(context, "a", f.bytes, f.size, &image);
     assert_true(result == ALP_ERROR_LIMIT || result == ALP_ERROR_INVALID_DATA);
-    alp_context_destroy(context);
 }
 
 /// What deflate packs best is still read: 2048² zeros in 16 KB.
-static void the_best_packed_is_read(void **state)
+TEST_WITH_CONTEXT(the_best_packed_is_read, 1)
 {
-    (void)state;
     static file f;
-    alp_context *context = test_context(1);
     alp_image *image = NULL;
     start_png(&f, 2048, 2048, 6);
     end_png(&f, 2048 * (2048 * 4 + 1));
     print_message("%zu bytes\n", f.size);
     ASSERT_OK(context, alpi_image_decode(context, "a", f.bytes, f.size, &image));
     alp_image_destroy(image);
-    alp_context_destroy(context);
 }
 
 static long peak_kilobytes(void)
@@ -134,9 +128,8 @@ static long peak_kilobytes(void)
 }
 
 /// A hundred texts of nearly 8 MB each, which is what libpng believes: 800 MB out of 800 KB.
-static void texts_are_not_inflated(void **state)
+TEST_WITH_CONTEXT(texts_are_not_inflated, 1)
 {
-    (void)state;
     enum { TEXT = 7900000, HEAD = 6, TEXTS = 100 };
     static file f;
     uint8_t *raw = calloc(TEXT, 1), *packed = malloc(HEAD + compressBound(TEXT));
@@ -152,7 +145,6 @@ static void texts_are_not_inflated(void **state)
     }
     end_png(&f, 2);
     free(packed);
-    alp_context *context = test_context(1);
     alp_image *image = NULL;
     const long before = peak_kilobytes();
     ASSERT_OK(context, alpi_image_decode(context, "a", f.bytes, f.size, &image));
@@ -160,15 +152,4 @@ static void texts_are_not_inflated(void **state)
     print_message("%zu bytes, %ld KB\n", f.size, more);
     assert_in_range(more, 0, 64 * 1024);
     alp_image_destroy(image);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_that_no_file_holds),
-        cmocka_unit_test(the_best_packed_is_read),
-        cmocka_unit_test(texts_are_not_inflated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

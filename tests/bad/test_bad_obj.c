@@ -28,13 +28,11 @@ static const struct {
     {"third_party/invalid-face-definition.obj", NULL, 0, 0.0, "bad-faces"},
 };
 
-static void every_file(void **state)
+TEST_WITH_CONTEXT(every_file, 1)
 {
-    (void)state;
     if (test_shared("scenes") == NULL) {
         skip();
     }
-    alp_context *context = test_context(1);
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         alp_scene *scene = NULL;
         test_log_clear();
@@ -60,13 +58,11 @@ static void every_file(void **state)
         }
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 /// The table above has every OBJ of EXPECT.tsv.
-static void table_is_complete(void **state)
+TEST(table_is_complete)
 {
-    (void)state;
     const char *table = test_shared("scenes/broken/crafted/EXPECT.tsv");
     if (table == NULL) {
         skip();
@@ -91,13 +87,4 @@ static void table_is_complete(void **state)
     }
     free(text);
     assert_in_range(found, 8, 1000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file),
-        cmocka_unit_test(table_is_complete),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -171,9 +171,8 @@ static void fail_write(const test_small_bake *bake, long failing, bool has_old)
     alp_context_destroy(context);
 }
 
-static void failing_writes(void **unused)
+TEST(failing_writes)
 {
-    (void)unused;
     for (int kind = 0; kind < TEST_SMALL_BAKE_KINDS; kind++) {
         test_small_bake bake = test_small_bake_open(kind);
         for (int has_old = 0; has_old < 2; has_old++) {
@@ -198,9 +197,8 @@ static void failing_writes(void **unused)
 
 /// A picture or a library of materials that cannot be read costs a warning; what lies at the place
 /// of a copy and cannot be compared with it is written; everything else costs the bake.
-static void failing_reads(void **unused)
+TEST(failing_reads)
 {
-    (void)unused;
     for (int kind = 0; kind < 3; kind++) {
         test_small_bake bake = test_small_bake_open(kind);
         const long calls = count_calls(&bake, FAULTS_READING);
@@ -233,9 +231,8 @@ static void failing_reads(void **unused)
 }
 
 /// A file that is cut off between the question how long it is and the reading.
-static void shrinking_files(void **unused)
+TEST(shrinking_files)
 {
-    (void)unused;
     for (int kind = 0; kind < 3; kind++) {
         test_small_bake bake = test_small_bake_open(kind);
         for (long i = 0; i < 3; i++) { // the scene first
@@ -257,9 +254,8 @@ static void shrinking_files(void **unused)
 }
 
 /// A folder where nothing may be made is told before the work. Root may make files anywhere.
-static void unwritable_folder(void **unused)
+TEST(unwritable_folder)
 {
-    (void)unused;
     if (geteuid() == 0) {
         print_message("permissions do not bind root: skipped\n");
         skip();
@@ -278,11 +274,9 @@ static void unwritable_folder(void **unused)
 }
 
 /// One picture, and the page of a report: alone, so a former file is simply replaced or not.
-static void single_files(void **unused)
+TEST_WITH_CONTEXT(single_files, 1)
 {
-    (void)unused;
     static const char *const names[] = {"a.png", "a.exr", "a.hdr", "a.html"};
-    alp_context *context = test_context(1);
     alp_bake_options options = alp_bake_options_default();
     options.atlas.size = 16;
     options.occlusion.samples = 4;
@@ -326,15 +320,4 @@ static void single_files(void **unused)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(failing_writes),  cmocka_unit_test(failing_reads),
-        cmocka_unit_test(shrinking_files), cmocka_unit_test(unwritable_folder),
-        cmocka_unit_test(single_files),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

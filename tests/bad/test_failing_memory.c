@@ -73,28 +73,24 @@ static void fail_each(int kind, uint32_t workers, long step)
     test_small_bake_close(&bake);
 }
 
-static void gltf(void **state)
+TEST(gltf)
 {
-    (void)state;
     fail_each(0, 1, 1);
 }
 
-static void collada(void **state)
+TEST(collada)
 {
-    (void)state;
     fail_each(1, 1, 1);
 }
 
-static void obj(void **state)
+TEST(obj)
 {
-    (void)state;
     fail_each(2, 1, 1);
 }
 
 /// Other ways to write; what comes before is the same.
-static void other_outputs(void **state)
+TEST(other_outputs)
 {
-    (void)state;
     for (int kind = 3; kind < TEST_SMALL_BAKE_KINDS; kind++) {
         fail_each(kind, 1, SOME);
     }
@@ -102,15 +98,13 @@ static void other_outputs(void **state)
 
 /// Ranges follow after one that failed, as they may with several workers: by chance there, here
 /// always. What a worker keeps between ranges must bear that.
-static void ranges_after_a_failure(void **state)
+TEST(ranges_after_a_failure)
 {
-    (void)state;
     fail_each(2, BACKWARDS, 1);
 }
 
-static void two_workers(void **state)
+TEST(two_workers)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         fail_each(kind, 2, SOME);
     }
@@ -138,9 +132,8 @@ static long estimate_without(long failing, alp_result *result)
     return atomic_load(&memory.count);
 }
 
-static void estimates(void **state)
+TEST(estimates)
 {
-    (void)state;
     alp_result result;
     const long total = estimate_without(-1, &result);
     assert_int_equal(result, ALP_OK);
@@ -152,9 +145,8 @@ static void estimates(void **state)
 }
 
 /// The page of a report, after a bake that went well.
-static void report(void **state)
+TEST(report)
 {
-    (void)state;
     const char *path = test_path(test_folder(), "page.html");
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     long failing = 0;
@@ -180,19 +172,4 @@ static void report(void **state)
     }
     print_message("report: %ld allocations, one in %d failed\n", failing - TEST_STEP, TEST_STEP);
     assert_in_range(failing, 10, 1000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gltf),
-        cmocka_unit_test(collada),
-        cmocka_unit_test(obj),
-        cmocka_unit_test(other_outputs),
-        cmocka_unit_test(ranges_after_a_failure),
-        cmocka_unit_test(two_workers),
-        cmocka_unit_test(estimates),
-        cmocka_unit_test(report),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,10 +104,8 @@ static void write_back(alp_context *context, const alp_scene *scene)
     alpi_release(context, pages);
 }
 
-static void changed_bytes(void **state)
+TEST_WITH_CONTEXT(changed_bytes, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     size_t size;
     char *good = test_collada_text(inside, &size);
     uint8_t *bad = malloc(size);
@@ -134,13 +132,10 @@ static void changed_bytes(void **state)
     assert_true(accepted > ROUNDS / 20 && refused > ROUNDS / 20); // both sides were exercised
     free(bad);
     free(good);
-    alp_context_destroy(context);
 }
 
-static void cut_files(void **state)
+TEST_WITH_CONTEXT(cut_files, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     size_t size;
     char *good = test_collada_text(inside, &size);
     for (size_t cut = 0; cut + 2 < size; cut++) { // white space follows the root
@@ -149,13 +144,11 @@ static void cut_files(void **state)
         assert_null(scene);
     }
     free(good);
-    alp_context_destroy(context);
 }
 
 /// Every allocation of ours fails once; the sanitizer build sees what is not given back.
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
-    (void)state;
     size_t size;
     char *good = test_collada_text(inside, &size);
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
@@ -174,14 +167,4 @@ static void failing_allocations(void **state)
     print_message("%d allocations failed in turn\n", allowed - 1);
     assert_in_range(allowed, 60, 10000);
     free(good);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(changed_bytes),
-        cmocka_unit_test(cut_files),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

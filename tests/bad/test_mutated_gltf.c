@@ -113,10 +113,8 @@ static void mutate(uint8_t *bytes, size_t size, uint64_t *state)
     }
 }
 
-static void changed_bytes(void **state)
+TEST_WITH_CONTEXT(changed_bytes, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     size_t size;
     uint8_t *good = make_asset(context, &size);
     ASSERT_OK(context, read_copy(context, good, size));
@@ -135,7 +133,6 @@ static void changed_bytes(void **state)
     assert_true(accepted > ROUNDS / 20 && refused > ROUNDS / 20); // both sides were exercised
     alpi_release(context, bad);
     alpi_release(context, good);
-    alp_context_destroy(context);
 }
 
 /// Reads the asset with `length` bytes at `place` of its JSON replaced by `text`.
@@ -154,15 +151,13 @@ static alp_result read_replaced(alp_context *context, const parts *p, size_t pla
 
 /// Every number of the JSON in turn becomes one of those that break readers, every member goes
 /// missing once.
-static void changed_values(void **state)
+TEST_WITH_CONTEXT(changed_values, 1)
 {
-    (void)state;
     static const char *const values[] = {
         "-1",  "0",      "1",      "2",     "3",          "7",          "97",
         "255", "5121",   "5125",   "65536", "2147483648", "4294967295", "9007199254740993",
         "1.5", "1e30",   "-1e308", "null",  "true",       "[]",         "{}",
         "'x'", "[0,0,0]"};
-    alp_context *context = test_context(1);
     parts p = make_parts(context);
     int numbers = 0, members = 0, accepted = 0;
     for (size_t i = 1; p.json[i] != '\0'; i++) {
@@ -183,13 +178,10 @@ static void changed_values(void **state)
     assert_in_range(members, 80, 1000);
     assert_in_range(accepted, 100, numbers * 15);
     alpi_release(context, p.json);
-    alp_context_destroy(context);
 }
 
-static void cut_files(void **state)
+TEST_WITH_CONTEXT(cut_files, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     size_t size;
     uint8_t *good = make_asset(context, &size);
     for (size_t cut = 0; cut < size; cut++) {
@@ -204,13 +196,11 @@ static void cut_files(void **state)
         alpi_release(context, bad);
     }
     alpi_release(context, good);
-    alp_context_destroy(context);
 }
 
 /// Every allocation of ours fails once; the sanitizer build sees what is not given back.
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
-    (void)state;
     alp_context *plain = test_context(1);
     size_t size;
     uint8_t *good = make_asset(plain, &size);
@@ -238,10 +228,8 @@ static void failing_allocations(void **state)
 }
 
 /// The same for the image inside, which is decoded from bytes of its own.
-static void changed_image(void **state)
+TEST_WITH_CONTEXT(changed_image, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = NULL;
     uint8_t *png = NULL;
     size_t size = 0;
@@ -261,15 +249,4 @@ static void changed_image(void **state)
     }
     alpi_release(context, bad);
     alpi_release(context, png);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(changed_bytes), cmocka_unit_test(changed_values),
-        cmocka_unit_test(cut_files),     cmocka_unit_test(failing_allocations),
-        cmocka_unit_test(changed_image),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

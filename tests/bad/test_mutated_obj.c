@@ -83,10 +83,8 @@ static alp_result read_once(alp_context *context, const char *folder, const char
     return result;
 }
 
-static void changed_bytes(void **state)
+TEST_WITH_CONTEXT(changed_bytes, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     char text[sizeof asset];
     uint64_t seed = 1;
@@ -100,13 +98,10 @@ static void changed_bytes(void **state)
     }
     print_message("%d of %d accepted\n", accepted, ROUNDS);
     assert_in_range(accepted, ROUNDS / 10, ROUNDS * 9 / 10);
-    alp_context_destroy(context);
 }
 
-static void changed_libraries(void **state)
+TEST_WITH_CONTEXT(changed_libraries, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     char text[sizeof library];
     uint64_t seed = 2;
@@ -119,24 +114,19 @@ static void changed_libraries(void **state)
     }
     print_message("%d of %d accepted\n", accepted, ROUNDS / 8);
     assert_in_range(accepted, ROUNDS / 80, ROUNDS / 8);
-    alp_context_destroy(context);
 }
 
-static void cut_files(void **state)
+TEST_WITH_CONTEXT(cut_files, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     for (size_t size = 0; size < sizeof asset - 1; size++) {
         (void)!read_once(context, folder, asset, size);
         (void)!read_once(context, folder, asset + size, sizeof asset - 1 - size);
     }
-    alp_context_destroy(context);
 }
 
-static void failing_allocations(void **state)
+TEST(failing_allocations)
 {
-    (void)state;
     const char *folder = test_folder();
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allowed = 0;
@@ -151,15 +141,4 @@ static void failing_allocations(void **state)
     }
     print_message("%d allocations failed in turn\n", allowed - 1);
     assert_in_range(allowed, 40, 10000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(changed_bytes),
-        cmocka_unit_test(changed_libraries),
-        cmocka_unit_test(cut_files),
-        cmocka_unit_test(failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

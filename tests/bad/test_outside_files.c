@@ -106,9 +106,8 @@ static const char *make_elsewhere(void)
     return elsewhere;
 }
 
-static void names_outside(void **state)
+TEST(names_outside)
 {
-    (void)state;
     const char *elsewhere = make_elsewhere(), *name = strrchr(elsewhere, '/') + 1;
     char text[8][1024];
     snprintf(text[0], 1024, "../%s/wood.png", name);
@@ -141,9 +140,8 @@ static void names_outside(void **state)
 }
 
 /// A link in the folder is the work of who made the folder.
-static void links_are_followed(void **state)
+TEST(links_are_followed)
 {
-    (void)state;
     const char *elsewhere = make_elsewhere();
     for (int kind = 0; kind < 3; kind++) {
         test_small_bake bake = test_small_bake_open(kind);
@@ -170,9 +168,8 @@ static void links_are_followed(void **state)
 
 /// A .gltf that names its picture by ".." is baked into another folder: the picture is not copied
 /// to where that leads from there, and the user is told once.
-static void nothing_is_written_outside(void **state)
+TEST(nothing_is_written_outside)
 {
-    (void)state;
     const char *elsewhere = make_elsewhere();
     char name[1024], beside[2048];
     test_small_bake bake = test_small_bake_open(0);
@@ -187,14 +184,4 @@ static void nothing_is_written_outside(void **state)
     assert_int_not_equal(access(beside, F_OK), 0);
     alp_context_destroy(context);
     test_small_bake_close(&bake);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_outside),
-        cmocka_unit_test(links_are_followed),
-        cmocka_unit_test(nothing_is_written_outside),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

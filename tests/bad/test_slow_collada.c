@@ -59,9 +59,8 @@ static void finish(fixture *f)
     "</vertices>"
 
 /// As many materials bound as there are primitives, and as many coordinate sets at one of them.
-static void bindings(void **state)
+TEST_SLOW(bindings)
 {
-    (void)state;
     fixture f = start(
         "<library_images><image id='i'><init_from>none.png</init_from></image></library_images>"
         "<library_effects><effect id='e'><profile_COMMON><technique><lambert><diffuse><texture "
@@ -94,9 +93,8 @@ static void bindings(void **state)
 }
 
 /// Each of them names its line.
-static void warnings(void **state)
+TEST(warnings)
 {
-    (void)state;
     fixture f = start("<library_geometries><geometry id='g'><mesh><source id='p'><float_array "
                       "id='pa' count='9'>0 0 0 1 0 0 1 1 0</float_array><technique_common>"
                       "<accessor source='#pa' count='3' stride='3'/></technique_common></source>"
@@ -109,9 +107,8 @@ static void warnings(void **state)
 }
 
 /// Many sources of one long array: it is read once.
-static void shared_array(void **state)
+TEST_SLOW(shared_array)
 {
-    (void)state;
     fixture f = start("<library_geometries><geometry id='g'><mesh><source id='a'><float_array "
                       "id='fa' count='300000'>");
     print_times(&f, 300000, "0 ");
@@ -130,9 +127,8 @@ static void shared_array(void **state)
 }
 
 /// A geometry that is no mesh, long, and shown often.
-static void no_mesh(void **state)
+TEST(no_mesh)
 {
-    (void)state;
     fixture f = start("<library_geometries><geometry id='g'>");
     print_times(&f, MANY, "<extra/>");
     alpi_bytes_print(&f.text, "</geometry></library_geometries>"
@@ -144,9 +140,8 @@ static void no_mesh(void **state)
 }
 
 /// Many empty primitives, shown many times: refused before they are counted one by one.
-static void parts_times_places(void **state)
+TEST(parts_times_places)
 {
-    (void)state;
     fixture f = start(FIRST_PART);
     print_times(&f, MANY, "<lines/><triangles/>");
     alpi_bytes_print(&f.text, "</mesh></geometry></library_geometries>"
@@ -159,9 +154,8 @@ static void parts_times_places(void **state)
 }
 
 /// Twenty nodes that each show the next twice, and the last is long or is a million places.
-static void doubling(void **state)
+TEST(doubling)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         fixture f = start("<library_nodes>");
         for (int i = 0; i < 20; i++) {
@@ -188,9 +182,8 @@ static void doubling(void **state)
 }
 
 /// A skin that is looked into for each place, behind very many other elements.
-static void long_controller(void **state)
+TEST(long_controller)
 {
-    (void)state;
     fixture f = start("<library_controllers><controller id='c'>");
     print_times(&f, MANY, "<extra></extra>");
     alpi_bytes_print(&f.text, "<skin source='#g'/></controller></library_controllers>" FIRST_PART
@@ -202,9 +195,8 @@ static void long_controller(void **state)
     finish(&f);
 }
 
-static void inputs_and_attributes(void **state)
+TEST(inputs_and_attributes)
 {
-    (void)state;
     fixture f = start("<library_geometries><geometry id='g'><mesh><vertices id='v'>");
     print_times(&f, MANY, "<input semantic='TANGENT' source='#p'/>");
     alpi_bytes_print(&f.text, "</vertices>");
@@ -220,19 +212,4 @@ static void inputs_and_attributes(void **state)
     assert_int_equal(read(&f, "/>"), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(f.context), "100000 attributes, more than 100"));
     finish(&f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST_OF_FIGURES(bindings),
-        cmocka_unit_test(warnings),
-        TEST_OF_FIGURES(shared_array),
-        cmocka_unit_test(no_mesh),
-        cmocka_unit_test(parts_times_places),
-        cmocka_unit_test(doubling),
-        cmocka_unit_test(long_controller),
-        cmocka_unit_test(inputs_and_attributes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

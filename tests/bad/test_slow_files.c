@@ -25,24 +25,19 @@ static const char *end_text(alpi_bytes *text)
 }
 
 /// libxml2 tells of every "--" in a comment, and each takes as long as all before it.
-static void an_open_comment(void **state)
+TEST_WITH_CONTEXT(an_open_comment, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_bytes text = alpi_bytes_create(context);
     repeat(&text, "<!--", 250000);
     alp_scene *scene = NULL;
     assert_int_equal(test_collada_scene(context, end_text(&text), &scene), ALP_ERROR_INVALID_DATA);
     test_message_has(context, "XML, line ");
     alpi_bytes_destroy(&text);
-    alp_context_destroy(context);
 }
 
 /// A library of 20,000 materials that is named 40,000 times, by one name and by many.
-static void a_library_of_many_names(void **state)
+TEST_WITH_CONTEXT(a_library_of_many_names, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     alpi_bytes library = alpi_bytes_create(context), text = alpi_bytes_create(context);
     for (int i = 0; i < 20000; i++) {
@@ -64,17 +59,14 @@ static void a_library_of_many_names(void **state)
     alp_scene_destroy(scene);
     alpi_bytes_destroy(&text);
     alpi_bytes_destroy(&library);
-    alp_context_destroy(context);
 }
 
 #define POINTS "'accessors':[{'componentType':5126,'type':'VEC3','count':3}]"
 #define STEPS "take more than 268435456 steps"
 
 /// One skin of 4096 joints for each of 100,000 nodes.
-static void a_skin_for_all(void **state)
+TEST_SLOW_WITH_CONTEXT(a_skin_for_all, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_bytes text = alpi_bytes_create(context);
     alpi_bytes_print(&text, "{'asset':{'version':'2.0'}," POINTS ",'meshes':[{'primitives':[{"
                             "'attributes':{'POSITION':0}}]}],'skins':[{'joints':[0");
@@ -86,15 +78,4 @@ static void a_skin_for_all(void **state)
     assert_int_equal(test_gltf_scene(context, end_text(&text), NULL, 0, &scene), ALP_ERROR_LIMIT);
     test_message_has(context, STEPS);
     alpi_bytes_destroy(&text);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_open_comment),
-        cmocka_unit_test(a_library_of_many_names),
-        TEST_OF_FIGURES(a_skin_for_all),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Files of at most 600 lines, functions of at most 60 with their head (CONTRIBUTING, "Names and form")."""
 import pathlib
+import re
 import sys
 
 FILE_LINES, FUNCTION_LINES = 600, 60
@@ -17,7 +18,8 @@ def functions(lines):
         if line == "{" and head:
             start = head
         elif line in ("}", "} // namespace") and start:
-            name = lines[start - 1].split("(")[0].split()[-1].lstrip("*")
+            name = re.sub(r"^TEST\w*\((\w+).*", r"\1", lines[start - 1])
+            name = name.split("(")[0].split()[-1].lstrip("*")
             yield start, name, number - start + 1
             head = start = None
         elif line.endswith(";") and start is None:

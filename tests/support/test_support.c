@@ -135,6 +135,22 @@ const char *test_log_text(void)
     return log_text;
 }
 
+void *test_any_workers(test_make *make, const void *what, size_t size)
+{
+    static const uint32_t workers[] = {1, 2, 7, 32};
+    char *first = calloc(2, size), *other = first + size;
+    assert_non_null(first);
+    make(workers[0], what, first);
+    for (size_t w = 1; w < sizeof workers / sizeof *workers; w++) {
+        memset(other, 0, size);
+        make(workers[w], what, other);
+        if (memcmp(first, other, size) != 0) {
+            fail_msg("%u workers make other bytes than one", workers[w]);
+        }
+    }
+    return first;
+}
+
 static char folder_path[256];
 
 static void remove_folder(void)

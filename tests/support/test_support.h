@@ -16,14 +16,10 @@
 
 #include <alpenglow/alpenglow.h>
 
+#include "test_cases.h"
+
 /// TEST_STEP: loops that try each of many like cases go on by so many: by 1, and under sanitizers,
 /// which are slow, by 13.
-
-// A case that spends seconds on figures (errors over many samples, time, bytes), which are the same
-// under a sanitizer: left out there, as others run the same code.
-// clang-format off
-#define TEST_OF_FIGURES(function) {#function, TEST_STEP > 1 ? NULL : (function), NULL, NULL, NULL}
-// clang-format on
 
 /// Fails the test with the numbers unless |actual − expected| ≤ tolerance (NaN fails).
 #define ASSERT_NEAR(actual, expected, tolerance)                                                   \
@@ -53,6 +49,12 @@ void test_log_clear(void);
 int test_log_has(const char *code);
 /// All messages, one "code object: text" a line, for asserting on words.
 const char *test_log_text(void);
+
+/// Fails unless a function writes the same bytes for 1, 2, 7 and 32 workers. Gives the bytes, which
+/// the caller frees.
+/// @param make  writes `size` bytes, zeroed before, of what it is given
+typedef void test_make(uint32_t workers, const void *what, void *bytes);
+void *test_any_workers(test_make *make, const void *what, size_t size);
 
 /// A new empty folder for this test, removed at exit. Ends in no slash.
 const char *test_folder(void);

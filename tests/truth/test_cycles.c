@@ -50,10 +50,8 @@ static alp_bake_options keep_256(void)
     return options;
 }
 
-static void cornell_box_occlusion(void **state)
+TEST_WITH_CONTEXT(cornell_box_occlusion, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = load_cornell(context);
     alp_bake_options options = keep_256();
     options.occlusion.distance = 0.2f;
@@ -68,7 +66,6 @@ static void cornell_box_occlusion(void **state)
     assert_true(d.bias > -0.001 && d.bias < 0.001);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Means over the texels of both pictures, of each channel.
@@ -147,18 +144,8 @@ static void hold_light(alp_gather gather, uint32_t seeds, double most, double do
     }
 }
 
-static void cornell_box_light(void **state)
+TEST(cornell_box_light)
 {
-    (void)state;
     hold_light(ALP_GATHER_PATHS, 1, 0.01, 0.02);
     hold_light(ALP_GATHER_RAYS, 8, 0.02, 0.1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cornell_box_occlusion),
-        cmocka_unit_test(cornell_box_light),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,14 +4,15 @@
 //
 // Pixels are pooled in tiles of 8 × 8: z = Σ (x − y) / √ Σ (var x + var y), channel by channel, and
 // once over the whole picture, plainly and weighted. Pooled variances rest on nearly a thousand
-// degrees of freedom, so z is normal where nothing is wrong: over 12 seeds (`--seeds 12`) the mean
-// square of the tiles was 0.6 (a third of the Cornell box's tiles are black) to 1.1, the greatest
-// of 3,600 sums 3.5. 4 pictures × 26 sums × 3 channels beyond ±5 by chance: once in 5,600 changes
-// of the random numbers; as long as these stay, the test always says the same.
+// degrees of freedom, so z is normal where nothing is wrong: over 12 seeds (`SHOW_SEEDS=12`) the
+// mean square of the tiles was 0.6 (a third of the Cornell box's tiles are black) to 1.1, the
+// greatest of 3,600 sums 3.5. 4 pictures × 26 sums × 3 channels beyond ±5 by chance: once in 5,600
+// changes of the random numbers; as long as these stay, the test always says the same.
 //
-//     build/dev/tests/test_stored_pictures --update [PATHS]
+//     UPDATE_PICTURES=4096 build/dev/tests/test_truth test_stored_pictures pictures_agree
 //
-// writes the stored pictures anew. Do so only after a change that is known to make them truer.
+// writes the stored pictures anew by 4096 paths a pixel. Do so only after a change that is known to
+// make them truer.
 #include "test_support.h"
 
 #include "scene/scene.h"
@@ -25,7 +26,7 @@
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, TILE = 8 };
 enum { TILES = PIXELS / (TILE * TILE) };
 // With 8 to 16 times the paths of the test the stored noise adds little to its own.
-enum { UPDATE_PATHS = 4096, SEED = 7, UPDATE_SEED = 20260401 };
+enum { SEED = 7, UPDATE_SEED = 20260401 };
 static const double GREATEST_Z = 5.0;
 
 typedef struct subject {
@@ -46,21 +47,7 @@ typedef struct picture {
 } picture;
 
 static picture ours, stored;
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 // --- pictures ------------------------------------------------------------------------------------
 
@@ -102,8 +89,7 @@ static void render(const alp_scene *scene, const subject *s, uint32_t paths, uin
 
 static alp_scene *load(const subject *s)
 {
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, s->scene, &scene));
+    alp_scene *scene = test_load(context, s->scene);
     return scene;
 }
 
@@ -277,11 +263,55 @@ static void leave_evidence(const char *name)
                 FAILED_FOLDER);
 }
 
+// --- maintenance, on request ----------------------------------------------------------------
+
+static void update(uint32_t paths)
+{
+    for (int s = 0; s < SUBJECT_COUNT; s++) {
+        const subject *what = &subjects[s];
+        alp_scene *scene = load(what);
+        render(scene, what, paths, UPDATE_SEED);
+        save(ours.mean, path_of(STORED_FOLDER, what->name, "mean", "exr"));
+        save(ours.variance, path_of(STORED_FOLDER, what->name, "variance", "exr"));
+        alp_scene_destroy(scene);
+        printf("%s: %u paths a pixel\n", what->name, paths);
+    }
+}
+
+/// What the figures above say of a right renderer, seed by seed.
+static void show_seeds(uint64_t seeds)
+{
+    for (int s = 0; s < SUBJECT_COUNT; s++) {
+        alp_scene *scene = load(&subjects[s]);
+        load_stored(&subjects[s]);
+        for (uint64_t seed = 1; seed <= seeds; seed++) {
+            render(scene, &subjects[s], subjects[s].paths, seed);
+            find_worst(subjects[s].name);
+        }
+        alp_scene_destroy(scene);
+    }
+}
+
+/// Does what the environment asks for. Gives whether it asked.
+static bool maintain(void)
+{
+    const char *paths = getenv("UPDATE_PICTURES"), *seeds = getenv("SHOW_SEEDS");
+    if (paths != NULL) {
+        update((uint32_t)strtoul(paths, NULL, 10));
+    }
+    if (seeds != NULL) {
+        show_seeds(strtoul(seeds, NULL, 10));
+    }
+    return paths != NULL || seeds != NULL;
+}
+
 // --- tests ---------------------------------------------------------------------------------------
 
-static void pictures_agree(void **state)
+TEST(pictures_agree)
 {
-    (void)state;
+    if (maintain()) {
+        skip();
+    }
     bool good = true;
     for (int s = 0; s < SUBJECT_COUNT; s++) {
         alp_scene *scene = load(&subjects[s]);
@@ -336,9 +366,8 @@ static void flip_normals(alp_scene *scene)
 }
 
 /// What the comparison is worth: small faults that it must see, and the files they leave.
-static void faults_are_seen(void **state)
+TEST(faults_are_seen)
 {
-    (void)state;
     static const struct {
         const char *name;
         int subject;
@@ -359,9 +388,8 @@ static void faults_are_seen(void **state)
 }
 
 /// Of the last fault: six files that can be read again.
-static void a_failure_leaves_evidence(void **state)
+TEST(a_failure_leaves_evidence)
 {
-    (void)state;
     static const char *const names[] = {"image", "reference", "difference"};
     leave_evidence("example");
     for (int n = 0; n < 3; n++) {
@@ -372,56 +400,4 @@ static void a_failure_leaves_evidence(void **state)
         ASSERT_OK(context, alp_image_load(context, path, &image));
         alp_image_destroy(image);
     }
-}
-
-// --- writing the stored pictures -----------------------------------------------------------------
-
-static void update(uint32_t paths)
-{
-    for (int s = 0; s < SUBJECT_COUNT; s++) {
-        const subject *what = &subjects[s];
-        alp_scene *scene = load(what);
-        render(scene, what, paths, UPDATE_SEED);
-        save(ours.mean, path_of(STORED_FOLDER, what->name, "mean", "exr"));
-        save(ours.variance, path_of(STORED_FOLDER, what->name, "variance", "exr"));
-        alp_scene_destroy(scene);
-        printf("%s: %u paths a pixel\n", what->name, paths);
-    }
-}
-
-/// What the figures above say of a right renderer, seed by seed.
-static void show_seeds(uint64_t seeds)
-{
-    for (int s = 0; s < SUBJECT_COUNT; s++) {
-        alp_scene *scene = load(&subjects[s]);
-        load_stored(&subjects[s]);
-        for (uint64_t seed = 1; seed <= seeds; seed++) {
-            render(scene, &subjects[s], subjects[s].paths, seed);
-            find_worst(subjects[s].name);
-        }
-        alp_scene_destroy(scene);
-    }
-}
-
-int main(int count, char **words)
-{
-    if (count > 2 && strcmp(words[1], "--seeds") == 0) {
-        setup(NULL);
-        show_seeds(strtoul(words[2], NULL, 10));
-        teardown(NULL);
-        return 0;
-    }
-    if (count > 1 && strcmp(words[1], "--update") == 0) {
-        const unsigned long paths = count > 2 ? strtoul(words[2], NULL, 10) : UPDATE_PATHS;
-        setup(NULL);
-        update((uint32_t)paths);
-        teardown(NULL);
-        return 0;
-    }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_agree),
-        cmocka_unit_test(faults_are_seen),
-        cmocka_unit_test(a_failure_leaves_evidence),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -34,10 +34,8 @@ static uint32_t count_links(alp_context *context, const float (*corners)[3], uin
     return sum;
 }
 
-static void a_cube_is_closed(void **state)
+TEST_WITH_CONTEXT(a_cube_is_closed, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     uint32_t(*neighbours)[3] = NULL;
     ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
@@ -50,13 +48,10 @@ static void a_cube_is_closed(void **state)
     }
     alpi_release(context, neighbours);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void edges_are_matched_in_order(void **state)
+TEST_WITH_CONTEXT(edges_are_matched_in_order, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     static const uint32_t indices[2][3] = {{0, 1, 2}, {2, 3, 0}};
     alp_scene *scene = scene_of(context, p, NULL, 4, indices, 2);
@@ -66,54 +61,40 @@ static void edges_are_matched_in_order(void **state)
     assert_memory_equal(neighbours, expected, sizeof expected);
     alpi_release(context, neighbours);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void minus_zero_is_zero(void **state)
+TEST_WITH_CONTEXT(minus_zero_is_zero, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float corners[6][3] = {{0.0f, 0.0f, 0.0f},  {1.0f, 0.0f, -0.0f},
                                         {0.0f, 1.0f, 0.0f},  {1.0f, -0.0f, 0.0f},
                                         {1.0f, 1.0f, -0.0f}, {-0.0f, 1.0f, -0.0f}};
     assert_int_equal(count_links(context, corners, 2), 2);
-    alp_context_destroy(context);
 }
 
-static void three_at_an_edge_are_none(void **state)
+TEST_WITH_CONTEXT(three_at_an_edge_are_none, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float corners[9][3] = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0},
                                         {0, -1, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
     assert_int_equal(count_links(context, corners, 2), 2);
     assert_int_equal(count_links(context, corners, 3), 0);
-    alp_context_destroy(context);
 }
 
-static void turned_round_is_no_neighbour(void **state)
+TEST_WITH_CONTEXT(turned_round_is_no_neighbour, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float corners[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                         {0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
     assert_int_equal(count_links(context, corners, 2), 0);
-    alp_context_destroy(context);
 }
 
-static void half_an_edge_is_no_edge(void **state)
+TEST_WITH_CONTEXT(half_an_edge_is_no_edge, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float corners[9][3] = {{0, 0, 0},  {2, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0},
                                         {1, -1, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}};
     assert_int_equal(count_links(context, corners, 3), 2); // the lower two, with each other
-    alp_context_destroy(context);
 }
 
-static void a_twisted_band_breaks_once(void **state)
+TEST_WITH_CONTEXT(a_twisted_band_breaks_once, 1)
 {
-    (void)state;
     // Five squares in a ring whose last is joined to the first upside down: one edge of the ring
     // joins triangles that wind against each other.
     enum { N = 5 };
@@ -135,7 +116,6 @@ static void a_twisted_band_breaks_once(void **state)
         uint32_t two[2][3] = {{a, b, d}, {a, d, c}};
         memcpy(indices[2 * i], two, sizeof two);
     }
-    alp_context *context = test_context(1);
     alp_scene *scene =
         scene_of(context, (const float(*)[3])p, NULL, 2 * N, (const uint32_t(*)[3])indices, 2 * N);
     uint32_t(*neighbours)[3] = NULL, sum = 0;
@@ -146,19 +126,4 @@ static void a_twisted_band_breaks_once(void **state)
     assert_int_equal(sum, 2 * (2 * N - 1)); // 2N inner edges in the ring, one of them broken
     alpi_release(context, neighbours);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cube_is_closed),
-        cmocka_unit_test(edges_are_matched_in_order),
-        cmocka_unit_test(minus_zero_is_zero),
-        cmocka_unit_test(three_at_an_edge_are_none),
-        cmocka_unit_test(turned_round_is_no_neighbour),
-        cmocka_unit_test(half_an_edge_is_no_edge),
-        cmocka_unit_test(a_twisted_band_breaks_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,9 +57,8 @@ static const uint32_t SIDES[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}
                                       {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
 
 /// Leaves of a book: all share the edge of its back.
-static void an_edge_of_many_triangles(void **state)
+TEST(an_edge_of_many_triangles)
 {
-    (void)state;
     enum { LEAVES = 64 };
     float p[2 + LEAVES][3] = {{0, 0, 0}, {0, 1, 0}};
     uint32_t indices[LEAVES][3];
@@ -76,9 +75,8 @@ static void an_edge_of_many_triangles(void **state)
 }
 
 /// A cube, and again, and turned inside out: each copy has its own texels.
-static void triangles_that_are_there_twice(void **state)
+TEST(triangles_that_are_there_twice)
 {
-    (void)state;
     uint32_t indices[36][3];
     for (int i = 0; i < 36; i++) {
         memcpy(indices[i], SIDES[i % 12], sizeof indices[i]);
@@ -93,9 +91,8 @@ static void triangles_that_are_there_twice(void **state)
 }
 
 /// One triangle a thousand times.
-static void a_heap_of_one_triangle(void **state)
+TEST(a_heap_of_one_triangle)
 {
-    (void)state;
     static uint32_t indices[1000][3];
     for (int i = 0; i < 1000; i++) {
         memcpy(indices[i], SIDES[0], sizeof indices[i]);
@@ -105,9 +102,8 @@ static void a_heap_of_one_triangle(void **state)
     assert_int_equal(info.pages, 1);
 }
 
-static void vertices_that_nothing_uses(void **state)
+TEST(vertices_that_nothing_uses)
 {
-    (void)state;
     float p[1008][3];
     memcpy(p, CUBE, sizeof CUBE);
     for (int i = 8; i < 1008; i++) {
@@ -159,9 +155,8 @@ static void check_pieces(uint32_t mesh_count)
     free(positions);
 }
 
-static void a_hundred_thousand_pieces(void **state)
+TEST(a_hundred_thousand_pieces)
 {
-    (void)state;
     check_pieces(1);
     check_pieces(PIECES);
 }
@@ -188,12 +183,10 @@ static alp_result try_density(alp_context *context, double density, alp_atlas_in
 
 /// The half of a cube's side is 2 m wide and high: 200 texels at 100. What the message says is
 /// possible is, and a percent more is not.
-static void a_triangle_larger_than_a_page_is_told(void **state)
+TEST_WITH_CONTEXT(a_triangle_larger_than_a_page_is_told, 1)
 {
-    (void)state;
     static const char *const words[] = {"thing", "triangle 0", "100 texels per metre",
                                         "a page of 64 texels"};
-    alp_context *context = test_context(1);
     alp_atlas_info info;
     assert_int_equal(try_density(context, 100.0, &info), ALP_ERROR_LIMIT);
     const char *message = alp_context_message(context);
@@ -209,18 +202,4 @@ static void a_triangle_larger_than_a_page_is_told(void **state)
     ASSERT_OK(context, try_density(context, density, &info));
     ASSERT_NEAR(info.texels_per_metre, density, 1e-3 * density);
     assert_true(info.pages > 1); // 24 m², and a page has 4 m² at 32 texels per metre
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_edge_of_many_triangles),
-        cmocka_unit_test(triangles_that_are_there_twice),
-        cmocka_unit_test(a_heap_of_one_triangle),
-        cmocka_unit_test(vertices_that_nothing_uses),
-        cmocka_unit_test(a_hundred_thousand_pieces),
-        cmocka_unit_test(a_triangle_larger_than_a_page_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

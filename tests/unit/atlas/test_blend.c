@@ -44,10 +44,8 @@ static void corner_cosines(const alp_scene *scene, uint32_t triangle, double cos
     cosines[2] = fabs((double)n.z);
 }
 
-static void triangles_lie_in_the_charts_of_their_axes(void **state)
+TEST_WITH_CONTEXT(triangles_lie_in_the_charts_of_their_axes, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 256, 0.0);
     assert_int_equal(alp_atlas_get_info(atlas).charts, 6); // a cap about each end of each axis
@@ -73,13 +71,10 @@ static void triangles_lie_in_the_charts_of_their_axes(void **state)
     assert_true(counts[1] > 0 && counts[2] > 0 && counts[3] > 0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void sets_that_a_triangle_is_not_in_repeat_its_strongest(void **state)
+TEST_WITH_CONTEXT(sets_that_a_triangle_is_not_in_repeat_its_strongest, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas *atlas = blend_of(context, scene, 64, 0.0);
     assert_int_equal(alp_atlas_get_info(atlas).charts, 6);
@@ -93,13 +88,10 @@ static void sets_that_a_triangle_is_not_in_repeat_its_strongest(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void folds_are_cut(void **state)
+TEST_WITH_CONTEXT(folds_are_cut, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_spiral(context, 9);
     alp_atlas *atlas = blend_of(context, scene, 256, 0.0);
     assert_int_equal(overlapping_texels(atlas), 0);
@@ -108,14 +100,11 @@ static void folds_are_cut(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The point of a texel lies on the triangle and in the texel that it names.
-static void texels_name_triangles_of_the_scene(void **state)
+TEST_WITH_CONTEXT(texels_name_triangles_of_the_scene, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 128, 0.0);
     alpi_texels texels;
@@ -149,7 +138,6 @@ static void texels_name_triangles_of_the_scene(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Balls of one mesh, each of its own size.
@@ -172,10 +160,8 @@ static alp_scene *scene_balls(alp_context *context, uint32_t count)
 }
 
 /// Charts of what is connected lie on one page where one holds them, so that no triangle loses one.
-static void charts_of_one_piece_share_a_page(void **state)
+TEST_WITH_CONTEXT(charts_of_one_piece_share_a_page, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_balls(context, 8);
     alp_atlas *atlas = blend_of(context, scene, 128, 20.0); // a ball takes half a page at most
     const uint32_t pages = alp_atlas_get_info(atlas).pages;
@@ -186,14 +172,11 @@ static void charts_of_one_piece_share_a_page(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// A material has one map: on several pages all coordinates of a triangle lie on its own.
-static void pages_keep_triangles_together(void **state)
+TEST_WITH_CONTEXT(pages_keep_triangles_together, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 64, 30.0);
     assert_true(alp_atlas_get_info(atlas).pages > 1);
@@ -210,14 +193,11 @@ static void pages_keep_triangles_together(void **state)
     assert_true(apart > 0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Surfaces have the density that is asked for them, in whatever set their chart is.
-static void densities_are_kept(void **state)
+TEST_WITH_CONTEXT(densities_are_kept, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
     alp_atlas_options options = alp_atlas_options_default();
@@ -247,16 +227,13 @@ static void densities_are_kept(void **state)
     assert_true(seen[0] > 0 && seen[1] > 0 && seen[2] > 0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// A cap of a sphere up to 87° has 2π (1 − cos 87°) of area and π sin² 87° of its plane: its chart
 /// is enlarged by s = 1.9005. What is read of it has s Σ |n_k|³ times the texels that are asked
 /// for, a sum that lies between 1/√3 and 1.
-static void what_is_read_is_as_dense_as_asked(void **state)
+TEST_WITH_CONTEXT(what_is_read_is_as_dense_as_asked, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 256, 25.0);
     double least = HUGE_VAL, most = 0.0;
@@ -279,13 +256,10 @@ static void what_is_read_is_as_dense_as_asked(void **state)
     ASSERT_NEAR(most, 1.9005, 0.07 * 1.9005);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void weights_are_squares_of_the_normal(void **state)
+TEST_WITH_CONTEXT(weights_are_squares_of_the_normal, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = smooth_sphere(context);
     alp_atlas *atlas = blend_of(context, scene, 64, 0.0);
     for (uint32_t i = 0; i < 4000; i++) {
@@ -306,14 +280,11 @@ static void weights_are_squares_of_the_normal(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// An object that stands askew is projected along its own axes, unless the world's are asked for.
-static void axes_are_those_of_the_object(void **state)
+TEST_WITH_CONTEXT(axes_are_those_of_the_object, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context); // its faces along the world's axes
     const float c = 0.70710678f;
     const float askew[3][3] = {
@@ -340,12 +311,10 @@ static void axes_are_those_of_the_object(void **state)
         alp_atlas_destroy(atlas);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void is_the_same_for_any_number_of_workers(void **state)
+TEST(is_the_same_for_any_number_of_workers)
 {
-    (void)state;
     alp_context *contexts[2] = {test_context(1), test_context(4)};
     alp_atlas *atlases[2];
     alp_scene *scenes[2];
@@ -364,9 +333,8 @@ static void is_the_same_for_any_number_of_workers(void **state)
     }
 }
 
-static void running_out_of_memory_leaves_nothing(void **state)
+TEST(running_out_of_memory_leaves_nothing)
 {
-    (void)state;
     int left = 1 << 30;
     alp_context *context = test_context_failing(&left);
     alp_scene *scene = scene_cube(context); // the same steps as of more triangles, and few texels
@@ -388,23 +356,4 @@ static void running_out_of_memory_leaves_nothing(void **state)
     }
     alp_scene_destroy(scene);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangles_lie_in_the_charts_of_their_axes),
-        cmocka_unit_test(sets_that_a_triangle_is_not_in_repeat_its_strongest),
-        cmocka_unit_test(folds_are_cut),
-        cmocka_unit_test(texels_name_triangles_of_the_scene),
-        cmocka_unit_test(charts_of_one_piece_share_a_page),
-        cmocka_unit_test(pages_keep_triangles_together),
-        cmocka_unit_test(densities_are_kept),
-        cmocka_unit_test(what_is_read_is_as_dense_as_asked),
-        cmocka_unit_test(weights_are_squares_of_the_normal),
-        cmocka_unit_test(axes_are_those_of_the_object),
-        cmocka_unit_test(is_the_same_for_any_number_of_workers),
-        cmocka_unit_test(running_out_of_memory_leaves_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

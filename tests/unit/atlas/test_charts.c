@@ -84,22 +84,17 @@ static void check_scene(alp_context *context, alp_scene *scene)
     alp_scene_destroy(scene);
 }
 
-static void nothing_overlaps(void **state)
+TEST_WITH_CONTEXT(nothing_overlaps, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     check_scene(context, scene_cube(context));
     check_scene(context, scene_sphere(context, 12, 24));
     check_scene(context, scene_spiral(context, 5));
     check_scene(context, scene_plane(context, 3));
     check_scene(context, scene_confetti(context, 40));
-    alp_context_destroy(context);
 }
 
-static void charts_have_the_area_of_their_triangles(void **state)
+TEST_WITH_CONTEXT(charts_have_the_area_of_their_triangles, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 10, 20);
     alp_atlas *atlas = atlas_of(context, scene, 512, 64.0, 2);
     double *areas = ALPI_NEW(context, double, 2 * (size_t)atlas->info.charts);
@@ -120,13 +115,10 @@ static void charts_have_the_area_of_their_triangles(void **state)
     alpi_release(context, areas);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_turned_square_gets_a_tight_box(void **state)
+TEST_WITH_CONTEXT(a_turned_square_gets_a_tight_box, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     float p[4][3];
     for (int i = 0; i < 4; i++) {
         double angle = 0.3 + 0.5 * ALPI_PI * i;
@@ -144,13 +136,10 @@ static void a_turned_square_gets_a_tight_box(void **state)
     ASSERT_NEAR(info.utilisation, 1.0, 1e-12);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void one_page_is_well_used(void **state)
+TEST_WITH_CONTEXT(one_page_is_well_used, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 30, 60);
     alp_atlas *atlas = atlas_of(context, scene, 256, 0.0, 2);
     alp_atlas_info info = alp_atlas_get_info(atlas);
@@ -158,13 +147,10 @@ static void one_page_is_well_used(void **state)
     assert_true(info.utilisation > 0.6 && info.utilisation <= 1.0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_chart_larger_than_a_page_is_cut(void **state)
+TEST_WITH_CONTEXT(a_chart_larger_than_a_page_is_cut, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_plane(context, 16); // 2 m; at 100 texels per metre 200 texels
     alp_atlas *atlas = atlas_of(context, scene, 64, 100.0, 2);
     assert_in_range(alp_atlas_get_info(atlas).pages, 10, 11); // 200² / 64² = 9.8; see test_cut
@@ -178,13 +164,10 @@ static void a_chart_larger_than_a_page_is_cut(void **state)
     assert_int_equal(alp_atlas_create(scene, &options, &atlas), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(context), "larger than a page of 64"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void sizes_at_their_ends(void **state)
+TEST_WITH_CONTEXT(sizes_at_their_ends, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas *atlas = atlas_of(context, scene, 1, 0.0, 64);
     assert_int_equal(alp_atlas_get_info(atlas).pages, 1);
@@ -198,13 +181,10 @@ static void sizes_at_their_ends(void **state)
     assert_in_range(alp_atlas_get_info(atlas).texels, 6, 8);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void bad_options_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_options_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     const alp_atlas_options good = alp_atlas_options_default();
     alp_atlas_options bad[] = {good, good, good, good, good, good, good, good};
@@ -223,13 +203,10 @@ static void bad_options_are_refused(void **state)
     }
     alp_atlas_destroy(NULL);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void nothing_to_bake_is_said(void **state)
+TEST_WITH_CONTEXT(nothing_to_bake_is_said, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float p[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     static const uint32_t index[1][3] = {{0, 1, 2}};
     alp_scene *scene = scene_of(context, p, NULL, 3, index, 1);
@@ -237,7 +214,6 @@ static void nothing_to_bake_is_said(void **state)
     assert_int_equal(alp_atlas_create(scene, NULL, &atlas), ALP_ERROR_INVALID_DATA);
     assert_non_null(strstr(alp_context_message(context), "nothing to bake"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static bool refuse(void *user, const alp_progress *progress)
@@ -247,22 +223,18 @@ static bool refuse(void *user, const alp_progress *progress)
     return false;
 }
 
-static void progress_can_cancel(void **state)
+TEST_WITH_CONTEXT(progress_can_cancel, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas_options options = alp_atlas_options_default();
     options.progress = refuse;
     alp_atlas *atlas = NULL;
     assert_int_equal(alp_atlas_create(scene, &options, &atlas), ALP_ERROR_CANCELLED);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+TEST(workers_change_nothing)
 {
-    (void)state;
     alp_atlas *atlases[2];
     alp_scene *scenes[2];
     alp_context *contexts[2];
@@ -281,9 +253,8 @@ static void workers_change_nothing(void **state)
 }
 
 /// Allocator that fails once its countdown is at zero.
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     int left = 0, failures = 0;
     alp_context *context = test_context_failing(&left);
     alp_scene *scene = scene_sphere(context, 6, 12);
@@ -308,10 +279,8 @@ static void every_allocation_may_fail(void **state)
     alp_context_destroy(context);
 }
 
-static void a_picture_shows_the_charts(void **state)
+TEST_WITH_CONTEXT(a_picture_shows_the_charts, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas *atlas = atlas_of(context, scene, 64, 0.0, 2);
     alp_image *image = NULL;
@@ -325,24 +294,4 @@ static void a_picture_shows_the_charts(void **state)
     assert_int_equal(alp_atlas_picture(atlas, 1, &image), ALP_ERROR_INVALID_ARGUMENT);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_overlaps),
-        cmocka_unit_test(charts_have_the_area_of_their_triangles),
-        cmocka_unit_test(a_turned_square_gets_a_tight_box),
-        cmocka_unit_test(one_page_is_well_used),
-        cmocka_unit_test(a_chart_larger_than_a_page_is_cut),
-        cmocka_unit_test(sizes_at_their_ends),
-        cmocka_unit_test(bad_options_are_refused),
-        cmocka_unit_test(nothing_to_bake_is_said),
-        cmocka_unit_test(progress_can_cancel),
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(a_picture_shows_the_charts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

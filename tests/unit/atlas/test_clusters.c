@@ -59,10 +59,8 @@ static uint32_t folded_pairs(const alp_scene *scene, const alpi_clusters *cluste
     return pairs;
 }
 
-static void a_cube_has_six(void **state)
+TEST_WITH_CONTEXT(a_cube_has_six, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alpi_clusters clusters = clusters_of(context, scene, 0.78f);
     assert_int_equal(clusters.count, 6);
@@ -71,26 +69,20 @@ static void a_cube_has_six(void **state)
     }
     alpi_clusters_destroy(context, &clusters);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_plane_has_one(void **state)
+TEST_WITH_CONTEXT(a_plane_has_one, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_plane(context, 70); // more triangles than one round takes
     alpi_clusters clusters = clusters_of(context, scene, 0.1f);
     assert_int_equal(clusters.count, 1);
     ASSERT_NEAR(clusters.planes[0][1], 1.0, 1e-6);
     alpi_clusters_destroy(context, &clusters);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_sphere_has_a_handful(void **state)
+TEST_WITH_CONTEXT(a_sphere_has_a_handful, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 24, 48);
     const float angles[] = {0.4f, 0.785f, 1.2f};
     // A cap of angle a has the share (1 − cos a)/2 of the sphere: fewer clusters than 1/share is
@@ -106,13 +98,10 @@ static void a_sphere_has_a_handful(void **state)
         alpi_clusters_destroy(context, &clusters);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_spiral_is_cut_each_turn(void **state)
+TEST_WITH_CONTEXT(a_spiral_is_cut_each_turn, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (uint32_t turns = 2; turns <= 20; turns += 9) {
         alp_scene *scene = scene_spiral(context, turns);
         alpi_clusters clusters = clusters_of(context, scene, 1.0f);
@@ -122,12 +111,10 @@ static void a_spiral_is_cut_each_turn(void **state)
         alpi_clusters_destroy(context, &clusters);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
-static void meshes_keep_apart(void **state)
+TEST_WITH_CONTEXT(meshes_keep_apart, 1)
 {
-    (void)state;
     // Two halves of one square, each a mesh of its own.
     static const float p[2][3][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
                                      {{1, 1, 0}, {0, 1, 0}, {0, 0, 0}}};
@@ -139,19 +126,16 @@ static void meshes_keep_apart(void **state)
                                .triangle_count = 1,
                                .indices = &index[0][0]};
     }
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, meshes, 2, &scene));
     alpi_clusters clusters = clusters_of(context, scene, 0.5f);
     assert_int_equal(clusters.count, 2);
     alpi_clusters_destroy(context, &clusters);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void touching_is_not_overlapping(void **state)
+TEST(touching_is_not_overlapping)
 {
-    (void)state;
     alpi_flat a = {{0, 1, 0}, {0, 0, 1}}, b = {{1, 1, 0}, {0, 1, 1}},
               c = {{0.1, 0.2, 0.1}, {0.1, 0.1, 0.2}};
     alpi_flat corner = {{1, 2, 2}, {0, 0, 1}}, crossing = {{-1, 2, 2}, {0.2, 0.2, 0.3}};
@@ -162,14 +146,4 @@ static void touching_is_not_overlapping(void **state)
     assert_true(alpi_flat_overlap(&a, &crossing, 1e-9));
     assert_true(alpi_flat_overlap(&a, &a, 1e-9));
     assert_false(alpi_flat_overlap(&a, &crossing, 1.0));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cube_has_six),         cmocka_unit_test(a_plane_has_one),
-        cmocka_unit_test(a_sphere_has_a_handful), cmocka_unit_test(a_spiral_is_cut_each_turn),
-        cmocka_unit_test(meshes_keep_apart),      cmocka_unit_test(touching_is_not_overlapping),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,9 +94,8 @@ static void check_square(uint32_t n, double side, uint32_t size)
     alp_context_destroy(context);
 }
 
-static void a_square_fills_its_pages(void **state)
+TEST(a_square_fills_its_pages)
 {
-    (void)state;
     check_square(16, 12.5, 64);  // 9 pages of 5² squares and 7 strips of 13: 11 pages
     check_square(50, 20.0, 256); // 16 of 12² and 9 of 40
     check_square(50, 20.0, 128); // 64 of 6² and 17 of 40
@@ -105,10 +104,8 @@ static void a_square_fills_its_pages(void **state)
 
 /// Triangles that are halves of squares of 0.65 of a page: of whole squares a page holds one, .42
 /// of it. Four halves, laid round a square on their longest sides, are .84.
-static void halves_of_squares_fill_pages(void **state)
+TEST_WITH_CONTEXT(halves_of_squares_fill_pages, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_plane(context, 6);
     const wish w = {.size = 256, .padding = 2, .density = 3.0 * 0.65 * 256};
     alp_atlas *atlas = NULL;
@@ -117,19 +114,16 @@ static void halves_of_squares_fill_pages(void **state)
     assert_int_equal(alp_atlas_get_info(atlas).pages, 18); // 72 of them
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Gaps for blocks and mip levels are kept between parts, and these fill pages as well.
-static void parts_keep_gaps(void **state)
+TEST_WITH_CONTEXT(parts_keep_gaps, 1)
 {
-    (void)state;
     static const wish wishes[] = {{64, 0, 0, 0, 150.0},
                                   {64, 2, 4, 0, 150.0},
                                   {64, 1, 0, 3, 150.0},
                                   {64, 5, 12, 2, 150.0},
                                   {100, 2, 0, 0, 220.0}};
-    alp_context *context = test_context(1);
     alp_scene *scenes[] = {scene_plane(context, 40), scene_sphere(context, 40, 80)};
     for (size_t i = 0; i < 2 * sizeof wishes / sizeof *wishes; i++) {
         alp_atlas *atlas = NULL;
@@ -144,7 +138,6 @@ static void parts_keep_gaps(void **state)
     }
     alp_scene_destroy(scenes[0]);
     alp_scene_destroy(scenes[1]);
-    alp_context_destroy(context);
 }
 
 /// A comb of a row of 9 squares of 1 m, and 5 prongs of `length`.
@@ -175,10 +168,8 @@ static alp_scene *scene_comb(alp_context *context, uint32_t length)
 }
 
 /// What a strip holds of a comb is its prongs: each is a chart of its own.
-static void parts_are_connected(void **state)
+TEST_WITH_CONTEXT(parts_are_connected, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_comb(context, 40);
     for (uint32_t size = 32; size <= 256; size *= 2) {
         const wish w = {.size = size, .padding = 2, .density = 10.0};
@@ -189,12 +180,10 @@ static void parts_are_connected(void **state)
         alp_atlas_destroy(atlas);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+TEST(workers_change_nothing)
 {
-    (void)state;
     alp_atlas *atlases[2] = {NULL, NULL};
     alp_scene *scenes[2];
     alp_context *contexts[2];
@@ -222,9 +211,8 @@ static void check_side(const alpi_point triangle[3], double side)
     ASSERT_NEAR(fmax(box.width, box.height), side, 1e-12); // rounding
 }
 
-static void a_square_round_a_triangle(void **state)
+TEST(a_square_round_a_triangle)
 {
-    (void)state;
     const double pi = ALPI_PI;
     check_side((const alpi_point[3]){{0, 0}, {1, 0}, {0, 1}}, 1.0);
     // Equilateral: turned by 15° two of its corners reach as far up as to the right.
@@ -285,25 +273,11 @@ static void check_numbers(alp_context *context, alp_scene *scene, double density
     alp_scene_destroy(scene);
 }
 
-static void what_is_possible_is_told(void **state)
+TEST_SLOW_WITH_CONTEXT(what_is_possible_is_told, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     check_numbers(context, scene_plane(context, 16), 1000.0); // not the first triangle's diagonal
     check_numbers(context, scene_cube(context), 45.3);        // nearly fits
     check_numbers(context, scene_sphere(context, 6, 12), 500.0);
     check_numbers(context, scene_spiral(context, 2), 700.0);
     check_numbers(context, scene_confetti(context, 40), 900.0); // of all sizes
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_square_fills_its_pages), cmocka_unit_test(halves_of_squares_fill_pages),
-        cmocka_unit_test(parts_keep_gaps),          cmocka_unit_test(parts_are_connected),
-        cmocka_unit_test(workers_change_nothing),   cmocka_unit_test(a_square_round_a_triangle),
-        TEST_OF_FIGURES(what_is_possible_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,10 +60,8 @@ static void check_factors(alp_context *context, const char *densities, double te
     alp_scene_destroy(scene);
 }
 
-static void factors_are_kept(void **state)
+TEST_WITH_CONTEXT(factors_are_kept, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const expected_factor names[] = {{"floor", 2.0}, {"lamp", 0.25}};
     static const expected_factor materials[] = {{"red wall", 3.0}, {"green wall", 0.5}};
     static const expected_factor both[] = {{"floor", 1.5},
@@ -79,15 +77,12 @@ static void factors_are_kept(void **state)
         check_factors(context, "*block=2,material:white=1.5", density, both, 5);
         check_factors(context, "floor=1000,floor=0.002,la?p=.1,lamp=2.5", density, names, 2);
     }
-    alp_context_destroy(context);
 }
 
 /// A floor of twice the density d where half of it is asked for. Over its area F and the others' R,
 /// the density of factor 1 is b = d √((4 F + R) / (F / 4 + R)).
-static void what_is_asked_for_and_not_given_is_stretch(void **state)
+TEST_WITH_CONTEXT(what_is_asked_for_and_not_given_is_stretch, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = cornell(context);
     alp_atlas_options options = alp_atlas_options_default();
     options.size = 256;
@@ -116,14 +111,11 @@ static void what_is_asked_for_and_not_given_is_stretch(void **state)
     ASSERT_NEAR(facts.texels_per_metre, d * sqrt((4.0 * floor + rest) / (floor + rest)), 1e-4 * d);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Two squares that share an edge are one chart, but not when they are to be of unlike density.
-static void charts_hold_one_density(void **state)
+TEST_WITH_CONTEXT(charts_hold_one_density, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = cornell(context);
     alp_atlas_options options = alp_atlas_options_default();
     options.densities = "floor=1.25";
@@ -140,13 +132,10 @@ static void charts_hold_one_density(void **state)
     }
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void what_is_no_density_is_refused(void **state)
+TEST_WITH_CONTEXT(what_is_no_density_is_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const char *const wrong[][2] = {
         {"", "give PATTERN=FACTOR"},
         {"floor", "give PATTERN=FACTOR"},
@@ -177,7 +166,6 @@ static void what_is_no_density_is_refused(void **state)
         assert_non_null(strstr(alp_context_message(context), wrong[i][1]));
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static void check_gaps(alp_context *context, const alp_scene *scene, const alpi_pack_rules *rules)
@@ -209,10 +197,8 @@ static void check_gaps(alp_context *context, const alp_scene *scene, const alpi_
     alp_atlas_destroy(atlas);
 }
 
-static void gaps_hold_on_whole_pages(void **state)
+TEST_WITH_CONTEXT(gaps_hold_on_whole_pages, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const alpi_pack_rules rules[] = {{.size = 128, .padding = 0, .block = 1},
                                             {.size = 100, .padding = 2, .block = 5},
                                             {.size = 128, .padding = 1, .block = 4, .mips = 1},
@@ -224,13 +210,10 @@ static void gaps_hold_on_whole_pages(void **state)
     }
     alp_scene_destroy(scenes[0]);
     alp_scene_destroy(scenes[1]);
-    alp_context_destroy(context);
 }
 
-static void bad_gaps_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_gaps_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     const alp_atlas_options good = alp_atlas_options_default();
     alp_atlas_options bad[] = {good, good, good, good, good, good, good};
@@ -249,18 +232,4 @@ static void bad_gaps_are_refused(void **state)
         assert_null(atlas);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(factors_are_kept),
-        cmocka_unit_test(what_is_asked_for_and_not_given_is_stretch),
-        cmocka_unit_test(charts_hold_one_density),
-        cmocka_unit_test(what_is_no_density_is_refused),
-        cmocka_unit_test(gaps_hold_on_whole_pages),
-        cmocka_unit_test(bad_gaps_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

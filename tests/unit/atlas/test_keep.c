@@ -29,10 +29,8 @@ static alp_result keep(alp_context *context, const float (*uvs)[2], alp_atlas_mo
     return result;
 }
 
-static void a_good_set_is_kept(void **state)
+TEST_WITH_CONTEXT(a_good_set_is_kept, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_atlas_info info;
     ASSERT_OK(context, keep(context, GOOD, ALP_ATLAS_KEEP, &info));
     assert_int_equal(info.mode, ALP_ATLAS_KEEP);
@@ -41,7 +39,6 @@ static void a_good_set_is_kept(void **state)
     ASSERT_OK(context, keep(context, GOOD, ALP_ATLAS_AUTO, &info));
     assert_int_equal(info.mode, ALP_ATLAS_KEEP);
     assert_string_equal(alp_context_message(context), "");
-    alp_context_destroy(context);
 }
 
 /// KEEP fails with these words in its message, and AUTO makes charts instead.
@@ -61,15 +58,13 @@ static void check_fault(const float (*uvs)[2], const char *fault, const char *tr
     alp_context_destroy(context);
 }
 
-static void a_missing_set_is_said(void **state)
+TEST(a_missing_set_is_said)
 {
-    (void)state;
     check_fault(NULL, "missing", "4 triangles, such as 0, 1, 2, 3;");
 }
 
-static void out_of_range_is_said(void **state)
+TEST_WITH_CONTEXT(out_of_range_is_said, 1)
 {
-    (void)state;
     float uvs[8][2];
     memcpy(uvs, GOOD, sizeof uvs);
     uvs[7][1] = 1.001f;
@@ -78,24 +73,20 @@ static void out_of_range_is_said(void **state)
     check_fault((const float(*)[2])uvs, "outside [0, 1]", "1 triangle, such as 3;");
     uvs[7][1] = 0.4f;
     uvs[0][0] = -0.00005f; // clamped
-    alp_context *context = test_context(1);
     alp_atlas_info info;
     ASSERT_OK(context, keep(context, (const float(*)[2])uvs, ALP_ATLAS_KEEP, &info));
-    alp_context_destroy(context);
 }
 
-static void no_area_is_said(void **state)
+TEST(no_area_is_said)
 {
-    (void)state;
     float uvs[8][2];
     memcpy(uvs, GOOD, sizeof uvs);
     memcpy(uvs[1], uvs[0], sizeof uvs[0]);
     check_fault((const float(*)[2])uvs, "no area", "1 triangle, such as 0;");
 }
 
-static void overlap_is_said(void **state)
+TEST(overlap_is_said)
 {
-    (void)state;
     float uvs[8][2];
     memcpy(uvs, GOOD, sizeof uvs);
     for (int i = 4; i < 8; i++) {
@@ -108,47 +99,27 @@ static void overlap_is_said(void **state)
     check_fault((const float(*)[2])uvs, "overlap", "with");
 }
 
-static void sharing_a_texel_is_no_overlap(void **state)
+TEST_WITH_CONTEXT(sharing_a_texel_is_no_overlap, 1)
 {
-    (void)state;
     float uvs[8][2];
     memcpy(uvs, GOOD, sizeof uvs);
     for (int i = 4; i < 8; i++) {
         uvs[i][0] -= 0.2f; // side by side
     }
-    alp_context *context = test_context(1);
     alp_atlas_info info;
     ASSERT_OK(context, keep(context, (const float(*)[2])uvs, ALP_ATLAS_KEEP, &info));
-    alp_context_destroy(context);
 }
 
-static void mirrored_coordinates_are_kept(void **state)
+TEST_WITH_CONTEXT(mirrored_coordinates_are_kept, 1)
 {
-    (void)state;
     float uvs[8][2];
     for (int i = 0; i < 8; i++) {
         uvs[i][0] = 1.0f - GOOD[i][0];
         uvs[i][1] = GOOD[i][1];
     }
-    alp_context *context = test_context(1);
     alp_atlas_info info, straight;
     ASSERT_OK(context, keep(context, (const float(*)[2])uvs, ALP_ATLAS_KEEP, &info));
     ASSERT_OK(context, keep(context, GOOD, ALP_ATLAS_KEEP, &straight));
     assert_int_equal(info.texels, straight.texels);
     ASSERT_NEAR(info.texels_per_metre, straight.texels_per_metre, 1e-4);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_good_set_is_kept),
-        cmocka_unit_test(a_missing_set_is_said),
-        cmocka_unit_test(out_of_range_is_said),
-        cmocka_unit_test(no_area_is_said),
-        cmocka_unit_test(overlap_is_said),
-        cmocka_unit_test(sharing_a_texel_is_no_overlap),
-        cmocka_unit_test(mirrored_coordinates_are_kept),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

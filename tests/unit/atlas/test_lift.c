@@ -78,10 +78,8 @@ static double largest_lift(alp_context *context, alp_scene *scene, bool below_is
     return largest;
 }
 
-static void lifts_have_a_limit(void **state)
+TEST_WITH_CONTEXT(lifts_have_a_limit, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     // Flat triangles stay where they are, to the bit.
     assert_true(largest_lift(context, scene_sphere(context, 12, 24), true) == 0.0);
     // Normals averaged over creases ask for .44 m: they get an eighth of the diagonal.
@@ -91,15 +89,12 @@ static void lifts_have_a_limit(void **state)
     assert_true(largest_lift(context, normal_cube(context, into_the_middle), true) == 0.0);
     // Nor do those of top and bottom here: along them points would sink.
     assert_true(largest_lift(context, normal_cube(context, out_but_upside_down), true) > 0.1);
-    alp_context_destroy(context);
 }
 
-static void a_lift_follows_its_formula(void **state)
+TEST_WITH_CONTEXT(a_lift_follows_its_formula, 1)
 {
-    (void)state;
     // Middle of an edge between corners on a circle, normals outwards, span 2a: both corners lift
     // it by sin² a along their normals: by sin² a · cos a along their mean.
-    alp_context *context = test_context(1);
     const double a = 0.3;
     const float s = (float)sin(a), c = (float)cos(a);
     const float p[4][3] = {{-s, c, 0}, {-s, c, 4}, {s, c, 4}, {s, c, 0}};
@@ -138,7 +133,6 @@ static void a_lift_follows_its_formula(void **state)
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 // --- kept shapes ---------------------------------------------------------------------------------
@@ -203,10 +197,8 @@ static alp_atlas *blend_of_size(alp_context *context, const alp_scene *scene, ui
     return atlas;
 }
 
-static void kept_shapes_place_the_same(void **state)
+TEST_WITH_CONTEXT(kept_shapes_place_the_same, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *flat = scene_cube(context), *round = normal_cube(context, out_of_the_middle);
     alp_scene *blended = scene_sphere(context, 12, 24);
     alp_scene *fine = scene_sphere(context, 30, 60);
@@ -214,15 +206,4 @@ static void kept_shapes_place_the_same(void **state)
     assert_true(count_lifted(context, round, charts_of_size(context, round, 64), true) > 1000);
     (void)count_lifted(context, blended, blend_of_size(context, blended, 256), true);
     (void)count_lifted(context, fine, charts_of_size(context, fine, 100), false);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lifts_have_a_limit),
-        cmocka_unit_test(a_lift_follows_its_formula),
-        cmocka_unit_test(kept_shapes_place_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

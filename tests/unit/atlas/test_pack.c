@@ -66,11 +66,9 @@ static void pack_and_check(alp_context *context, const alpi_pack_rules *rules,
     check_places(rules, items, count, *pages);
 }
 
-static void random_rectangles(void **state)
+TEST_WITH_CONTEXT(random_rectangles, 1)
 {
-    (void)state;
     enum { COUNT = 300 };
-    alp_context *context = test_context(1);
     for (uint32_t trial = 0; trial < 30; trial++) {
         alpi_pack_item items[COUNT], again[COUNT];
         const alpi_pack_rules rules = {.size = 64, .padding = trial % 5};
@@ -86,7 +84,6 @@ static void random_rectangles(void **state)
         pack_and_check(context, &rules, again, COUNT, &pages);
         assert_memory_equal(items, again, sizeof items);
     }
-    alp_context_destroy(context);
 }
 
 /// A shape grown texel by texel from the middle of its box; it may have holes. [height][words]
@@ -105,11 +102,9 @@ static uint64_t *random_mask(uint32_t key, uint32_t width, uint32_t height)
     return mask;
 }
 
-static void random_shapes(void **state)
+TEST_WITH_CONTEXT(random_shapes, 1)
 {
-    (void)state;
     enum { COUNT = 60 };
-    alp_context *context = test_context(1);
     static const alpi_pack_rules rules[] = {{.size = 64},
                                             {.size = 100, .padding = 3},
                                             {.size = 128, .padding = 2},
@@ -135,13 +130,10 @@ static void random_shapes(void **state)
             free(masks[i]);
         }
     }
-    alp_context_destroy(context);
 }
 
-static void a_full_page_is_filled(void **state)
+TEST_WITH_CONTEXT(a_full_page_is_filled, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_pack_item items[64];
     uint32_t pages = 0;
     alpi_pack_rules rules = {.size = 64};
@@ -161,15 +153,12 @@ static void a_full_page_is_filled(void **state)
     assert_int_equal(alpi_pack(context, &rules, items, 64, 1, &pages), ALP_ERROR_LIMIT);
     ASSERT_OK(context, alpi_pack_one_page(context, &rules, items, 64, &fits));
     assert_false(fits);
-    alp_context_destroy(context);
 }
 
 /// Two Ls of four texels make 2 × 4, eight of those a square of 8; a mirrored one would not fit
 /// with them.
-static void tetrominoes_fill_a_square(void **state)
+TEST_WITH_CONTEXT(tetrominoes_fill_a_square, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const uint64_t ways[2][2] = {{7, 1}, {7, 4}}; // an L and a J
     const alpi_pack_rules rules = {.size = 8};
     for (int way = 0; way < 2; way++) {
@@ -181,13 +170,10 @@ static void tetrominoes_fill_a_square(void **state)
         pack_and_check(context, &rules, items, 16, &pages);
         assert_int_equal(pages, 1);
     }
-    alp_context_destroy(context);
 }
 
-static void a_hole_is_used(void **state)
+TEST_WITH_CONTEXT(a_hole_is_used, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     uint64_t ring[12];
     for (uint32_t y = 0; y < 12; y++) { // 12 × 12 with a hole of 8 × 8
         ring[y] = y < 2 || y >= 10 ? 0xfff : 0xc03;
@@ -203,14 +189,11 @@ static void a_hole_is_used(void **state)
         pack_and_check(context, &rules, items, 2, &pages);
         assert_int_equal(pages, cases[i].pages);
     }
-    alp_context_destroy(context);
 }
 
 /// Small shapes go into what large ones left on earlier pages.
-static void earlier_pages_are_filled(void **state)
+TEST_WITH_CONTEXT(earlier_pages_are_filled, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_pack_item items[12];
     uint32_t pages = 0;
     const alpi_pack_rules rules = {.size = 16};
@@ -219,14 +202,11 @@ static void earlier_pages_are_filled(void **state)
     }
     pack_and_check(context, &rules, items, 12, &pages);
     assert_int_equal(pages, 6);
-    alp_context_destroy(context);
 }
 
 /// What the gaps are for, counted out: blocks and mip levels take the least they must.
-static void gaps_are_as_small_as_they_can_be(void **state)
+TEST_WITH_CONTEXT(gaps_are_as_small_as_they_can_be, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const struct {
         alpi_pack_rules rules;
         uint32_t pages; // for two items of 2 × 8
@@ -247,14 +227,12 @@ static void gaps_are_as_small_as_they_can_be(void **state)
         pack_and_check(context, &cases[i].rules, items, 2, &pages);
         assert_int_equal(pages, cases[i].pages);
     }
-    alp_context_destroy(context);
 }
 
 /// Other orders never leave more than the best before, what they say to fit does, and any number of
 /// workers finds the same.
-static void other_orders_are_no_worse(void **state)
+TEST(other_orders_are_no_worse)
 {
-    (void)state;
     enum { COUNT = 24, ROUNDS = 12 };
     uint64_t left[2][ROUNDS], first[ROUNDS] = {0};
     uint32_t fitted = 0;
@@ -290,10 +268,8 @@ static void other_orders_are_no_worse(void **state)
     assert_true(fitted > 0 && fitted < 16 && fitted % 2 == 0);
 }
 
-static void pages_are_added(void **state)
+TEST_WITH_CONTEXT(pages_are_added, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_pack_item items[5];
     uint32_t pages = 0;
     const alpi_pack_rules rules = {.size = 16, .padding = 3};
@@ -305,29 +281,23 @@ static void pages_are_added(void **state)
     check_places(&rules, items, 5, 5);
     assert_int_equal(alpi_pack(context, &rules, items, 5, 4, &pages), ALP_ERROR_LIMIT);
     assert_non_null(strstr(alp_context_message(context), "4 pages"));
-    alp_context_destroy(context);
 }
 
-static void turning_helps(void **state)
+TEST_WITH_CONTEXT(turning_helps, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_pack_item items[2] = {{.width = 10, .height = 5}, {.width = 5, .height = 10}};
     uint32_t pages = 0;
     const alpi_pack_rules rules = {.size = 10};
     ASSERT_OK(context, alpi_pack(context, &rules, items, 2, 1, &pages));
     assert_true(items[0].turns % 2 != items[1].turns % 2);
     check_places(&rules, items, 2, 1);
-    alp_context_destroy(context);
 }
 
 /// Half squares of unlike sizes, as loose triangles are: work grows as their number does, not as
 /// its square. Looked for all over their pages, each takes thousands of rows.
-static void work_is_linear(void **state)
+TEST_SLOW_WITH_CONTEXT(work_is_linear, 1)
 {
-    (void)state;
     enum { COUNT = 16000, LEAST = 16, MOST = 47 };
-    alp_context *context = test_context(1);
     uint64_t masks[MOST + 1][MOST] = {0};
     for (uint32_t side = LEAST; side <= MOST; side++) {
         for (uint32_t y = 0; y < side; y++) {
@@ -353,13 +323,10 @@ static void work_is_linear(void **state)
     }
     assert_true(rows[1] < 5 * rows[0]);
     free(items);
-    alp_context_destroy(context);
 }
 
-static void sides_at_their_ends(void **state)
+TEST_WITH_CONTEXT(sides_at_their_ends, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_pack_item item = {.width = 1, .height = 1};
     alpi_pack_rules rules = {.size = 1, .padding = 64};
     uint32_t pages = 0;
@@ -375,14 +342,11 @@ static void sides_at_their_ends(void **state)
     rules.size = 16;
     ASSERT_OK(context, alpi_pack(context, &rules, NULL, 0, 1, &pages));
     assert_int_equal(pages, 0);
-    alp_context_destroy(context);
 }
 
-static void groups_stay_together(void **state)
+TEST_WITH_CONTEXT(groups_stay_together, 1)
 {
-    (void)state;
     enum { COUNT = 90, GROUPS = 30 };
-    alp_context *context = test_context(1);
     const alpi_pack_rules rules = {.size = 64, .padding = 2};
     alpi_pack_item items[COUNT] = {0};
     uint32_t groups[COUNT], pages = 0;
@@ -399,15 +363,12 @@ static void groups_stay_together(void **state)
     }
     assert_int_equal(alpi_pack_groups(context, &rules, items, groups, COUNT, 1, &pages),
                      ALP_ERROR_LIMIT);
-    alp_context_destroy(context);
 }
 
 /// Two squares of 33 do not fit a page of 64; each fits the corner that a larger item leaves. The
 /// page on which both were tried goes.
-static void groups_that_fit_no_page_are_parted(void **state)
+TEST_WITH_CONTEXT(groups_that_fit_no_page_are_parted, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const alpi_pack_rules rules = {.size = 64};
     uint64_t mask[64];
     for (uint32_t y = 0; y < 64; y++) {
@@ -422,26 +383,4 @@ static void groups_that_fit_no_page_are_parted(void **state)
     ASSERT_OK(context, alpi_pack_groups(context, &rules, items, groups, 4, 4096, &pages));
     check_places(&rules, items, 4, pages);
     assert_int_equal(pages, 2);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_rectangles),
-        cmocka_unit_test(random_shapes),
-        cmocka_unit_test(a_full_page_is_filled),
-        cmocka_unit_test(tetrominoes_fill_a_square),
-        cmocka_unit_test(a_hole_is_used),
-        cmocka_unit_test(earlier_pages_are_filled),
-        cmocka_unit_test(gaps_are_as_small_as_they_can_be),
-        cmocka_unit_test(other_orders_are_no_worse),
-        cmocka_unit_test(pages_are_added),
-        cmocka_unit_test(turning_helps),
-        cmocka_unit_test(groups_stay_together),
-        cmocka_unit_test(groups_that_fit_no_page_are_parted),
-        TEST_OF_FIGURES(work_is_linear),
-        cmocka_unit_test(sides_at_their_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,24 +121,19 @@ static void check_means(alp_context *context, alp_scene *scene, uint32_t size)
     alp_scene_destroy(scene);
 }
 
-static void the_mean_is_the_centroid(void **state)
+TEST_WITH_CONTEXT(the_mean_is_the_centroid, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     check_means(context, scene_cube(context), 33);
     check_means(context, scene_sphere(context, 12, 24), 100);
     check_means(context, scene_sphere(context, 40, 80), 24); // dozens of triangles to a texel
     check_means(context, scene_plane(context, 60), 8);       // hundreds
     check_means(context, scene_confetti(context, 30), 64);
-    alp_context_destroy(context);
 }
 
-static void a_known_piece_has_its_known_mean(void **state)
+TEST_WITH_CONTEXT(a_known_piece_has_its_known_mean, 1)
 {
-    (void)state;
     // One triangle with its right angle at (.25, .25) of the only texel it reaches and legs of .5:
     // its mean is a third of the way along both. World: 4 m a texel.
-    alp_context *context = test_context(1);
     static const float p[3][3] = {{1, 0, 1}, {1, 0, 3}, {3, 0, 1}};
     static const float uvs[3][2] = {{0.25f, 0.25f}, {0.25f, 0.75f}, {0.75f, 0.25f}};
     static const uint32_t index[1][3] = {{0, 1, 2}};
@@ -160,14 +155,11 @@ static void a_known_piece_has_its_known_mean(void **state)
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void pieces_count_by_their_area_in_the_world(void **state)
+TEST_WITH_CONTEXT(pieces_count_by_their_area_in_the_world, 1)
 {
-    (void)state;
     // Two halves of the only texel; one has three times the legs of the other.
-    alp_context *context = test_context(1);
     static const float p[6][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0},
                                   {9, 0, 0}, {9, 0, 3}, {12, 0, 0}};
     static const float uvs[6][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {1, 0}, {0, 1}};
@@ -189,7 +181,6 @@ static void pieces_count_by_their_area_in_the_world(void **state)
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The triangle of a texel's that a point lies on, and where in the page that is.
@@ -263,16 +254,13 @@ static void check_points(alp_context *context, alp_scene *scene, uint32_t size)
     alp_scene_destroy(scene);
 }
 
-static void points_lie_in_their_texel(void **state)
+TEST_WITH_CONTEXT(points_lie_in_their_texel, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     check_points(context, scene_cube(context), 64);
     check_points(context, scene_sphere(context, 12, 24), 100);
     check_points(context, scene_sphere(context, 20, 40), 24);
     check_points(context, scene_spiral(context, 3), 100);
     check_points(context, scene_confetti(context, 30), 64);
-    alp_context_destroy(context);
 }
 
 // --- brute force ---------------------------------------------------------------------------------
@@ -345,10 +333,8 @@ static void check_brute_force(alp_context *context, alp_scene *scene, uint32_t s
     alp_scene_destroy(scene);
 }
 
-static void points_agree_with_brute_force(void **state)
+TEST_WITH_CONTEXT(points_agree_with_brute_force, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     const char *names[] = {"builtin:teapot-room", "builtin:torus-plane"};
     for (int i = 0; i < 2; i++) {
@@ -359,7 +345,6 @@ static void points_agree_with_brute_force(void **state)
         }
     }
     check_brute_force(context, scene_sphere(context, 30, 60), 48);
-    alp_context_destroy(context);
 }
 
 /// Mean square of the distance (texels) by which the mean of 16 points misses the texel's, over
@@ -394,13 +379,11 @@ static double scatter(const alpi_texels *texels, const alpi_receivers *r, bool s
     return sum / sets * texels->atlas->info.texels_per_metre * texels->atlas->info.texels_per_metre;
 }
 
-static void stratified_squares_stay_stratified(void **state)
+TEST_WITH_CONTEXT(stratified_squares_stay_stratified, 1)
 {
-    (void)state;
     // 16 random points miss the mean by 1/√96 of a texel; a 4 × 4 net of a square by a 16th of its
     // variance. Whole texels keep the net; pieces keep the order of its first coordinate, along a
     // curve that fills the texel.
-    alp_context *context = test_context(1);
     const uint32_t squares[] = {1, 8, 60}; // of 8 texels a side: whole, two triangles, dozens
     const double shares[] = {0.05, 0.05, 0.2};
     for (int i = 0; i < 3; i++) {
@@ -416,17 +399,14 @@ static void stratified_squares_stay_stratified(void **state)
         alp_atlas_destroy(atlas);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 // --- strata --------------------------------------------------------------------------------------
 
-static void invalid_strata_get_no_points(void **state)
+TEST_WITH_CONTEXT(invalid_strata_get_no_points, 1)
 {
-    (void)state;
     // A point of the masked texel is the point of the whole one at a place inside a valid stratum,
     // and the valid strata get equally many.
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_sphere(context, 12, 24);
     alp_atlas *atlas = charts_of_size(context, scene, 64);
     alpi_texels texels;
@@ -473,7 +453,6 @@ static void invalid_strata_get_no_points(void **state)
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 // --- workers, memory -----------------------------------------------------------------------------
@@ -496,9 +475,8 @@ static void check_same(const alpi_texels *a, const alpi_texels *b, uint32_t page
     assert_memory_equal(a->piece_ends, b->piece_ends, pieces * sizeof *a->piece_ends);
 }
 
-static void any_number_of_workers_gives_the_same(void **state)
+TEST(any_number_of_workers_gives_the_same)
 {
-    (void)state;
     const uint32_t workers[] = {1, 2, 7, 32};
     alp_context *contexts[4];
     alp_scene *scenes[4];
@@ -524,9 +502,8 @@ static void any_number_of_workers_gives_the_same(void **state)
     }
 }
 
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     // A kept set, and texels that are made a second time.
     static const float p[4][3] = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
     static const float uvs[4][2] = {{0.1f, 0}, {1, 0.1f}, {1, 1}, {0, 1}};
@@ -555,20 +532,4 @@ static void every_allocation_may_fail(void **state)
     assert_true(failures > 50);
     alp_scene_destroy(scene);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mean_is_the_centroid),
-        cmocka_unit_test(a_known_piece_has_its_known_mean),
-        cmocka_unit_test(pieces_count_by_their_area_in_the_world),
-        cmocka_unit_test(points_lie_in_their_texel),
-        cmocka_unit_test(points_agree_with_brute_force),
-        cmocka_unit_test(stratified_squares_stay_stratified),
-        cmocka_unit_test(invalid_strata_get_no_points),
-        cmocka_unit_test(any_number_of_workers_gives_the_same),
-        cmocka_unit_test(every_allocation_may_fail),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

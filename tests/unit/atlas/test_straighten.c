@@ -130,9 +130,8 @@ static bool behind_teeth(uint32_t x, uint32_t y)
     return x >= (y / 2 % 2 == 0 ? N / 2 - 1 : N / 2 + 1);
 }
 
-static void teeth_are_taken_away(void **state)
+TEST(teeth_are_taken_away)
 {
-    (void)state;
     const double lean[2] = {0.0, 0.0};
     setting s = set_up(N, 0.0, behind_teeth, lean);
     assert_true(border_length(&s) > 1.9 * N);
@@ -147,9 +146,8 @@ static void teeth_are_taken_away(void **state)
     tear_down(&s);
 }
 
-static void what_leans_too_far_stays(void **state)
+TEST(what_leans_too_far_stays)
 {
-    (void)state;
     // The second plane leans by more than the angle from this surface, so nothing may go over to
     // it; its own teeth go.
     const double lean[2] = {0.0, 0.8};
@@ -186,9 +184,8 @@ static uint32_t strip_left(double angle)
     return left;
 }
 
-static void creases_stay_borders(void **state)
+TEST(creases_stay_borders)
 {
-    (void)state;
     assert_int_equal(strip_left(0.0), 0);     // most of what is around it is not it
     assert_int_equal(strip_left(1.4), 2 * N); // nothing goes over a crease of 80 degrees
 }
@@ -199,9 +196,8 @@ static bool in_dumbbell(uint32_t x, uint32_t y)
     return y == N / 2 || x < N / 2 - 4 || x >= N / 2 + 4;
 }
 
-static void nothing_falls_apart(void **state)
+TEST(nothing_falls_apart)
 {
-    (void)state;
     const double lean[2] = {0.0, 0.0};
     setting s = set_up(N, 0.0, in_dumbbell, lean);
     straighten(&s);
@@ -209,15 +205,4 @@ static void nothing_falls_apart(void **state)
     assert_true(left > 0);
     assert_int_equal(connected_of(&s, TRIANGLES - 1), left);
     tear_down(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(teeth_are_taken_away),
-        cmocka_unit_test(what_leans_too_far_stays),
-        cmocka_unit_test(creases_stay_borders),
-        cmocka_unit_test(nothing_falls_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

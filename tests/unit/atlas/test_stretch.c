@@ -23,9 +23,8 @@ static double stretch_of(double a, double b, double c, double d)
     return alpi_stretch_of(CORNERS, map);
 }
 
-static void a_triangle_has_the_stretch_of_its_map(void **state)
+TEST(a_triangle_has_the_stretch_of_its_map)
 {
-    (void)state;
     const double cosine = cos(1.0), sine = sin(1.0);
     ASSERT_NEAR(stretch_of(1, 0, 0, 1), 1.0, 1e-14);
     ASSERT_NEAR(stretch_of(3, 0, 0, 3), 3.0, 1e-14);                  // a third of the density
@@ -70,9 +69,8 @@ static alp_atlas_info info_of_squares(const placed squares[2])
     return info;
 }
 
-static void equal_squares_have_a_stretch_of_one(void **state)
+TEST(equal_squares_have_a_stretch_of_one)
 {
-    (void)state;
     static const placed squares[2] = {{0.1f, 0.1f, 0.3f, 0.3f}, {0.5f, 0.5f, 0.3f, 0.3f}};
     const alp_atlas_info info = info_of_squares(squares);
     ASSERT_NEAR(info.stretch_mean, 1.0, ROUNDING);
@@ -84,9 +82,8 @@ static void equal_squares_have_a_stretch_of_one(void **state)
     assert_int_equal(info.overlapping_texels, 0);
 }
 
-static void projected_squares_have_that_of_their_angle(void **state)
+TEST(projected_squares_have_that_of_their_angle)
 {
-    (void)state;
     for (int i = 1; i < 7; i++) {
         const double cosine = cos(0.2 * i);
         const float low = (float)(0.4 * cosine);
@@ -100,9 +97,8 @@ static void projected_squares_have_that_of_their_angle(void **state)
 }
 
 /// Densities d and 2d over equal areas: the mean density is √2.5 d.
-static void unlike_densities_are_seen(void **state)
+TEST(unlike_densities_are_seen)
 {
-    (void)state;
     static const placed squares[2] = {{0.1f, 0.1f, 0.2f, 0.2f}, {0.5f, 0.5f, 0.4f, 0.4f}};
     const alp_atlas_info info = info_of_squares(squares);
     ASSERT_NEAR(info.stretch_mean, sqrt(0.5 * (2.5 + 2.5 / 4.0)), ROUNDING);
@@ -110,9 +106,8 @@ static void unlike_densities_are_seen(void **state)
     ASSERT_NEAR(info.density_spread, 2.0, 2.0 * BIN);
 }
 
-static void mirrored_squares_are_flipped(void **state)
+TEST(mirrored_squares_are_flipped)
 {
-    (void)state;
     static const placed squares[2] = {{0.1f, 0.1f, 0.3f, 0.3f}, {0.8f, 0.5f, -0.3f, 0.3f}};
     const alp_atlas_info info = info_of_squares(squares);
     assert_int_equal(info.flipped_triangles, 2);
@@ -120,10 +115,8 @@ static void mirrored_squares_are_flipped(void **state)
 }
 
 /// Keeping refuses such a set, but the doctor wants to know of it.
-static void a_flat_triangle_has_no_end_of_stretch(void **state)
+TEST_WITH_CONTEXT(a_flat_triangle_has_no_end_of_stretch, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas *atlas = charts_of_size(context, scene, 64);
     memcpy(atlas->corner_uvs[5][1], atlas->corner_uvs[5][0], sizeof atlas->corner_uvs[5][0]);
@@ -135,16 +128,14 @@ static void a_flat_triangle_has_no_end_of_stretch(void **state)
     assert_int_equal(facts.first_flipped, 5);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 // --- new charts ----------------------------------------------------------------------------------
 
 /// A cube's charts are its sides: no stretch. That of a sphere is above 1, as that of any map of a
 /// curved surface (the mean square is at least the square mean).
-static void charts_are_measured(void **state)
+TEST(charts_are_measured)
 {
-    (void)state;
     alp_atlas_info info[2];
     for (int i = 0; i < 2; i++) {
         alp_context *context = test_context(1);
@@ -165,13 +156,11 @@ static void charts_are_measured(void **state)
     assert_true(info[1].density_spread > 1.0 && info[1].density_spread < 2.0);
 }
 
-static void slivers_are_counted_and_left_out(void **state)
+TEST_WITH_CONTEXT(slivers_are_counted_and_left_out, 1)
 {
-    (void)state;
     static const float p[7][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},    {0, 1, 0},
                                   {2, 0, 0}, {3, 0, 0}, {3, 1e-6f, 0}};
     static const uint32_t indices[3][3] = {{0, 1, 2}, {2, 3, 0}, {4, 5, 6}};
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_of(context, p, NULL, 7, indices, 3);
     alp_atlas *atlas = charts_of_size(context, scene, 64);
     const alp_atlas_info info = alp_atlas_get_info(atlas);
@@ -182,16 +171,13 @@ static void slivers_are_counted_and_left_out(void **state)
     ASSERT_NEAR(info.stretch_worst, 1.0, 2e-3);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// What no texel shows is not stretched: 1, the least that there is.
-static void slivers_alone_are_not_stretched(void **state)
+TEST_WITH_CONTEXT(slivers_alone_are_not_stretched, 1)
 {
-    (void)state;
     static const float p[3][3] = {{2, 0, 0}, {3, 0, 0}, {3, 1e-6f, 0}};
     static const uint32_t index[1][3] = {{0, 1, 2}};
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_of(context, p, NULL, 3, index, 1);
     alp_atlas *atlas = charts_of_size(context, scene, 64);
     assert_int_equal(alp_atlas_get_info(atlas).sliver_triangles, 1);
@@ -199,24 +185,19 @@ static void slivers_alone_are_not_stretched(void **state)
     assert_true(alp_atlas_get_info(atlas).stretch_worst == 1.0);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_layout_of_a_page_of_one_texel_overlaps(void **state)
+TEST_WITH_CONTEXT(the_layout_of_a_page_of_one_texel_overlaps, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_cube(context);
     alp_atlas *atlas = charts_of_size(context, scene, 1);
     assert_int_equal(alp_atlas_get_info(atlas).overlapping_texels, 1);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_no_figure(void **state)
+TEST(workers_change_no_figure)
 {
-    (void)state;
     alp_atlas_info info[2];
     for (int i = 0; i < 2; i++) {
         alp_context *context = test_context(i == 0 ? 1 : 7);
@@ -230,22 +211,4 @@ static void workers_change_no_figure(void **state)
     assert_memory_equal(&info[0].stretch_mean, &info[1].stretch_mean, sizeof(double));
     assert_memory_equal(&info[0].stretch_worst, &info[1].stretch_worst, sizeof(double));
     assert_memory_equal(&info[0].density_spread, &info[1].density_spread, sizeof(double));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_triangle_has_the_stretch_of_its_map),
-        cmocka_unit_test(equal_squares_have_a_stretch_of_one),
-        cmocka_unit_test(projected_squares_have_that_of_their_angle),
-        cmocka_unit_test(unlike_densities_are_seen),
-        cmocka_unit_test(mirrored_squares_are_flipped),
-        cmocka_unit_test(a_flat_triangle_has_no_end_of_stretch),
-        cmocka_unit_test(charts_are_measured),
-        cmocka_unit_test(slivers_are_counted_and_left_out),
-        cmocka_unit_test(slivers_alone_are_not_stretched),
-        cmocka_unit_test(the_layout_of_a_page_of_one_texel_overlaps),
-        cmocka_unit_test(workers_change_no_figure),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,24 +58,19 @@ static void check_texels(alp_context *context, alp_scene *scene, uint32_t size, 
     alp_scene_destroy(scene);
 }
 
-static void areas_add_up(void **state)
+TEST_WITH_CONTEXT(areas_add_up, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     check_texels(context, scene_cube(context), 64, 0.0);
     check_texels(context, scene_sphere(context, 12, 24), 128, 0.0);
     check_texels(context, scene_sphere(context, 12, 24), 33, 20.0); // several pages
     check_texels(context, scene_sphere(context, 60, 120), 16, 0.0); // triangles below a texel
     check_texels(context, scene_spiral(context, 3), 100, 0.0);
     check_texels(context, scene_confetti(context, 30), 64, 0.0);
-    alp_context_destroy(context);
 }
 
-static void normals_that_point_inside_are_not_used(void **state)
+TEST_WITH_CONTEXT(normals_that_point_inside_are_not_used, 1)
 {
-    (void)state;
     // A square whose vertex normals are turned over: a hemisphere inside the surface sees nothing.
-    alp_context *context = test_context(1);
     const float positions[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}};
     const float normals[4][3] = {{0, -1, 0}, {0, -1, 0}, {0, -1, 0}, {0, -1, 0}};
     const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
@@ -87,7 +82,6 @@ static void normals_that_point_inside_are_not_used(void **state)
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
     check_texels(context, scene, 16, 0.0);
-    alp_context_destroy(context);
 }
 
 /// Utilisation as conventions.md defines it, texel by texel.
@@ -115,10 +109,8 @@ static double plain_utilisation(const alp_atlas *atlas, const alpi_texels *texel
     return (double)taken / (double)room;
 }
 
-static void utilisation_counts_charts_and_padding(void **state)
+TEST_SLOW_WITH_CONTEXT(utilisation_counts_charts_and_padding, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_confetti(context, 200);
     const uint32_t paddings[] = {0, 1, 2, 5, 13, 64};
     int several = 0;
@@ -140,13 +132,10 @@ static void utilisation_counts_charts_and_padding(void **state)
     }
     assert_true(several >= 10);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_center_is_the_receiver(void **state)
+TEST_WITH_CONTEXT(a_center_is_the_receiver, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float p[4][3] = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
     static const float uvs[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static const uint32_t indices[2][3] = {{0, 1, 2}, {2, 3, 0}};
@@ -175,7 +164,6 @@ static void a_center_is_the_receiver(void **state)
     alpi_texels_destroy(context, &texels);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The texels of one triangle with these kept coordinates, in texels of a page of 8.
@@ -196,9 +184,8 @@ static void texels_of(alp_context *context, const double corner[3][2], alpi_texe
     ASSERT_OK(context, alpi_texels_create(*atlas, texels));
 }
 
-static void thin_triangles_have_texels(void **state)
+TEST_WITH_CONTEXT(thin_triangles_have_texels, 1)
 {
-    (void)state;
     static const double shapes[][3][2] = {
         {{1.1, 1.1}, {6.9, 1.1}, {6.9, 1.1001}},  // along a row, off the centres
         {{1.1, 1.0}, {6.9, 1.0}, {6.9, 1.00001}}, // along a border
@@ -206,7 +193,6 @@ static void thin_triangles_have_texels(void **state)
         {{3.2, 3.2}, {3.2001, 3.2}, {3.2, 3.2001}},
     };
     const uint32_t counts[] = {6, 6, 15, 1};
-    alp_context *context = test_context(1);
     for (int i = 0; i < 4; i++) {
         alpi_texels texels;
         alp_scene *scene;
@@ -224,14 +210,11 @@ static void thin_triangles_have_texels(void **state)
         alp_atlas_destroy(atlas);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
-static void a_side_on_a_border_does_not_leak(void **state)
+TEST_WITH_CONTEXT(a_side_on_a_border_does_not_leak, 1)
 {
-    (void)state;
     // 3 and 5 eighths are exact; a ninth is not, and its float may lie on either side.
-    alp_context *context = test_context(1);
     for (uint32_t size = 3; size < 200; size += 7) {
         static const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
         static const uint32_t indices[2][3] = {{0, 1, 2}, {2, 3, 0}};
@@ -247,13 +230,10 @@ static void a_side_on_a_border_does_not_leak(void **state)
         alp_atlas_destroy(atlas);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
-static void tiny_triangles_are_counted(void **state)
+TEST_WITH_CONTEXT(tiny_triangles_are_counted, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = scene_plane(context, 40); // 3200 triangles on 16 × 16 texels
     alp_atlas_options options = alp_atlas_options_default();
     options.size = 16;
@@ -264,13 +244,11 @@ static void tiny_triangles_are_counted(void **state)
     assert_int_equal(alp_atlas_get_info(atlas).shared_triangles, 3200 - 256);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The peer's scenes come with charts: the Cornell box's are aligned to the texels of 256².
-static void peers_cover_the_same(void **state)
+TEST(peers_cover_the_same)
 {
-    (void)state;
     const char *names[] = {"peers/blender/cornell.glb", "peers/blender/sphere_plane.glb"};
     const uint64_t low[] = {47290, 28242}, high[] = {47290, 28900};
     for (int i = 0; i < 2; i++) {
@@ -291,19 +269,4 @@ static void peers_cover_the_same(void **state)
         alp_scene_destroy(scene);
         alp_context_destroy(context);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(areas_add_up),
-        cmocka_unit_test(normals_that_point_inside_are_not_used),
-        TEST_OF_FIGURES(utilisation_counts_charts_and_padding),
-        cmocka_unit_test(a_center_is_the_receiver),
-        cmocka_unit_test(thin_triangles_have_texels),
-        cmocka_unit_test(a_side_on_a_border_does_not_leak),
-        cmocka_unit_test(tiny_triangles_are_counted),
-        cmocka_unit_test(peers_cover_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

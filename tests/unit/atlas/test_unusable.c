@@ -62,23 +62,12 @@ static void check_scene(bool with_own, uint32_t from)
     alp_context_destroy(context);
 }
 
-static void their_own_surface_comes_first(void **state)
+TEST(their_own_surface_comes_first)
 {
-    (void)state;
     check_scene(true, FLAT + 1);
 }
 
-static void a_surface_without_area_borrows_from_another(void **state)
+TEST(a_surface_without_area_borrows_from_another)
 {
-    (void)state;
     check_scene(false, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(their_own_surface_comes_first),
-        cmocka_unit_test(a_surface_without_area_borrows_from_another),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -166,54 +166,45 @@ static void check_sheet(const sheet *s, expected e)
     alp_context_destroy(context);
 }
 
-static void a_cylinder_is_unrolled(void **state)
+TEST(a_cylinder_is_unrolled)
 {
-    (void)state;
     // It closes on itself: two charts at least. Their triangles are congruent: nothing is stretched
     // but by the solver's rounding.
     check_sheet(&(sheet){8, 32, 0, place_on_cylinder}, (expected){2, 2, 1.005});
     check_sheet(&(sheet){1, 64, 0, place_on_cylinder}, (expected){2, 2, 1.005});
 }
 
-static void a_cone_is_unrolled(void **state)
+TEST(a_cone_is_unrolled)
 {
-    (void)state;
     // Quarters that fill little of their boxes stay as they are projected: leaning 45° at most,
     // √((1 + 1 / cos² 45°) / 2).
     check_sheet(&(sheet){12, 32, 0, place_on_cone}, (expected){2, 4, 1.2248});
 }
 
-static void a_torus_is_cut_into_few(void **state)
+TEST(a_torus_is_cut_into_few)
 {
-    (void)state;
     // Eight charts of more than an eighth of it would have to fill their boxes well.
     check_sheet(&(sheet){24, 72, 0, place_on_torus}, (expected){4, 16, 1.75});
 }
 
-static void a_twisted_band_is_cut(void **state)
+TEST(a_twisted_band_is_cut)
 {
-    (void)state;
     // One side only: it has to be cut where it turns its back to itself.
     check_sheet(&(sheet){4, 60, 0, place_on_moebius}, (expected){1, 6, 1.3});
 }
 
-static void a_sphere_has_few(void **state)
+TEST_WITH_CONTEXT(a_sphere_has_few, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_sphere(context, 24, 48);
     alp_atlas *atlas = charts_of_size(context, scene, 512);
     check_atlas(atlas);
     assert_in_range(atlas->info.charts, 2, 14);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_spiral_does_not_fold(void **state)
+TEST_SLOW_WITH_CONTEXT(a_spiral_does_not_fold, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     for (uint32_t turns = 2; turns <= 11; turns += 9) {
         alp_scene *scene = scene_spiral(context, turns);
         alp_atlas *atlas = charts_of_size(context, scene, 1024);
@@ -222,13 +213,10 @@ static void a_spiral_does_not_fold(void **state)
         alp_atlas_destroy(atlas);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
-static void random_sheets_hold(void **state)
+TEST_WITH_CONTEXT(random_sheets_hold, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     for (uint32_t seed = 0; seed<12; seed += TEST_STEP> 1 ? 11 : 1) {
         alp_scene *scene = scene_of_sheet(context, &(sheet){6 + seed, 20, seed, place_at_random});
         alp_atlas *atlas = charts_of_size(context, scene, seed % 2 == 0 ? 512 : 128);
@@ -236,12 +224,10 @@ static void random_sheets_hold(void **state)
         alp_atlas_destroy(atlas);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
-static void workers_change_nothing(void **state)
+TEST(workers_change_nothing)
 {
-    (void)state;
     alp_context *contexts[2];
     alp_scene *scenes[2];
     alp_atlas *atlases[2];
@@ -269,10 +255,8 @@ static void place_exactly(double row, double column, uint32_t extra, float p[3])
     p[2] = (float)z;
 }
 
-static void every_machine_makes_the_same(void **state)
+TEST_WITH_CONTEXT(every_machine_makes_the_same, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_of_sheet(context, &(sheet){60, 60, 0, place_exactly});
     alp_atlas *atlas = charts_of_size(context, scene, 256);
     const size_t bytes = scene->triangle_count * sizeof *atlas->corner_uvs;
@@ -280,7 +264,6 @@ static void every_machine_makes_the_same(void **state)
     assert_true(alpi_hash_bytes(ALPI_HASH_START, atlas->corner_uvs, bytes) == 0x6d6357accf5f335eu);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 // --- an L, fans, sheets that lie on each other ---------------------------------------------------
@@ -305,9 +288,8 @@ static uint32_t charts_of_corners(const float (*corners)[3], uint32_t triangles)
     return charts;
 }
 
-static void an_l_is_two_walls(void **state)
+TEST(an_l_is_two_walls)
 {
-    (void)state;
     // Floor and wall: light steps at the edge between them.
     static const float corners[12][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0},
                                          {1, 0, 1}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0},
@@ -315,9 +297,8 @@ static void an_l_is_two_walls(void **state)
     assert_int_equal(charts_of_corners(corners, 4), 2);
 }
 
-static void a_fan_of_many_falls_apart(void **state)
+TEST(a_fan_of_many_falls_apart)
 {
-    (void)state;
     // Five triangles at one edge, three of them one way: none can say who goes on into whom.
     float corners[15][3] = {{0}};
     for (uint32_t i = 0; i < 5; i++) {
@@ -329,9 +310,8 @@ static void a_fan_of_many_falls_apart(void **state)
     assert_int_equal(charts_of_corners((const float(*)[3])corners, 5), 5);
 }
 
-static void sheets_on_each_other_stay_whole(void **state)
+TEST(sheets_on_each_other_stay_whole)
 {
-    (void)state;
     // A square of two triangles, four times: twice as it is, twice from behind. Eight triangles
     // share its diagonal.
     static const float square[2][3][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
@@ -346,22 +326,18 @@ static void sheets_on_each_other_stay_whole(void **state)
     assert_int_equal(charts_of_corners((const float(*)[3])corners, 8), 4);
 }
 
-static void loose_triangles_have_a_chart_each(void **state)
+TEST_WITH_CONTEXT(loose_triangles_have_a_chart_each, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_confetti(context, 300);
     alp_atlas *atlas = charts_of_size(context, scene, 512);
     check_atlas(atlas);
     assert_int_equal(atlas->info.charts, scene->usable_count);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void slivers_keep_a_width(void **state)
+TEST(slivers_keep_a_width)
 {
-    (void)state;
     // Thinner than a float can say on the page: 1e-8 of it, and each with a neighbour.
     float corners[60][3] = {{0}};
     for (uint32_t i = 0; i < 10; i++) {
@@ -420,10 +396,8 @@ static alp_scene *scene_of_copies(alp_context *context)
     return scene;
 }
 
-static void a_mesh_that_repeats_is_cut_alike(void **state)
+TEST_WITH_CONTEXT(a_mesh_that_repeats_is_cut_alike, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = scene_of_copies(context);
     alp_atlas *atlas = charts_of_size(context, scene, 512);
     check_atlas(atlas);
@@ -447,27 +421,4 @@ static void a_mesh_that_repeats_is_cut_alike(void **state)
     assert_false(stretched_alike);
     alp_atlas_destroy(atlas);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cylinder_is_unrolled),
-        cmocka_unit_test(a_cone_is_unrolled),
-        cmocka_unit_test(a_torus_is_cut_into_few),
-        cmocka_unit_test(a_twisted_band_is_cut),
-        cmocka_unit_test(a_sphere_has_few),
-        TEST_OF_FIGURES(a_spiral_does_not_fold),
-        cmocka_unit_test(random_sheets_hold),
-        cmocka_unit_test(workers_change_nothing),
-        cmocka_unit_test(every_machine_makes_the_same),
-        cmocka_unit_test(an_l_is_two_walls),
-        cmocka_unit_test(a_fan_of_many_falls_apart),
-        cmocka_unit_test(sheets_on_each_other_stay_whole),
-        cmocka_unit_test(loose_triangles_have_a_chart_each),
-        cmocka_unit_test(slivers_keep_a_width),
-        cmocka_unit_test(a_mesh_that_repeats_is_cut_alike),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

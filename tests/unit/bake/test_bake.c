@@ -33,10 +33,8 @@ static int count_files(const char *folder)
     return count;
 }
 
-static void a_baked_scene_reads_back(void **state)
+TEST_WITH_CONTEXT(a_baked_scene_reads_back, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     const char *folder = test_folder();
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options();
@@ -86,12 +84,10 @@ static void a_baked_scene_reads_back(void **state)
     alp_scene_destroy(baked);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_no_byte(void **state)
+TEST(workers_change_no_byte)
 {
-    (void)state;
     enum { WAYS = TEST_STEP > 1 ? 2 : 3 };
     const uint32_t workers[] = {2, 7, 1};
     unsigned char *first = NULL;
@@ -130,9 +126,8 @@ static bool stop_at_stage(void *user, const alp_progress *progress)
     return strcmp(progress->stage, s->stage) != 0;
 }
 
-static void cancelling_leaves_nothing(void **state)
+TEST(cancelling_leaves_nothing)
 {
-    (void)state;
     const char *const stages[] = {"atlas", "build", "occlusion", "write"};
     for (int i = 0; i < 4; i++) {
         alp_context *context = test_context(2);
@@ -152,10 +147,8 @@ static void cancelling_leaves_nothing(void **state)
     }
 }
 
-static void nothing_is_overwritten_unasked(void **state)
+TEST_WITH_CONTEXT(nothing_is_overwritten_unasked, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = test_load(context, "builtin:furnace");
     const char *folder = test_folder();
     alp_bake_options options = small_options();
@@ -190,13 +183,10 @@ static void nothing_is_overwritten_unasked(void **state)
     options.output = test_path(folder, "out.fbx");
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_UNSUPPORTED);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_ends_of_ranges_are_sane(void **state)
+TEST_WITH_CONTEXT(the_ends_of_ranges_are_sane, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:furnace");
     alp_bake_options options = small_options();
     options.atlas.size = 1; // one texel for six walls
@@ -225,13 +215,10 @@ static void the_ends_of_ranges_are_sane(void **state)
     assert_true(report.ao_mean == 0.0);
     assert_true(test_log_has("dark"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void what_cannot_be_baked_says_so(void **state)
+TEST_WITH_CONTEXT(what_cannot_be_baked_says_so, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, NULL, 0, &scene));
     assert_int_equal(alp_bake(scene, NULL, NULL, NULL), ALP_ERROR_INVALID_DATA);
@@ -253,12 +240,10 @@ static void what_cannot_be_baked_says_so(void **state)
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
     ASSERT_NEAR(report.ao_mean, 1.0, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void memory_is_known_beforehand(void **state)
+TEST_SLOW(memory_is_known_beforehand)
 {
-    (void)state;
     alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:furnace");
     alp_bake_options options = small_options();
@@ -282,12 +267,10 @@ static void memory_is_known_beforehand(void **state)
     alp_context_destroy(context);
 }
 
-static void rays_clear_their_own_surface(void **state)
+TEST_WITH_CONTEXT(rays_clear_their_own_surface, 2)
 {
-    (void)state;
     // Planes in general position, kilometres wide, near and far from the origin: every texel is
     // open, exactly. Near the origin only the triangle's size tells how far a ray must be lifted.
-    alp_context *context = test_context(2);
     const double origins[] = {0.0, 1e4};
     for (int i = 0; i < 2; i++) {
         double o = origins[i];
@@ -303,20 +286,4 @@ static void rays_clear_their_own_surface(void **state)
         assert_true(report.ao_mean == 1.0);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_baked_scene_reads_back),
-        cmocka_unit_test(workers_change_no_byte),
-        cmocka_unit_test(cancelling_leaves_nothing),
-        cmocka_unit_test(nothing_is_overwritten_unasked),
-        cmocka_unit_test(the_ends_of_ranges_are_sane),
-        cmocka_unit_test(what_cannot_be_baked_says_so),
-        TEST_OF_FIGURES(memory_is_known_beforehand),
-        cmocka_unit_test(rays_clear_their_own_surface),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

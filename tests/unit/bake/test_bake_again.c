@@ -93,13 +93,11 @@ static void ask_points(const alp_scene *scene, float values[POINTS])
               alp_occlusion_at_points(scene, POINTS, positions[0], NULL, normals[0], &o, values));
 }
 
-static void what_was_before_changes_no_bit(void **state)
+TEST_WITH_CONTEXT(what_was_before_changes_no_bit, 2)
 {
-    (void)state;
     enum { MAPS = 2 };
     static const alp_map maps[MAPS] = {ALP_MAP_AO, ALP_MAP_LIGHT};
     static float points[2][POINTS];
-    alp_context *context = test_context(2);
     alp_scene *scene = make_scene(context);
     alp_lightmap *small[2][MAPS], *large = NULL;
     double rays = 0.0;
@@ -122,11 +120,4 @@ static void what_was_before_changes_no_bit(void **state)
     assert_memory_equal(points[0], points[1], sizeof points[0]);
     alp_lightmap_destroy(large);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_was_before_changes_no_bit)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

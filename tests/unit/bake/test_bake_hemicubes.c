@@ -183,9 +183,8 @@ static void hold_level(const bake_kind *kind, const char *level, const made *bes
     }
 }
 
-static void workers_change_no_bit(void **state)
+TEST(workers_change_no_bit)
 {
-    (void)state;
     for (int k = 0; k<KIND_COUNT; k += TEST_STEP> 1 ? KIND_COUNT - 1 : 1) {
         made best;
         hold_level(&KINDS[k], NULL, NULL, &best);
@@ -196,10 +195,4 @@ static void workers_change_no_bit(void **state)
         }
         unmake(&best);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(workers_change_no_bit)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,10 +25,8 @@ static bool is_same(const float a[3], const float b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-static void a_convex_mesh_is_open(void **state)
+TEST_WITH_CONTEXT(a_convex_mesh_is_open, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){10, 0, 0}, 1.0, 16, 9, 1.0, 1);
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -59,13 +57,10 @@ static void a_convex_mesh_is_open(void **state)
     ASSERT_NEAR(rgb[2], 1.0, 1e-6);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void vertices_of_unusable_triangles_are_open(void **state)
+TEST_WITH_CONTEXT(vertices_of_unusable_triangles_are_open, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 2}, (double[]){2, 0, 0}, (double[]){0, 0, -2});
     test_mesh_quad(mesh, (double[]){0, 0.1, 2}, (double[]){2, 0, 0}, (double[]){0, 0, -2});
@@ -86,13 +81,10 @@ static void vertices_of_unusable_triangles_are_open(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void equal_vertices_have_equal_values(void **state)
+TEST_WITH_CONTEXT(equal_vertices_have_equal_values, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_bake_options options = vertex_options(16);
     alp_lightmap *lightmap = NULL;
@@ -119,12 +111,10 @@ static void equal_vertices_have_equal_values(void **state)
     free(used);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_no_bit(void **state)
+TEST(workers_change_no_bit)
 {
-    (void)state;
     const uint32_t workers[] = {1, 2, 7, 32};
     float *first = NULL;
     for (int i = 0; i < 4; i++) {
@@ -149,10 +139,8 @@ static void workers_change_no_bit(void **state)
 
 // --- files ---------------------------------------------------------------------------------------
 
-static void the_written_file_reads_back(void **state)
+TEST_WITH_CONTEXT(the_written_file_reads_back, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_bake_options options = vertex_options(16);
     options.output = test_path(test_folder(), "out.glb");
@@ -175,7 +163,6 @@ static void the_written_file_reads_back(void **state)
     alp_scene_destroy(baked);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 // --- triangles that are too large ----------------------------------------------------------------
@@ -223,9 +210,8 @@ static alp_scene *floor_with_box(alp_context *context, int parts)
     return scene;
 }
 
-static void large_triangles_are_told(void **state)
+TEST(large_triangles_are_told)
 {
-    (void)state;
     int parts[] = {1, 40, 0, 40}; // the third as the warning advises, the last with noise
     for (int i = 0; i < 4; i++) {
         alp_context *context = test_context(2);
@@ -252,10 +238,8 @@ static void large_triangles_are_told(void **state)
 
 // --- options and faults --------------------------------------------------------------------------
 
-static void what_has_no_meaning_is_refused(void **state)
+TEST_WITH_CONTEXT(what_has_no_meaning_is_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = vertex_options(4);
     options.maps_folder = test_path(test_folder(), "maps");
@@ -285,13 +269,10 @@ static void what_has_no_meaning_is_refused(void **state)
     options.vertex_attribute = ALP_VERTEX_OCCLUSION;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void chosen_occluders_alone_occlude(void **state)
+TEST_WITH_CONTEXT(chosen_occluders_alone_occlude, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = vertex_options(64);
     alp_bake_report report;
@@ -312,12 +293,10 @@ static void chosen_occluders_alone_occlude(void **state)
     options.ao_self = true;
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     int left = 0;
     alp_context *context = test_context_failing(&left);
     left = 1 << 20;
@@ -348,11 +327,9 @@ static bool stop_at(void *user, const alp_progress *progress)
     return strcmp(progress->stage, user) != 0;
 }
 
-static void cancelling_leaves_nothing(void **state)
+TEST_WITH_CONTEXT(cancelling_leaves_nothing, 2)
 {
-    (void)state;
     char stages[4][16] = {"vertices", "build", "occlusion", "write"};
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:torus-plane");
     for (int i = 0; i < 4; i++) {
         alp_bake_options options = vertex_options(64);
@@ -364,22 +341,4 @@ static void cancelling_leaves_nothing(void **state)
         assert_int_not_equal(alp_scene_load(context, options.output, &baked), ALP_OK);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_convex_mesh_is_open),
-        cmocka_unit_test(vertices_of_unusable_triangles_are_open),
-        cmocka_unit_test(equal_vertices_have_equal_values),
-        cmocka_unit_test(workers_change_no_bit),
-        cmocka_unit_test(the_written_file_reads_back),
-        cmocka_unit_test(large_triangles_are_told),
-        cmocka_unit_test(what_has_no_meaning_is_refused),
-        cmocka_unit_test(chosen_occluders_alone_occlude),
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(cancelling_leaves_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -144,9 +144,8 @@ static uint32_t check_same(const alp_lightmap *a, const alp_lightmap *b, uint32_
     return made;
 }
 
-static void workers_change_no_bit(void **state)
+TEST(workers_change_no_bit)
 {
-    (void)state;
     enum { WAYS = TEST_STEP > 1 ? 2 : 3 };
     static const uint32_t workers[] = {2, 7, 1};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
@@ -172,15 +171,13 @@ static void workers_change_no_bit(void **state)
     }
 }
 
-static void workers_change_no_vertex(void **state)
+TEST(workers_change_no_vertex)
 {
-    (void)state;
     static const uint32_t workers[] = {1, 2, 7};
     float *first = NULL;
     for (int w = 0; w < 3; w++) {
         alp_context *context = test_context(workers[w]);
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
+        alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = alp_bake_options_default();
         options.atlas.mode = ALP_ATLAS_VERTEX;
         options.occlusion.samples = 8;
@@ -200,11 +197,4 @@ static void workers_change_no_vertex(void **state)
         alp_context_destroy(context);
     }
     free(first);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(workers_change_no_bit),
-                                       cmocka_unit_test(workers_change_no_vertex)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

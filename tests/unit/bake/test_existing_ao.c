@@ -39,10 +39,8 @@ static alp_lightmap *bake(const alp_scene *scene, alp_existing_ao choice)
     return lightmap;
 }
 
-static void multiply_is_the_product(void **state)
+TEST_WITH_CONTEXT(multiply_is_the_product, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = make_scene(context, 51, 0.5f); // 1 + 0.5 · (0.2 − 1) = 0.6
     alp_lightmap *replaced = bake(scene, ALP_EXISTING_AO_REPLACE);
     alp_lightmap *multiplied = bake(scene, ALP_EXISTING_AO_MULTIPLY);
@@ -57,13 +55,10 @@ static void multiply_is_the_product(void **state)
     alp_lightmap_destroy(replaced);
     alp_lightmap_destroy(multiplied);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void no_map_multiplies_by_one(void **state)
+TEST_WITH_CONTEXT(no_map_multiplies_by_one, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, 51, 1.0f);
     scene->materials[scene->surfaces[0].material].occlusion_texture.image = ALPI_NONE;
     alp_lightmap *replaced = bake(scene, ALP_EXISTING_AO_REPLACE);
@@ -73,14 +68,4 @@ static void no_map_multiplies_by_one(void **state)
     alp_lightmap_destroy(replaced);
     alp_lightmap_destroy(multiplied);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(multiply_is_the_product),
-        cmocka_unit_test(no_map_multiplies_by_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

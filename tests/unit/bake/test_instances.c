@@ -87,10 +87,8 @@ static const char *text_at(const alp_scene *scene, const char *kind, size_t inde
     return out;
 }
 
-static void instances_share_one_map(void **state)
+TEST_WITH_CONTEXT(instances_share_one_map, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     const char *path = write_asset(context);
     alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
@@ -133,13 +131,10 @@ static void instances_share_one_map(void **state)
     alp_scene_destroy(baked);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void what_is_not_baked_stays_as_it_was(void **state)
+TEST_WITH_CONTEXT(what_is_not_baked_stays_as_it_was, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     const char *path = write_asset(context);
     alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
@@ -177,14 +172,11 @@ static void what_is_not_baked_stays_as_it_was(void **state)
     assert_string_equal(json_string_value(json_array_get(names, 1)), "Kiste 4");
     alp_scene_destroy(baked);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_kept_set_is_judged_by_what_is_baked(void **state)
+TEST_WITH_CONTEXT(a_kept_set_is_judged_by_what_is_baked, 2)
 {
-    (void)state;
     // Baked with one map for all boxes, the set overlaps itself for a bake of all of them.
-    alp_context *context = test_context(2);
     const char *path = write_asset(context);
     alp_scene *scene = test_load(context, path);
     alp_bake_options options = small_options();
@@ -213,15 +205,4 @@ static void a_kept_set_is_judged_by_what_is_baked(void **state)
     assert_true(report.ao_mean == 1.0);
     scene->uvs[1] = NULL;
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(instances_share_one_map),
-        cmocka_unit_test(what_is_not_baked_stays_as_it_was),
-        cmocka_unit_test(a_kept_set_is_judged_by_what_is_baked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,13 +28,10 @@ static void bake(const alp_scene *scene, unsigned maps, const alp_occlusion_opti
 
 /// Texels that light looks for closely are found by short rays: of the cone, the numbers and the
 /// quickness of the occlusion's they were others.
-static void light_is_what_it_is_alone(void **state)
+TEST_WITH_CONTEXT(light_is_what_it_is_alone, 2)
 {
-    (void)state;
     static float alone[4 * TEXELS], beside[4 * TEXELS];
-    alp_context *context = test_context(2);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
+    alp_scene *scene = test_load(context, "builtin:torus-plane");
     alp_occlusion_options options[4];
     for (int i = 0; i < 4; i++) {
         options[i] = alp_occlusion_options_default();
@@ -54,11 +51,4 @@ static void light_is_what_it_is_alone(void **state)
         }
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(light_is_what_it_is_alone)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

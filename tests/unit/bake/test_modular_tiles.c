@@ -33,11 +33,9 @@ static uint32_t make_tiles(test_tile *tiles)
     return count;
 }
 
-static void borders_match(void **state)
+TEST_WITH_CONTEXT(borders_match, 2)
 {
-    (void)state;
     test_tile tiles[TEST_TILE_LIMIT];
-    alp_context *context = test_context(2);
     const uint32_t count = make_tiles(tiles);
     alp_scene *scene = test_tiles_scene(context, tiles, count, SIZE);
     alp_bake_options options = alp_bake_options_default();
@@ -65,11 +63,4 @@ static void borders_match(void **state)
         assert_true(!r.seams.stitched && r.seams.ao.mean == was.mean);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(borders_match)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

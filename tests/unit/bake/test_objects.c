@@ -45,10 +45,8 @@ static alp_scene *boxes_on_a_floor(alp_context *context)
     return boxes_at_height(context, 0.0f);
 }
 
-static void a_floor_without_occluders_is_open(void **state)
+TEST_WITH_CONTEXT(a_floor_without_occluders_is_open, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = boxes_on_a_floor(context);
     alp_bake_options options = small_options();
     options.only = "Fu?boden";
@@ -82,13 +80,10 @@ static void a_floor_without_occluders_is_open(void **state)
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
     assert_true(report.ao_mean < one && one < 1.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_convex_object_alone_is_open(void **state)
+TEST_WITH_CONTEXT(a_convex_object_alone_is_open, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = boxes_on_a_floor(context);
     alp_bake_options options = small_options();
     float low, high;
@@ -111,7 +106,6 @@ static void a_convex_object_alone_is_open(void **state)
     ASSERT_NEAR(report.ao_distance, 0.2 * sqrt(3.0), 1e-5);
     assert_int_equal(report.surfaces_baked, 2);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// A trench of a floor and two walls; with `lid` under a plate that closes it, and beside a box.
@@ -143,10 +137,8 @@ static alp_scene *trench(alp_context *context, bool lid)
     return scene;
 }
 
-static void an_object_alone_is_what_it_is_without_neighbours(void **state)
+TEST_WITH_CONTEXT(an_object_alone_is_what_it_is_without_neighbours, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *closed = trench(context, true), *free_one = trench(context, false);
     alp_bake_options options = small_options();
     alp_lightmap *alone = NULL, *without = NULL;
@@ -194,15 +186,12 @@ static void an_object_alone_is_what_it_is_without_neighbours(void **state)
     alp_lightmap_destroy(without);
     alp_scene_destroy(closed);
     alp_scene_destroy(free_one);
-    alp_context_destroy(context);
 }
 
 // --- ends ----------------------------------------------------------------------------------------
 
-static void wrong_choices_are_refused(void **state)
+TEST_WITH_CONTEXT(wrong_choices_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = boxes_on_a_floor(context);
     alp_bake_options options = small_options();
     options.only = "Stuhl*";
@@ -244,12 +233,10 @@ static void wrong_choices_are_refused(void **state)
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &report));
     assert_true(report.ao_mean == 1.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     int left = 0;
     alp_context *context = test_context_failing(&left);
     alp_scene *scene = boxes_on_a_floor(context);
@@ -294,11 +281,9 @@ static bool listen(void *user, const alp_progress *progress)
     return ++l->calls != l->stop_at;
 }
 
-static void many_objects_are_one_stage(void **state)
+TEST_SLOW_WITH_CONTEXT(many_objects_are_one_stage, 2)
 {
-    (void)state;
     enum { COUNT = 500 };
-    alp_context *context = test_context(2);
     alp_mesh *meshes = calloc(COUNT, sizeof *meshes);
     float(*corners)[8][3] = calloc(COUNT, sizeof *corners);
     assert_non_null(meshes);
@@ -334,7 +319,6 @@ static void many_objects_are_one_stage(void **state)
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
     assert_int_equal(l.calls, 1); // nobody is asked again
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static void *count_bytes(void *user, size_t size)
@@ -373,9 +357,8 @@ static alp_scene *many_cubes(alp_context *context, uint32_t count)
     return scene;
 }
 
-static void an_object_takes_no_memory_of_the_page(void **state)
+TEST(an_object_takes_no_memory_of_the_page)
 {
-    (void)state;
     // Bytes asked for and cleared in a bake of one page: what four times the objects add is theirs
     // (a tracer, some probes, a histogram of 256 KiB: less than 10 bytes a texel of the page), and
     // no arrays over all texels of the page (some 50 bytes each).
@@ -415,10 +398,8 @@ static bool stop_half_way(void *user, const alp_progress *progress)
     return strcmp(progress->stage, "occlusion") != 0 || progress->done * 4 < progress->total;
 }
 
-static void what_is_cut_off_is_unknown(void **state)
+TEST_WITH_CONTEXT(what_is_cut_off_is_unknown, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = boxes_on_a_floor(context);
     alp_bake_options options = small_options();
     options.ao_self = true;
@@ -437,7 +418,6 @@ static void what_is_cut_off_is_unknown(void **state)
     assert_int_equal(report.traced + report.interpolated + report.unknown, report.atlas.texels);
     assert_true(report.unknown > 0 && report.unknown < report.atlas.texels);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Of the texels that were sampled: their mean value, the mean of the squares of their errors, and
@@ -460,12 +440,10 @@ static double sum_errors(const alp_lightmap *lightmap, double *squares, double *
     return sum / count;
 }
 
-static void the_stated_error_is_of_what_was_sampled(void **state)
+TEST_WITH_CONTEXT(the_stated_error_is_of_what_was_sampled, 2)
 {
-    (void)state;
     // The boxes are sunk into the floor, whose texels at their rim are wholly inside: they are
     // dropped, and are no texels without error.
-    alp_context *context = test_context(2);
     alp_scene *scene = boxes_at_height(context, -0.5f);
     alp_bake_options options = small_options();
     options.atlas.size = 256;
@@ -478,14 +456,11 @@ static void the_stated_error_is_of_what_was_sampled(void **state)
     ASSERT_NEAR(report.ao_relative_error * mean, sqrt(squares), 1e-9);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_stated_error_is_of_all_objects(void **state)
+TEST_WITH_CONTEXT(the_stated_error_is_of_all_objects, 2)
 {
-    (void)state;
     // The box and the plate are open without error, so the mean square is the trench's share of it.
-    alp_context *context = test_context(2);
     alp_scene *scene = trench(context, true);
     alp_bake_options options = small_options();
     options.ao_self = true;
@@ -503,12 +478,10 @@ static void the_stated_error_is_of_all_objects(void **state)
     assert_true(report.ao_p99_error * mean <= largest * 1.000001);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void workers_change_no_value(void **state)
+TEST(workers_change_no_value)
 {
-    (void)state;
     float *first = NULL;
     const uint32_t workers[] = {1, 2, 7};
     for (int i = 0; i < 3; i++) {
@@ -531,22 +504,4 @@ static void workers_change_no_value(void **state)
         alp_context_destroy(context);
     }
     free(first);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_floor_without_occluders_is_open),
-        cmocka_unit_test(a_convex_object_alone_is_open),
-        cmocka_unit_test(an_object_alone_is_what_it_is_without_neighbours),
-        cmocka_unit_test(wrong_choices_are_refused),
-        cmocka_unit_test(every_allocation_may_fail),
-        TEST_OF_FIGURES(many_objects_are_one_stage),
-        cmocka_unit_test(an_object_takes_no_memory_of_the_page),
-        cmocka_unit_test(what_is_cut_off_is_unknown),
-        cmocka_unit_test(the_stated_error_is_of_what_was_sampled),
-        cmocka_unit_test(the_stated_error_is_of_all_objects),
-        cmocka_unit_test(workers_change_no_value),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

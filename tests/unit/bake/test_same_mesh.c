@@ -155,12 +155,9 @@ static void compare(const alp_lightmap *a, const alp_lightmap *b, const alp_scen
     ASSERT_NEAR(sqrt(sum / count), 0.0, 1e-4); // asked; the same bits are expected
 }
 
-static void three_formats_bake_the_same_occlusion(void **state)
+TEST_WITH_CONTEXT(three_formats_bake_the_same_occlusion, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
-    alp_scene *original = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &original));
+    alp_scene *original = test_load(context, "builtin:torus-plane");
     alp_scene *scenes[] = {through_gltf(context, original), through_collada(context, original),
                            through_obj(context, original)};
     static const char *const names[] = {"glTF", "COLLADA", "OBJ"};
@@ -181,11 +178,4 @@ static void three_formats_bake_the_same_occlusion(void **state)
     }
     alp_lightmap_destroy(expected);
     alp_scene_destroy(original);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(three_formats_bake_the_same_occlusion)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

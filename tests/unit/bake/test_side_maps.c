@@ -46,10 +46,8 @@ static void check_files(alp_context *context, const char *folder, const char *na
     alp_image_destroy(image);
 }
 
-static void maps_are_written_and_handed_out(void **state)
+TEST_WITH_CONTEXT(maps_are_written_and_handed_out, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:cornell");
     const char *folder = test_folder();
     alp_bake_options options = small_options(ALL);
@@ -84,13 +82,10 @@ static void maps_are_written_and_handed_out(void **state)
     assert_true(is_there(folder, "ao.exr") && is_there(folder, "ao.png"));
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void channels_are_x_y_z(void **state)
+TEST_WITH_CONTEXT(channels_are_x_y_z, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start(); // open, normal (1, 2, 3)
     test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){2, -1, 0}, (double[]){3, 0, -1});
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -104,12 +99,10 @@ static void channels_are_x_y_z(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void memory_is_known_beforehand(void **state)
+TEST_SLOW(memory_is_known_beforehand)
 {
-    (void)state;
     const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_BENT, ALP_MAP_AO | ALP_MAP_OBSCURANCE, ALL};
     for (int i = 0; i < 3; i++) {
         alp_context *context = test_context(2);
@@ -129,10 +122,8 @@ static void memory_is_known_beforehand(void **state)
     }
 }
 
-static void side_maps_leave_occlusion_as_it_is(void **state)
+TEST_WITH_CONTEXT(side_maps_leave_occlusion_as_it_is, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:torus-plane");
     alp_lightmap *alone = NULL, *all = NULL;
     alp_bake_report reports[2];
@@ -149,13 +140,10 @@ static void side_maps_leave_occlusion_as_it_is(void **state)
     alp_lightmap_destroy(alone);
     alp_lightmap_destroy(all);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void objects_alone_see_no_other(void **state)
+TEST_WITH_CONTEXT(objects_alone_see_no_other, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALL);
     options.ao_self = true;
@@ -170,13 +158,10 @@ static void objects_alone_see_no_other(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void only_what_is_asked_for_is_written(void **state)
+TEST_WITH_CONTEXT(only_what_is_asked_for_is_written, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     const char *folder = test_folder();
     alp_bake_options options = small_options(ALP_MAP_BENT);
@@ -190,13 +175,10 @@ static void only_what_is_asked_for_is_written(void **state)
     ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
     assert_true(is_there(folder, "ao.exr"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_map_cut_off_has_bent_normals_where_it_has_values(void **state)
+TEST_WITH_CONTEXT(a_map_cut_off_has_bent_normals_where_it_has_values, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:cornell");
     alp_bake_options options = small_options(ALP_MAP_AO | ALP_MAP_BENT);
     options.sampling.time_limit = 0.02;
@@ -216,7 +198,6 @@ static void a_map_cut_off_has_bent_normals_where_it_has_values(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static void expect_refused(const alp_scene *scene, const alp_bake_options *options)
@@ -224,10 +205,8 @@ static void expect_refused(const alp_scene *scene, const alp_bake_options *optio
     assert_int_equal(alp_bake(scene, options, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
 }
 
-static void senseless_combinations_are_refused(void **state)
+TEST_WITH_CONTEXT(senseless_combinations_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(0);
     expect_refused(scene, &options);
@@ -261,15 +240,12 @@ static void senseless_combinations_are_refused(void **state)
     options.atlas.mode = ALP_ATLAS_VERTEX;
     expect_refused(scene, &options);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// A sun of E⊥ lux gives E⊥ cosθ where nothing is in its way, and 0 in the shadow; without other
 /// light that is exact. Light alone: no occlusion is written.
-static void the_sun_on_a_plane(void **state)
+TEST_WITH_CONTEXT(the_sun_on_a_plane, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALP_MAP_LIGHT);
     options.maps_folder = test_folder();
@@ -308,7 +284,6 @@ static void the_sun_on_a_plane(void **state)
     assert_false(darkness.light_direct);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static bool stop_at_obscurance(void *user, const alp_progress *progress)
@@ -317,22 +292,18 @@ static bool stop_at_obscurance(void *user, const alp_progress *progress)
     return strcmp(progress->stage, "obscurance") != 0;
 }
 
-static void obscurance_can_be_cancelled(void **state)
+TEST_WITH_CONTEXT(obscurance_can_be_cancelled, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
     alp_bake_options options = small_options(ALL);
     options.occlusion.samples = 1024; // long enough to be asked
     options.progress = stop_at_obscurance;
     assert_int_equal(alp_bake(scene, &options, NULL, NULL), ALP_ERROR_CANCELLED);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     int left = 0;
     alp_context *context = test_context_failing(&left);
     left = 1 << 30;
@@ -351,22 +322,4 @@ static void every_allocation_may_fail(void **state)
     left = 1 << 30;
     alp_scene_destroy(scene);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_are_written_and_handed_out),
-        cmocka_unit_test(channels_are_x_y_z),
-        TEST_OF_FIGURES(memory_is_known_beforehand),
-        cmocka_unit_test(side_maps_leave_occlusion_as_it_is),
-        cmocka_unit_test(objects_alone_see_no_other),
-        cmocka_unit_test(only_what_is_asked_for_is_written),
-        cmocka_unit_test(a_map_cut_off_has_bent_normals_where_it_has_values),
-        cmocka_unit_test(the_sun_on_a_plane),
-        cmocka_unit_test(senseless_combinations_are_refused),
-        cmocka_unit_test(obscurance_can_be_cancelled),
-        cmocka_unit_test(every_allocation_may_fail),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 enum { STEPS = 20000 };
 static const double ROUNDING = 1.5e-15; // a few roundings of numbers up to pi
 
-static void arcs_are_those_of_the_library(void **state)
+TEST(arcs_are_those_of_the_library)
 {
-    (void)state;
     for (int i = -STEPS; i <= STEPS; i++) {
         const double c = (double)i / STEPS, angle = ALPI_PI * c;
         ASSERT_NEAR(alpi_arc_cosine(c), acos(c), ROUNDING);
@@ -23,9 +22,8 @@ static void arcs_are_those_of_the_library(void **state)
     }
 }
 
-static void sines_are_those_of_the_library(void **state)
+TEST(sines_are_those_of_the_library)
 {
-    (void)state;
     for (int i = -STEPS; i <= STEPS; i++) {
         const double angle = ALPI_PI * i / STEPS;
         ASSERT_NEAR(alpi_sine(angle), sin(angle), ROUNDING);
@@ -34,9 +32,8 @@ static void sines_are_those_of_the_library(void **state)
     }
 }
 
-static void ends_are_exact(void **state)
+TEST(ends_are_exact)
 {
-    (void)state;
     assert_true(alpi_arc_cosine(1.0) == 0.0 && alpi_arc_cosine(1.5) == 0.0);
     ASSERT_NEAR(alpi_arc_cosine(-1.0), ALPI_PI, 0.0);
     ASSERT_NEAR(alpi_arc_cosine(-2.0), ALPI_PI, 0.0);
@@ -45,14 +42,4 @@ static void ends_are_exact(void **state)
     ASSERT_NEAR(alpi_arc_tangent(-3.0, 0.0), -0.5 * ALPI_PI, 0.0);
     assert_true(alpi_sine(0.0) == 0.0);
     assert_true(alpi_length2(3.0, -4.0) == 5.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arcs_are_those_of_the_library),
-        cmocka_unit_test(sines_are_those_of_the_library),
-        cmocka_unit_test(ends_are_exact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

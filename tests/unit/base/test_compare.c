@@ -17,10 +17,8 @@ static alp_image *image_of(alp_context *context, uint32_t width, uint32_t channe
     return image;
 }
 
-static void figures_are_exact(void **state)
+TEST_WITH_CONTEXT(figures_are_exact, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float va[] = {1, 2, 3, 1, 4, 4, 4, 1, 9, 9, 9, 0, 7, 7, 7, 1, 5, 5, 5, 0};
     const float vb[] = {1, 0, 3, 1, 4, 4, 0, 1, 8, 8, 8, 1, 2, 2, 2, 0, 6, 6, 6, 0.5f};
     alp_image *a = image_of(context, 5, 4, va), *b = image_of(context, 5, 4, vb);
@@ -43,13 +41,10 @@ static void figures_are_exact(void **state)
     ASSERT_NEAR(d.mean_second, 2.0, 1e-15);
     alp_image_destroy(a);
     alp_image_destroy(b);
-    alp_context_destroy(context);
 }
 
-static void grey_is_compared_with_color(void **state)
+TEST_WITH_CONTEXT(grey_is_compared_with_color, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float grey[] = {1, 2}, color[] = {1, 1, 4, 2, 2, 2};
     alp_image *a = image_of(context, 2, 1, grey), *b = image_of(context, 2, 3, color);
     alp_image_difference d;
@@ -65,13 +60,10 @@ static void grey_is_compared_with_color(void **state)
     ASSERT_NEAR(d.rmse, 0.5, 1e-15);
     alp_image_destroy(a);
     alp_image_destroy(b);
-    alp_context_destroy(context);
 }
 
-static void nothing_in_common(void **state)
+TEST_WITH_CONTEXT(nothing_in_common, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float va[] = {1, 1, 1, 1}, vb[] = {1, 1, 1, 0};
     alp_image *a = image_of(context, 1, 4, va), *b = image_of(context, 1, 4, vb);
     alp_image_difference d;
@@ -83,12 +75,10 @@ static void nothing_in_common(void **state)
     ASSERT_NEAR(d.relative_rmse, 0.0, 0.0);
     alp_image_destroy(a);
     alp_image_destroy(b);
-    alp_context_destroy(context);
 }
 
-static void the_percentile_is_numpys(void **state)
+TEST(the_percentile_is_numpys)
 {
-    (void)state;
     // |d| are 0 … 1000 in a shuffled order and of both signs: percentile 99 is 990 exactly.
     alp_context *context = test_context(1);
     static float va[1001], vb[1001];
@@ -107,10 +97,8 @@ static void the_percentile_is_numpys(void **state)
     alp_context_destroy(context);
 }
 
-static void the_picture_shows_where(void **state)
+TEST_WITH_CONTEXT(the_picture_shows_where, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float va[] = {0, 0, 0, 1, 1, 1, 1, 1, 9, 9, 9, 1, 9, 9, 9, 0, 9, 9, 9, 0};
     const float vb[] = {0, 0, 0, 1, 1, 0, 1, 1, 9, 9, 9, 0, 9, 9, 9, 1, 9, 9, 9, 0};
     const uint8_t expected[] = {0, 0, 0, 255, 255, 255, 255, 0, 255, 255, 0, 255, 0, 0, 64};
@@ -124,13 +112,10 @@ static void the_picture_shows_where(void **state)
     alp_image_destroy(heat);
     alp_image_destroy(a);
     alp_image_destroy(b);
-    alp_context_destroy(context);
 }
 
-static void what_cannot_be_compared(void **state)
+TEST_WITH_CONTEXT(what_cannot_be_compared, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float values[] = {1, 2, 3, 4, NAN, 6};
     alp_image *a = image_of(context, 2, 1, values), *b = image_of(context, 3, 1, values);
     alp_image *broken = image_of(context, 2, 3, values), *bytes = NULL, *heat = NULL;
@@ -147,7 +132,6 @@ static void what_cannot_be_compared(void **state)
     alp_image_destroy(b);
     alp_image_destroy(broken);
     alp_image_destroy(bytes);
-    alp_context_destroy(context);
 }
 
 static alp_image *load_reference(alp_context *context, const char *path)
@@ -161,9 +145,8 @@ static alp_image *load_reference(alp_context *context, const char *path)
 }
 
 /// The figures are what the compare.py stored beside these files prints (numpy, double).
-static void stored_references_agree_with_numpy(void **state)
+TEST(stored_references_agree_with_numpy)
 {
-    (void)state;
     const char *path = test_shared("peers/blender/ref_cornell_diffuse_256.exr");
     if (path == NULL) {
         skip();
@@ -184,18 +167,4 @@ static void stored_references_agree_with_numpy(void **state)
     alp_image_destroy(a);
     alp_image_destroy(b);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_exact),
-        cmocka_unit_test(grey_is_compared_with_color),
-        cmocka_unit_test(nothing_in_common),
-        cmocka_unit_test(the_percentile_is_numpys),
-        cmocka_unit_test(the_picture_shows_where),
-        cmocka_unit_test(what_cannot_be_compared),
-        cmocka_unit_test(stored_references_agree_with_numpy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static uint64_t draw(uint64_t *state)
 }
 
 /// Digits, a point somewhere, an exponent at times.
-static void random_texts(void **state)
+TEST(random_texts)
 {
-    (void)state;
     enum { ROUNDS = 200000 };
     uint64_t seed = 1;
     for (int round = 0; round < ROUNDS; round++) {
@@ -59,9 +58,8 @@ static void random_texts(void **state)
 }
 
 /// What printf makes of random bits comes back, with few digits and with many.
-static void printed_numbers(void **state)
+TEST(printed_numbers)
 {
-    (void)state;
     uint64_t seed = 2;
     for (int round = 0; round < 100000; round++) {
         uint64_t bits = draw(&seed);
@@ -84,9 +82,8 @@ static void printed_numbers(void **state)
 
 /// Half way between two floats, exactly and with one digit more or less: where rounding twice goes
 /// wrong.
-static void half_way(void **state)
+TEST(half_way)
 {
-    (void)state;
     uint64_t seed = 3;
     for (int round = 0; round < 20000; round++) {
         uint32_t bits = (uint32_t)(draw(&seed) % 0x7f000000u);
@@ -115,9 +112,8 @@ static void half_way(void **state)
     }
 }
 
-static void edges(void **state)
+TEST(edges)
 {
-    (void)state;
     static const char *const texts[] = {"0",
                                         "-0",
                                         "+.5",
@@ -165,9 +161,8 @@ static void edges(void **state)
 }
 
 /// Nothing is read behind the end, and thousands of digits are a number like any other.
-static void long_numbers(void **state)
+TEST(long_numbers)
 {
-    (void)state;
     char text[4096];
     double d;
     memset(text, '1', sizeof text);
@@ -181,9 +176,8 @@ static void long_numbers(void **state)
     compare(text);
 }
 
-static void other_locales(void **state)
+TEST(other_locales)
 {
-    (void)state;
     static const char *const locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "sv_SE.UTF-8", "C.UTF-8"};
     for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
         if (setlocale(LC_ALL, locales[i]) == NULL) {
@@ -196,14 +190,4 @@ static void other_locales(void **state)
         ASSERT_NEAR(d, 0.12345678901234567890123456789, 0.0);
     }
     setlocale(LC_ALL, "C");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_texts), cmocka_unit_test(printed_numbers),
-        cmocka_unit_test(half_way),     cmocka_unit_test(edges),
-        cmocka_unit_test(long_numbers), cmocka_unit_test(other_locales),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

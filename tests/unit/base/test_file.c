@@ -33,10 +33,8 @@ static void assert_holds(const char *path, const char *text)
     free(bytes);
 }
 
-static void what_is_written_is_read(void **state)
+TEST_WITH_CONTEXT(what_is_written_is_read, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.bin");
     ASSERT_OK(context, alpi_file_write(context, path, false, "a\0b", 3));
     assert_int_equal(files_in(folder), 1); // nothing temporary is left
@@ -48,13 +46,10 @@ static void what_is_written_is_read(void **state)
     alpi_release(context, bytes);
     assert_int_equal(alpi_file_read(context, path, 2, &bytes, &size), ALP_ERROR_LIMIT);
     assert_null(bytes);
-    alp_context_destroy(context);
 }
 
-static void nothing_is_seen_before_commit(void **state)
+TEST_WITH_CONTEXT(nothing_is_seen_before_commit, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.txt");
     alpi_file_writer writer;
     ASSERT_OK(context, alpi_file_open(context, path, false, &writer));
@@ -65,13 +60,10 @@ static void nothing_is_seen_before_commit(void **state)
     assert_holds(path, "one two");
     alpi_file_abandon(&writer); // harmless
     assert_int_equal(files_in(folder), 1);
-    alp_context_destroy(context);
 }
 
-static void giving_up_leaves_nothing(void **state)
+TEST_WITH_CONTEXT(giving_up_leaves_nothing, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.txt");
     ASSERT_OK(context, alpi_file_write(context, path, false, "old", 3));
     alpi_file_writer writer;
@@ -82,13 +74,10 @@ static void giving_up_leaves_nothing(void **state)
     alpi_file_abandon(&writer);
     assert_int_equal(files_in(folder), 1);
     assert_holds(path, "old");
-    alp_context_destroy(context);
 }
 
-static void a_file_is_kept_unless_it_may_go(void **state)
+TEST_WITH_CONTEXT(a_file_is_kept_unless_it_may_go, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.txt");
     ASSERT_OK(context, alpi_file_write(context, path, false, "first", 5));
     assert_int_equal(alpi_file_write(context, path, false, "second", 6), ALP_ERROR_IO);
@@ -98,13 +87,10 @@ static void a_file_is_kept_unless_it_may_go(void **state)
     ASSERT_OK(context, alpi_file_write(context, path, true, "second", 6));
     assert_holds(path, "second");
     assert_int_equal(files_in(folder), 1);
-    alp_context_destroy(context);
 }
 
-static void a_file_that_appears_meanwhile_is_kept(void **state)
+TEST_WITH_CONTEXT(a_file_that_appears_meanwhile_is_kept, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.txt");
     alpi_file_writer writer;
     ASSERT_OK(context, alpi_file_open(context, path, false, &writer));
@@ -113,13 +99,10 @@ static void a_file_that_appears_meanwhile_is_kept(void **state)
     assert_int_equal(alpi_file_commit(&writer), ALP_ERROR_IO);
     assert_holds(path, "theirs");
     assert_int_equal(files_in(folder), 1);
-    alp_context_destroy(context);
 }
 
-static void two_writers_of_one_file_do_not_meet(void **state)
+TEST_WITH_CONTEXT(two_writers_of_one_file_do_not_meet, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *path = test_path(folder, "a.txt");
     alpi_file_writer one, two;
     ASSERT_OK(context, alpi_file_open(context, path, true, &one));
@@ -131,7 +114,6 @@ static void two_writers_of_one_file_do_not_meet(void **state)
     ASSERT_OK(context, alpi_file_commit(&one));
     assert_holds(path, "one");
     assert_int_equal(files_in(folder), 1);
-    alp_context_destroy(context);
 }
 
 static void assert_refused(alp_context *context, const char *path, const char *words)
@@ -141,10 +123,8 @@ static void assert_refused(alp_context *context, const char *path, const char *w
     assert_int_equal(alpi_file_write(context, path, true, "x", 1), ALP_ERROR_IO);
 }
 
-static void places_that_cannot_be_written_are_named(void **state)
+TEST_WITH_CONTEXT(places_that_cannot_be_written_are_named, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     assert_refused(context, folder, "is a folder");
     assert_refused(context, test_path(folder, "missing/a.txt"), "missing/a.txt");
@@ -154,13 +134,10 @@ static void places_that_cannot_be_written_are_named(void **state)
     assert_int_equal(mkfifo(pipe, 0600), 0);
     assert_refused(context, pipe, "not a regular file");
     assert_int_equal(files_in(folder), 1);
-    alp_context_destroy(context);
 }
 
-static void places_that_cannot_be_read_are_named(void **state)
+TEST_WITH_CONTEXT(places_that_cannot_be_read_are_named, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder();
     uint8_t *bytes = NULL;
     size_t size = 0;
@@ -173,13 +150,10 @@ static void places_that_cannot_be_read_are_named(void **state)
     assert_int_equal(mkfifo(pipe, 0600), 0);
     assert_int_equal(alpi_file_read(context, pipe, LIMIT, &bytes, &size), ALP_ERROR_IO);
     assert_null(bytes);
-    alp_context_destroy(context);
 }
 
-static void folders_are_made_with_their_parents(void **state)
+TEST_WITH_CONTEXT(folders_are_made_with_their_parents, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *folder = test_folder(), *deep = test_path(folder, "a//b/c/");
     struct stat status;
     ASSERT_OK(context, alpi_folder_create(context, deep));
@@ -190,13 +164,10 @@ static void folders_are_made_with_their_parents(void **state)
     assert_int_equal(alpi_folder_create(context, file), ALP_ERROR_IO);
     assert_int_equal(alpi_folder_create(context, test_path(folder, "file/b")), ALP_ERROR_IO);
     assert_int_equal(alpi_folder_create(context, ""), ALP_ERROR_IO);
-    alp_context_destroy(context);
 }
 
-static void paths_are_taken_apart(void **state)
+TEST_WITH_CONTEXT(paths_are_taken_apart, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const char *const paths[][3] = {
         {"a/b/c.glb", "a/b/", "c.glb"}, {"c.glb", "", "c.glb"}, {"/c", "/", "c"}, {"a/", "a/", ""}};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
@@ -208,22 +179,4 @@ static void paths_are_taken_apart(void **state)
     assert_true(alpi_path_has_ending("x.GLB", ".glb"));
     assert_false(alpi_path_has_ending("glb", ".glb"));
     assert_false(alpi_path_has_ending("x.glb.txt", ".glb"));
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(nothing_is_seen_before_commit),
-        cmocka_unit_test(giving_up_leaves_nothing),
-        cmocka_unit_test(a_file_is_kept_unless_it_may_go),
-        cmocka_unit_test(a_file_that_appears_meanwhile_is_kept),
-        cmocka_unit_test(two_writers_of_one_file_do_not_meet),
-        cmocka_unit_test(places_that_cannot_be_written_are_named),
-        cmocka_unit_test(places_that_cannot_be_read_are_named),
-        cmocka_unit_test(folders_are_made_with_their_parents),
-        cmocka_unit_test(paths_are_taken_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "base/half.h"
 
-static void every_half_comes_back(void **state)
+TEST(every_half_comes_back)
 {
-    (void)state;
     for (uint32_t bits = 0; bits < 0x10000u; bits++) {
         const float value = alpi_half_to_float((uint16_t)bits);
         const uint16_t again = alpi_half_from_float(value);
@@ -18,9 +17,8 @@ static void every_half_comes_back(void **state)
     }
 }
 
-static void known_values(void **state)
+TEST(known_values)
 {
-    (void)state;
     // of IEEE 754-2019: 1, the largest, the least normal and subnormal ones, −2, a third
     assert_true(alpi_half_to_float(0x3c00) == 1.0f);
     assert_true(alpi_half_to_float(0x7bff) == ALPI_HALF_MAX);
@@ -31,9 +29,8 @@ static void known_values(void **state)
 }
 
 /// Between neighbours the nearer one; in the middle the even one.
-static void floats_go_to_the_nearest(void **state)
+TEST(floats_go_to_the_nearest)
 {
-    (void)state;
     for (uint16_t low = 0; low < 0x7c00u; low++) {
         const uint16_t high = low + 1;
         const float a = alpi_half_to_float(low);
@@ -47,14 +44,4 @@ static void floats_go_to_the_nearest(void **state)
     assert_int_equal(alpi_half_from_float(3e38f), 0x7c00);
     assert_int_equal(alpi_half_from_float(-INFINITY), 0xfc00);
     assert_int_equal(alpi_half_from_float(1e-30f), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_half_comes_back),
-        cmocka_unit_test(known_values),
-        cmocka_unit_test(floats_go_to_the_nearest),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

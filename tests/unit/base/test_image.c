@@ -15,10 +15,8 @@ static alp_image *new_image(alp_context *context, uint32_t width, uint32_t heigh
     return image;
 }
 
-static void limits_are_kept(void **state)
+TEST_WITH_CONTEXT(limits_are_kept, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const alp_image_info bad[] = {
         {0, 1, 1, ALP_COMPONENT_U8},     {1, 0, 1, ALP_COMPONENT_U8},
         {65537, 1, 1, ALP_COMPONENT_U8}, {1, 65537, 1, ALP_COMPONENT_U8},
@@ -38,13 +36,10 @@ static void limits_are_kept(void **state)
     alp_image_destroy(NULL);
     assert_null(alp_image_bytes(NULL));
     assert_int_equal(alp_image_get_info(NULL).width, 0);
-    alp_context_destroy(context);
 }
 
-static void missing_channels_are_filled(void **state)
+TEST_WITH_CONTEXT(missing_channels_are_filled, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float expected[4][4] = {{0.2f, 0.2f, 0.2f, 1.0f},
                                   {0.2f, 0.2f, 0.2f, 0.4f},
                                   {0.2f, 0.4f, 0.6f, 1.0f},
@@ -61,7 +56,6 @@ static void missing_channels_are_filled(void **state)
         }
         alp_image_destroy(image);
     }
-    alp_context_destroy(context);
 }
 
 /// 4 × 2 grey floats: 0 1 2 3 / 10 11 12 13.
@@ -81,10 +75,8 @@ static float at(const alp_image *image, double u, double v, alpi_wrap wrap)
     return rgba[0];
 }
 
-static void texel_centres_give_texels(void **state)
+TEST_WITH_CONTEXT(texel_centres_give_texels, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = ramp(context);
     for (int wrap = ALPI_WRAP_REPEAT; wrap <= ALPI_WRAP_MIRROR; wrap++) {
         for (int i = 0; i < 8; i++) {
@@ -94,13 +86,10 @@ static void texel_centres_give_texels(void **state)
         ASSERT_NEAR(at(image, 0.5, 0.5, (alpi_wrap)wrap), 6.5, 0.0); // between four
     }
     alp_image_destroy(image);
-    alp_context_destroy(context);
 }
 
-static void coordinates_outside_wrap(void **state)
+TEST_WITH_CONTEXT(coordinates_outside_wrap, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = ramp(context);
     // Half a texel outside the left border, on the first row: repeat mixes 3 and 0.
     ASSERT_NEAR(at(image, 0.0, 0.25, ALPI_WRAP_REPEAT), 1.5, 0.0);
@@ -114,13 +103,10 @@ static void coordinates_outside_wrap(void **state)
     ASSERT_NEAR(at(image, -9.5 / 4.0, 0.25, ALPI_WRAP_REPEAT), 2.0, 0.0);
     ASSERT_NEAR(at(image, -9.5 / 4.0, 0.25, ALPI_WRAP_MIRROR), 1.0, 0.0);
     alp_image_destroy(image);
-    alp_context_destroy(context);
 }
 
-static void senseless_coordinates_read_as_zero(void **state)
+TEST_WITH_CONTEXT(senseless_coordinates_read_as_zero, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = ramp(context);
     const double odd[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e30, -1e30};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
@@ -133,12 +119,10 @@ static void senseless_coordinates_read_as_zero(void **state)
     }
     assert_true(isfinite(at(image, 1e9, -1e9, ALPI_WRAP_REPEAT)));
     alp_image_destroy(image);
-    alp_context_destroy(context);
 }
 
-static void the_srgb_curve_goes_there_and_back(void **state)
+TEST(the_srgb_curve_goes_there_and_back)
 {
-    (void)state;
     for (int i = 0; i < 256; i++) {
         float encoded = (float)i / 255.0f;
         ASSERT_NEAR(alpi_linear_to_srgb(alpi_srgb_to_linear(encoded)) * 255.0f, i, 1e-3);
@@ -153,9 +137,8 @@ static void the_srgb_curve_goes_there_and_back(void **state)
     ASSERT_NEAR(alpi_linear_to_srgb(NAN), 0.0, 0.0);
 }
 
-static void srgb_is_decoded_before_the_mean(void **state)
+TEST(srgb_is_decoded_before_the_mean)
 {
-    (void)state;
     // Half way between a black and a white texel: light .5, where decoding the mean gives .214.
     alp_context *context = test_context(1);
     alp_image *image = NULL;
@@ -176,18 +159,4 @@ static void srgb_is_decoded_before_the_mean(void **state)
     ASSERT_NEAR(rgba[3], 128.0 / 255.0, 1e-6);
     alp_image_destroy(image);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(srgb_is_decoded_before_the_mean),
-        cmocka_unit_test(limits_are_kept),
-        cmocka_unit_test(missing_channels_are_filled),
-        cmocka_unit_test(texel_centres_give_texels),
-        cmocka_unit_test(coordinates_outside_wrap),
-        cmocka_unit_test(senseless_coordinates_read_as_zero),
-        cmocka_unit_test(the_srgb_curve_goes_there_and_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

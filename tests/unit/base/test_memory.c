@@ -74,9 +74,8 @@ static alp_result job(const alp_context_options *options)
     return result;
 }
 
-static void every_allocation_may_fail(void **state)
+TEST(every_allocation_may_fail)
 {
-    (void)state;
     counting_heap heap = {0};
     alp_context_options options = options_with_heap(&heap);
     options.worker_count = 2;
@@ -95,9 +94,8 @@ static void every_allocation_may_fail(void **state)
     assert_int_equal(failures, total - 2); // all but those for threads, which nothing depends on
 }
 
-static void a_failed_context_is_null(void **state)
+TEST(a_failed_context_is_null)
 {
-    (void)state;
     counting_heap heap = {.fail_at = 1};
     alp_context_options options = options_with_heap(&heap);
     alp_context *context = (alp_context *)&heap;
@@ -106,9 +104,8 @@ static void a_failed_context_is_null(void **state)
     assert_int_equal(heap.releases, 0);
 }
 
-static void half_an_allocator_is_refused(void **state)
+TEST(half_an_allocator_is_refused)
 {
-    (void)state;
     counting_heap heap = {0};
     alp_context *context = NULL;
     alp_context_options options = options_with_heap(&heap);
@@ -123,10 +120,8 @@ static void half_an_allocator_is_refused(void **state)
     assert_int_equal(alp_context_create(NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
 }
 
-static void sizes_do_not_wrap(void **state)
+TEST_WITH_CONTEXT(sizes_do_not_wrap, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const size_t many = SIZE_MAX / 8 + 1;
     assert_null(alpi_allocate(context, many, 8)); // 8 × many wraps to 0
     assert_non_null(strstr(alp_context_message(context), "out of memory"));
@@ -140,12 +135,10 @@ static void sizes_do_not_wrap(void **state)
     assert_null(items);
     assert_int_equal(capacity, 0);
     alpi_release(context, kept);
-    alp_context_destroy(context);
 }
 
-static void memory_is_zero_aligned_and_counted(void **state)
+TEST(memory_is_zero_aligned_and_counted)
 {
-    (void)state;
     counting_heap heap = {0};
     alp_context_options options = options_with_heap(&heap);
     alp_context *context = NULL;
@@ -171,21 +164,17 @@ static void memory_is_zero_aligned_and_counted(void **state)
     alp_context_destroy(context);
 }
 
-static void a_message_may_quote_the_message_before(void **state)
+TEST_WITH_CONTEXT(a_message_may_quote_the_message_before, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_fail(context, ALP_ERROR_IO, "buffer 2: too short");
     alpi_fail(context, ALP_ERROR_IO, "a.gltf: %s", alp_context_message(context));
     assert_string_equal(alp_context_message(context), "a.gltf: buffer 2: too short");
-    alp_context_destroy(context);
 }
 
 /// With memory of its own a context moves arrays as little as it can: what was there stays, what is
 /// new is zero, and nothing is counted twice where less is held.
-static void arrays_change_their_size(void **state)
+TEST(arrays_change_their_size)
 {
-    (void)state;
     enum { SMALL = 1000, LARGE = 9 << 20 };
     alp_context *own = test_context(1);
     uint8_t *bytes = alpi_allocate(own, SMALL, 1);
@@ -210,18 +199,4 @@ static void arrays_change_their_size(void **state)
     assert_int_equal(alp_context_peak_memory(own), LARGE);
     alpi_release(own, bytes);
     alp_context_destroy(own);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(a_failed_context_is_null),
-        cmocka_unit_test(half_an_allocator_is_refused),
-        cmocka_unit_test(sizes_do_not_wrap),
-        cmocka_unit_test(memory_is_zero_aligned_and_counted),
-        cmocka_unit_test(arrays_change_their_size),
-        cmocka_unit_test(a_message_may_quote_the_message_before),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

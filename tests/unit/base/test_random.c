@@ -4,9 +4,8 @@
 
 #include "base/random.h"
 
-static void hashes_give_published_values(void **state)
+TEST(hashes_give_published_values)
 {
-    (void)state;
     // SplitMix64 from state 1234567; each call advances the state by the golden ratio.
     const uint64_t expected[] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u,
                                  4593380528125082431u};
@@ -29,9 +28,8 @@ static uint32_t sobol_by_recurrence(uint32_t index)
     return point;
 }
 
-static void the_second_dimension_is_sobols(void **state)
+TEST(the_second_dimension_is_sobols)
 {
-    (void)state;
     for (uint32_t i = 0; i < 5000; i++) {
         uint32_t index = i < 1000 ? i : alpi_hash32(i);
         assert_int_equal(alpi_reverse_bits(alpi_sobol_1_reversed(index)),
@@ -55,9 +53,8 @@ static bool one_in_each(uint32_t key, uint32_t first, unsigned k, unsigned a)
     return true;
 }
 
-static void aligned_blocks_fill_every_elementary_interval(void **state)
+TEST(aligned_blocks_fill_every_elementary_interval)
 {
-    (void)state;
     for (uint64_t receiver = 0; receiver < 6; receiver++) {
         uint32_t key = alpi_random_key(7, receiver, 0);
         for (unsigned k = 0; k <= 12; k++) {
@@ -70,9 +67,8 @@ static void aligned_blocks_fill_every_elementary_interval(void **state)
     assert_false(one_in_each(1, 1, 8, 4)); // a block that is not aligned does not: the test can see
 }
 
-static void each_sample_is_uniform_over_keys(void **state)
+TEST(each_sample_is_uniform_over_keys)
 {
-    (void)state;
     enum { KEYS = 1 << 14 };
     for (uint32_t sample = 0; sample < 5; sample++) {
         double x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
@@ -106,9 +102,8 @@ static double correlation(uint64_t seed_step, uint64_t receiver_step, uint32_t s
     return sum / PAIRS * 12.0;
 }
 
-static void neighbouring_keys_are_independent(void **state)
+TEST(neighbouring_keys_are_independent)
 {
-    (void)state;
     ASSERT_NEAR(correlation(0, 0, 0), 1.0, 0.05); // the same key: the measure works
     const double four_sigmas = 4.0 / 128.0;
     ASSERT_NEAR(correlation(1, 0, 0), 0.0, four_sigmas);
@@ -118,9 +113,8 @@ static void neighbouring_keys_are_independent(void **state)
     ASSERT_NEAR(correlation((uint64_t)1 << 40, 0, 0), 0.0, four_sigmas);
 }
 
-static void the_sequence_beats_random_points(void **state)
+TEST(the_sequence_beats_random_points)
 {
-    (void)state;
     // Mean of x·y over 256 points: Owen's scramble errs by about n^-1.5, random points by n^-0.5.
     enum { KEYS = 256, POINTS = 256 };
     double squares = 0.0, bias = 0.0;
@@ -139,9 +133,8 @@ static void the_sequence_beats_random_points(void **state)
     ASSERT_NEAR(bias, 0.0, 4.0 * error / sqrt(KEYS) + 0x1p-25);
 }
 
-static void the_bits_stay_what_they_are(void **state)
+TEST(the_bits_stay_what_they_are)
 {
-    (void)state;
     // A change here changes every bake: it must be meant, and said in the change log.
     const uint32_t keys[] = {0x559b725au, 0x6cfd08fbu};
     const uint32_t bits[][2] = {{0x758a7fu, 0x6095f8u}, {0xda7401u, 0xcdc290u},
@@ -156,18 +149,4 @@ static void the_bits_stay_what_they_are(void **state)
             assert_int_equal((uint32_t)(p.y * 0x1p24f), bits[3 * i + s][1]);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hashes_give_published_values),
-        cmocka_unit_test(the_second_dimension_is_sobols),
-        cmocka_unit_test(aligned_blocks_fill_every_elementary_interval),
-        cmocka_unit_test(each_sample_is_uniform_over_keys),
-        cmocka_unit_test(neighbouring_keys_are_independent),
-        cmocka_unit_test(the_sequence_beats_random_points),
-        cmocka_unit_test(the_bits_stay_what_they_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,9 +20,8 @@ static alp_result mark(void *user, uint32_t begin, uint32_t end, uint32_t worker
     return ALP_OK;
 }
 
-static void every_item_runs_once(void **state)
+TEST(every_item_runs_once)
 {
-    (void)state;
     const uint32_t workers[] = {1, 2, 7, 32, 70}; // and more than there are parts of a loop
     for (size_t w = 0; w < sizeof workers / sizeof *workers; w++) {
         alp_context *context = test_context(workers[w]);
@@ -48,9 +47,8 @@ static alp_result fail_at_500_and_900(void *user, uint32_t begin, uint32_t end, 
     return begin <= 900 && 900 < end ? ALP_ERROR_IO : ALP_OK;
 }
 
-static void a_failure_ends_the_loop(void **state)
+TEST(a_failure_ends_the_loop)
 {
-    (void)state;
     for (uint32_t workers = 1; workers <= 3; workers++) {
         alp_context *context = test_context(workers);
         alp_result result =
@@ -74,9 +72,8 @@ static alp_result fail_at_one(void *user, uint32_t begin, uint32_t end, uint32_t
 }
 
 /// All that is below a range that failed runs, whoever has it to do: one of it may fail too.
-static void what_is_below_a_failure_still_runs(void **state)
+TEST(what_is_below_a_failure_still_runs)
 {
-    (void)state;
     enum { GRAIN = 10 };
     for (uint32_t workers = 1; workers <= 4; workers++) {
         alp_context *context = test_context(workers);
@@ -100,9 +97,8 @@ static alp_result count_items(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-static void as_many_items_as_there_are_numbers(void **state)
+TEST(as_many_items_as_there_are_numbers)
 {
-    (void)state;
     for (uint32_t workers = 1; workers <= 3; workers++) {
         _Atomic uint64_t count = 0;
         alp_context *context = test_context(workers);
@@ -143,9 +139,8 @@ static alp_result fail_slowly_at_first(void *user, uint32_t begin, uint32_t end,
     return ALP_ERROR_IO;
 }
 
-static void the_lowest_failure_is_the_one_told(void **state)
+TEST(the_lowest_failure_is_the_one_told)
 {
-    (void)state;
     const uint32_t workers[] = {1, 2, 7};
     for (int i = 0; i < 3; i++) {
         alp_context *context = test_context(workers[i]);
@@ -169,10 +164,8 @@ static bool say_yes_a_few_times(void *user, const alp_progress *progress)
     return q->asked++ < q->answered_yes;
 }
 
-static void serial_work_can_be_cancelled(void **state)
+TEST_WITH_CONTEXT(serial_work_can_be_cancelled, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     questions q = {0, 1};
     assert_int_equal(alpi_tick(context, "serial", 0, 10), ALP_OK); // nobody to ask
     alpi_watch nobody = alpi_set_watch(context, (alpi_watch){say_yes_a_few_times, &q, 0.0});
@@ -188,12 +181,10 @@ static void serial_work_can_be_cancelled(void **state)
     usleep(60000);
     assert_int_equal(alpi_tick(context, "serial", 4, 10), ALP_OK);
     assert_int_equal(q.asked, 2);
-    alp_context_destroy(context);
 }
 
-static void progress_can_cancel(void **state)
+TEST(progress_can_cancel)
 {
-    (void)state;
     for (uint32_t workers = 1; workers <= 3; workers++) {
         alp_context *context = test_context(workers);
         int calls = 0;
@@ -217,9 +208,8 @@ static void host_parallel_for(void *user, uint32_t count, uint32_t grain, alp_ra
     body(body_user, count / 2, count, 1);
 }
 
-static void a_host_scheduler_is_used(void **state)
+TEST(a_host_scheduler_is_used)
 {
-    (void)state;
     int calls = 0;
     alp_context_options options = alp_context_options_default();
     options.parallel_for = host_parallel_for;
@@ -248,9 +238,8 @@ static void add_items(const void *user, uint32_t begin, uint32_t end, double sum
     }
 }
 
-static void sums_do_not_hang_on_the_workers(void **state)
+TEST(sums_do_not_hang_on_the_workers)
 {
-    (void)state;
     enum { COUNT = 100001 };
     double first = 0.0, exact = 0.0;
     for (uint32_t i = COUNT; i > 0; i--) {
@@ -269,27 +258,7 @@ static void sums_do_not_hang_on_the_workers(void **state)
     }
 }
 
-static void no_items_is_no_work(void **state)
+TEST_WITH_CONTEXT(no_items_is_no_work, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     ASSERT_OK(context, alpi_parallel_for(context, 0, 1, mark, NULL, NULL));
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_item_runs_once),
-        cmocka_unit_test(a_failure_ends_the_loop),
-        cmocka_unit_test(what_is_below_a_failure_still_runs),
-        cmocka_unit_test(as_many_items_as_there_are_numbers),
-        cmocka_unit_test(the_lowest_failure_is_the_one_told),
-        cmocka_unit_test(serial_work_can_be_cancelled),
-        cmocka_unit_test(progress_can_cancel),
-        cmocka_unit_test(a_host_scheduler_is_used),
-        cmocka_unit_test(sums_do_not_hang_on_the_workers),
-        cmocka_unit_test(no_items_is_no_work),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,8 @@ static void assert_frame(vec3 n)
     ASSERT_NEAR(vec3_length(vec3_sub(vec3_cross(t, b), n)), 0.0, 2e-6);
 }
 
-static void frames_are_orthonormal_and_right_handed(void **state)
+TEST(frames_are_orthonormal_and_right_handed)
 {
-    (void)state;
     for (uint32_t i = 0; i < 2000; i++) {
         assert_frame(direction(i));
     }
@@ -58,9 +57,8 @@ static mat4 random_matrix(uint32_t i)
     return m;
 }
 
-static void normals_stay_across_and_outside(void **state)
+TEST(normals_stay_across_and_outside)
 {
-    (void)state;
     int mirrors = 0;
     for (uint32_t i = 0; i < 2000; i++) {
         mat4 m = random_matrix(i);
@@ -81,9 +79,8 @@ static void normals_stay_across_and_outside(void **state)
     assert_true(mirrors > 300);
 }
 
-static void singular_and_huge_matrices_give_finite_normals(void **state)
+TEST(singular_and_huge_matrices_give_finite_normals)
 {
-    (void)state;
     const double scales[] = {0.0, 1e-200, 1e-30, 1e30, 1e150, 1e200, HUGE_VAL, (double)NAN};
     for (size_t s = 0; s < sizeof scales / sizeof *scales; s++) {
         for (uint32_t i = 0; i < 50; i++) {
@@ -105,9 +102,8 @@ static void singular_and_huge_matrices_give_finite_normals(void **state)
     ASSERT_NEAR(fabsf(up.y), 1.0, 1e-6); // all that is left is the plane
 }
 
-static void products_apply_right_to_left(void **state)
+TEST(products_apply_right_to_left)
 {
-    (void)state;
     for (uint32_t i = 0; i < 200; i++) {
         mat4 a = random_matrix(2 * i), b = random_matrix(2 * i + 1), ab = mat4_multiply(&a, &b);
         vec3 p = direction(i), apart = mat4_transform_point(&a, mat4_transform_point(&b, p));
@@ -118,9 +114,8 @@ static void products_apply_right_to_left(void **state)
     }
 }
 
-static void lengths_far_from_one_are_normalised(void **state)
+TEST(lengths_far_from_one_are_normalised)
 {
-    (void)state;
     const vec3 fallback = {0.0f, 1.0f, 0.0f};
     const float scales[] = {1e-38f, 1e-30f, 1e-10f, 1e10f, 1e30f, 1e38f};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
@@ -144,16 +139,4 @@ static void lengths_far_from_one_are_normalised(void **state)
     vec3 line = vec3_triangle_normal((vec3){0.0f, 0.0f, 0.0f}, (vec3){1.0f, 1.0f, 1.0f},
                                      (vec3){2.0f, 2.0f, 2.0f}, fallback);
     assert_memory_equal(&line, &fallback, sizeof line);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_orthonormal_and_right_handed),
-        cmocka_unit_test(normals_stay_across_and_outside),
-        cmocka_unit_test(singular_and_huge_matrices_give_finite_normals),
-        cmocka_unit_test(products_apply_right_to_left),
-        cmocka_unit_test(lengths_far_from_one_are_normalised),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

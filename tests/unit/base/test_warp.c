@@ -38,9 +38,8 @@ static moments moments_of(bool uniform, double cosine)
     return m;
 }
 
-static void cosine_cones_have_their_moments(void **state)
+TEST(cosine_cones_have_their_moments)
 {
-    (void)state;
     for (int i = 0; i < CONES; i++) {
         double c = CONE_COSINES[i];
         moments m = moments_of(false, c); // density cosθ / (π sin²θmax)
@@ -51,9 +50,8 @@ static void cosine_cones_have_their_moments(void **state)
     }
 }
 
-static void uniform_cones_have_their_moments(void **state)
+TEST(uniform_cones_have_their_moments)
 {
-    (void)state;
     for (int i = 0; i < CONES; i++) {
         double c = CONE_COSINES[i];
         moments m = moments_of(true, c); // density 1 / (2π (1 − cosθmax))
@@ -91,18 +89,16 @@ static void assert_even(bool uniform, double cosine)
     }
 }
 
-static void histograms_are_even(void **state)
+TEST(histograms_are_even)
 {
-    (void)state;
     for (int i = 0; i < CONES; i++) {
         assert_even(false, CONE_COSINES[i]);
         assert_even(true, CONE_COSINES[i]);
     }
 }
 
-static void the_border_of_the_square_is_safe(void **state)
+TEST(the_border_of_the_square_is_safe)
 {
-    (void)state;
     const float edge[] = {0.0f, 0.25f, 0.5f, 1.0f - 0x1p-24f};
     for (int i = 0; i < 16; i++) {
         vec2 u = {edge[i % 4], edge[i / 4]};
@@ -114,15 +110,4 @@ static void the_border_of_the_square_is_safe(void **state)
             assert_true(a.z >= 0.0f && b.z >= 0.0f);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cosine_cones_have_their_moments),
-        cmocka_unit_test(uniform_cones_have_their_moments),
-        cmocka_unit_test(histograms_are_even),
-        cmocka_unit_test(the_border_of_the_square_is_safe),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

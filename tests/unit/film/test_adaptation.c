@@ -15,10 +15,8 @@ static double metered(alp_context *context, alp_image *image, const alp_film_opt
     return luminance;
 }
 
-static void the_mean_is_of_logarithms(void **state)
+TEST_WITH_CONTEXT(the_mean_is_of_logarithms, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_film_options options = alp_film_options_default();
     options.meter_low = 0.0f;
     options.meter_high = 1.0f;
@@ -37,13 +35,10 @@ static void the_mean_is_of_logarithms(void **state)
     ASSERT_NEAR(metered(context, picture(context, 3, 1, 2, covered), &options, &pixels), 2.0,
                 1e-12);
     assert_int_equal(pixels, 2);
-    alp_context_destroy(context);
 }
 
-static void extremes_are_left_out(void **state)
+TEST_WITH_CONTEXT(extremes_are_left_out, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     float values[100];
     for (int i = 0; i < 100; i++) {
         values[i] = i < 5 ? 1e-9f : i < 95 ? 4.0f : 1e9f; // 5 % dark, 5 % bright
@@ -57,13 +52,10 @@ static void extremes_are_left_out(void **state)
     options.meter_high = 0.75f; // and three
     ASSERT_NEAR(metered(context, picture(context, 4, 1, 1, four), &options, NULL), 3.0 / 2.5,
                 1e-12);
-    alp_context_destroy(context);
 }
 
-static void metering_sees_what_is_balanced(void **state)
+TEST_WITH_CONTEXT(metering_sees_what_is_balanced, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_film_options options = alp_film_options_default();
     options.white_balance = ALP_WHITE_BALANCE_KELVIN;
     options.kelvin = 3000.0f;
@@ -77,16 +69,12 @@ static void metering_sees_what_is_balanced(void **state)
     ASSERT_NEAR(metered(context, picture(context, 1, 1, 3, color), &options, NULL), log2(luminance),
                 1e-12);
     assert_true(fabs(log2(luminance / (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722))) > 0.01);
-    alp_context_destroy(context);
 }
 
-static void one_pixel_has_a_mean(void **state)
+TEST_WITH_CONTEXT(one_pixel_has_a_mean, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float value = 32.0f;
     ASSERT_NEAR(metered(context, picture(context, 1, 1, 1, &value), NULL, NULL), 5.0, 1e-12);
-    alp_context_destroy(context);
 }
 
 static void adapt(alp_film_adaptation *state, float light, double seconds, double *exposure)
@@ -98,9 +86,8 @@ static void adapt(alp_film_adaptation *state, float light, double seconds, doubl
     alp_context_destroy(context);
 }
 
-static void half_is_gone_after_a_half_life(void **state)
+TEST(half_is_gone_after_a_half_life)
 {
-    (void)state;
     alp_film_adaptation a = alp_film_adaptation_default();
     a.brighter_seconds = 0.5;
     a.darker_seconds = 3.0;
@@ -120,9 +107,8 @@ static void half_is_gone_after_a_half_life(void **state)
     ASSERT_NEAR(a.log2_luminance, -2.0 + 4.0 * exp(-1.0), 1e-12);
 }
 
-static void steps_do_not_matter(void **state)
+TEST(steps_do_not_matter)
 {
-    (void)state;
     const float lights[] = {100.0f, 0.01f};
     for (int i = 0; i < 2; i++) {
         alp_film_adaptation whole = alp_film_adaptation_default();
@@ -140,9 +126,8 @@ static void steps_do_not_matter(void **state)
     }
 }
 
-static void ends_of_time(void **state)
+TEST(ends_of_time)
 {
-    (void)state;
     alp_film_adaptation a = alp_film_adaptation_default();
     double exposure = 9.0;
     adapt(&a, 0.0f, 1.0, &exposure); // nothing to see: still nothing
@@ -166,10 +151,8 @@ static void ends_of_time(void **state)
     ASSERT_NEAR(a.log2_luminance, 0.0, 1e-12);
 }
 
-static void bad_arguments_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_arguments_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = picture(context, 1, 1, 1, NULL), *bytes = NULL;
     alp_image_info info = {1, 1, 1, ALP_COMPONENT_U8};
     ASSERT_OK(context, alp_image_create(context, info, &bytes));
@@ -196,20 +179,4 @@ static void bad_arguments_are_refused(void **state)
     assert_true(luminance == 7.0);
     alp_image_destroy(image);
     alp_image_destroy(bytes);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mean_is_of_logarithms),
-        cmocka_unit_test(extremes_are_left_out),
-        cmocka_unit_test(metering_sees_what_is_balanced),
-        cmocka_unit_test(one_pixel_has_a_mean),
-        cmocka_unit_test(half_is_gone_after_a_half_life),
-        cmocka_unit_test(steps_do_not_matter),
-        cmocka_unit_test(ends_of_time),
-        cmocka_unit_test(bad_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,10 +4,8 @@
 
 #include <math.h>
 
-static void one_stop_doubles(void **state)
+TEST_WITH_CONTEXT(one_stop_doubles, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (int tone = ALP_TONE_FILM; tone <= ALP_TONE_NONE; tone++) {
         alp_film_options options = alp_film_options_default();
         options.tone = (alp_tone)tone;
@@ -23,13 +21,10 @@ static void one_stop_doubles(void **state)
         free(doubled);
         free(exposed);
     }
-    alp_context_destroy(context);
 }
 
-static void radiance_one_is_the_exposure(void **state)
+TEST_WITH_CONTEXT(radiance_one_is_the_exposure, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float one = 1.0f;
     alp_film_options options = alp_film_options_default();
     options.tone = ALP_TONE_FILM;
@@ -43,7 +38,6 @@ static void radiance_one_is_the_exposure(void **state)
     double encoded = 255.0 * (1.055 * pow(1.0 - exp(-0.25), 1.0 / 2.4) - 0.055);
     assert_int_equal(bytes[0], (int)(encoded + 0.5));
     free(bytes);
-    alp_context_destroy(context);
 }
 
 static alp_film_options automatic(void)
@@ -54,10 +48,8 @@ static alp_film_options automatic(void)
     return options;
 }
 
-static void automatic_exposure_forgets_the_scale(void **state)
+TEST_WITH_CONTEXT(automatic_exposure_forgets_the_scale, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_film_options options = automatic();
     const alp_white_balance balances[] = {ALP_WHITE_BALANCE_OFF, ALP_WHITE_BALANCE_AUTO};
     for (int i = 0; i < 2; i++) {
@@ -79,13 +71,10 @@ static void automatic_exposure_forgets_the_scale(void **state)
         free(b);
         free(c);
     }
-    alp_context_destroy(context);
 }
 
-static void grey_becomes_the_key(void **state)
+TEST_WITH_CONTEXT(grey_becomes_the_key, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const float values[] = {3.0f, 3.0f, 3.0f, 3.0f};
     alp_film_options options = automatic();
     options.tone = ALP_TONE_NONE;
@@ -94,13 +83,10 @@ static void grey_becomes_the_key(void **state)
     ASSERT_NEAR(used, log2(0.18 / 3.0), 0.00501); // hundredths
     assert_int_equal(bytes[0], 118);              // .18 encoded
     free(bytes);
-    alp_context_destroy(context);
 }
 
-static void nothing_to_meter_is_exposed_by_zero(void **state)
+TEST_WITH_CONTEXT(nothing_to_meter_is_exposed_by_zero, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_film_options options = automatic();
     options.white_balance = ALP_WHITE_BALANCE_AUTO;
     const float values[] = {NAN, INFINITY, -1.0f, 0.0f, 0.0f, 0.0f};
@@ -112,13 +98,10 @@ static void nothing_to_meter_is_exposed_by_zero(void **state)
         assert_int_equal(bytes[i], expected[i / 3]);
     }
     free(bytes);
-    alp_context_destroy(context);
 }
 
-static void numbers_that_are_none_are_shown(void **state)
+TEST_WITH_CONTEXT(numbers_that_are_none_are_shown, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     // alpha last: NaN is black, +∞ is white, −∞ is black
     const float values[] = {NAN,       0.5f,  0.5f, 1.0f, INFINITY, INFINITY, INFINITY, 1.0f,
                             INFINITY,  0.0f,  NAN,  1.0f, 3e38f,    3e38f,    3e38f,    1.0f,
@@ -149,7 +132,6 @@ static void numbers_that_are_none_are_shown(void **state)
             }
         }
     }
-    alp_context_destroy(context);
 }
 
 /// Linear light whose encoded value is `byte` of 255, on the straight part of the curve.
@@ -158,11 +140,9 @@ static float linear_of_byte(double byte)
     return (float)(byte / 255.0 / 12.92);
 }
 
-static void dithering_keeps_the_mean(void **state)
+TEST_WITH_CONTEXT(dithering_keeps_the_mean, 1)
 {
-    (void)state;
     enum { SIDE = 512 };
-    alp_context *context = test_context(1);
     const double wanted[] = {0.5, 0.0, 3.25, 7.9};
     for (int i = 0; i < 4; i++) {
         for (int dither = ALP_DITHER_ORDERED; dither <= ALP_DITHER_HASHED; dither++) {
@@ -189,13 +169,10 @@ static void dithering_keeps_the_mean(void **state)
             free(bytes);
         }
     }
-    alp_context_destroy(context);
 }
 
-static void ordered_thresholds_are_all_different(void **state)
+TEST_WITH_CONTEXT(ordered_thresholds_are_all_different, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_film_options options = alp_film_options_default();
     options.dither = ALP_DITHER_ORDERED;
     for (int level = 0; level < 64; level++) { // light just above `level` of 64 thresholds
@@ -211,14 +188,11 @@ static void ordered_thresholds_are_all_different(void **state)
         assert_int_equal(white, level + 1);
         free(bytes);
     }
-    alp_context_destroy(context);
 }
 
-static void the_ends_and_the_background_stay(void **state)
+TEST_WITH_CONTEXT(the_ends_and_the_background_stay, 1)
 {
-    (void)state;
     enum { SIDE = 256 };
-    alp_context *context = test_context(1);
     for (int dither = ALP_DITHER_NONE; dither <= ALP_DITHER_HASHED; dither++) {
         alp_image *image = picture(context, SIDE, SIDE, 2, NULL);
         float *values = alp_image_floats(image);
@@ -235,13 +209,10 @@ static void the_ends_and_the_background_stay(void **state)
         }
         free(bytes);
     }
-    alp_context_destroy(context);
 }
 
-static void the_default_is_the_display(void **state)
+TEST_WITH_CONTEXT(the_default_is_the_display, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = lively_picture(context, 40, 30, 1.0f), *display = NULL;
     ASSERT_OK(context, alp_image_to_display(image, &display));
     const alp_film_options options = alp_film_options_default();
@@ -257,7 +228,6 @@ static void the_default_is_the_display(void **state)
     alp_image_destroy(again);
     alp_image_destroy(display);
     free(bytes);
-    alp_context_destroy(context);
 }
 
 static void refuse(alp_context *context, const alp_film_options *options, const char *word)
@@ -269,10 +239,8 @@ static void refuse(alp_context *context, const alp_film_options *options, const 
     alp_image_destroy(image);
 }
 
-static void bad_options_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_options_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const alp_film_options good = alp_film_options_default();
 #define REFUSE(word, ...)                                                                          \
     do {                                                                                           \
@@ -300,12 +268,10 @@ static void bad_options_are_refused(void **state)
     alp_image *image = picture(context, 1, 1, 3, NULL);
     assert_int_equal(alp_film_develop(image, &good, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     alp_image_destroy(image);
-    alp_context_destroy(context);
 }
 
-static void failed_allocations_are_told(void **state)
+TEST(failed_allocations_are_told)
 {
-    (void)state;
     int left = 1000;
     alp_context *context = test_context_failing(&left);
     alp_image *image = lively_picture(context, 8, 8, 1.0f), *display = NULL;
@@ -323,23 +289,4 @@ static void failed_allocations_are_told(void **state)
     alp_image_destroy(display);
     alp_image_destroy(image);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_stop_doubles),
-        cmocka_unit_test(radiance_one_is_the_exposure),
-        cmocka_unit_test(automatic_exposure_forgets_the_scale),
-        cmocka_unit_test(grey_becomes_the_key),
-        cmocka_unit_test(nothing_to_meter_is_exposed_by_zero),
-        cmocka_unit_test(numbers_that_are_none_are_shown),
-        cmocka_unit_test(dithering_keeps_the_mean),
-        cmocka_unit_test(ordered_thresholds_are_all_different),
-        cmocka_unit_test(the_ends_and_the_background_stay),
-        cmocka_unit_test(the_default_is_the_display),
-        cmocka_unit_test(bad_options_are_refused),
-        cmocka_unit_test(failed_allocations_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

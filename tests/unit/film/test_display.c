@@ -22,9 +22,8 @@ static void show(const float *values, uint32_t width, uint32_t channels, uint8_t
     alp_context_destroy(context);
 }
 
-static void light_is_encoded_as_srgb(void **state)
+TEST(light_is_encoded_as_srgb)
 {
-    (void)state;
     // IEC 61966-2-1: .18 → .4613, .21586 → 128/255, .0031308 → .04045, and the ends
     const float values[] = {0.0f, 0.18f, 0.21586f, 0.0031308f, 1.0f, 7.0f, -1.0f, NAN};
     const uint8_t expected[] = {0, 118, 128, 10, 255, 255, 0, 0};
@@ -37,9 +36,8 @@ static void light_is_encoded_as_srgb(void **state)
     }
 }
 
-static void colors_keep_their_places(void **state)
+TEST(colors_keep_their_places)
 {
-    (void)state;
     const float values[] = {1.0f, 0.21586f, 0.0f};
     uint8_t bytes[3];
     show(values, 1, 3, bytes);
@@ -48,9 +46,8 @@ static void colors_keep_their_places(void **state)
     assert_int_equal(bytes[2], 0);
 }
 
-static void the_background_is_grey(void **state)
+TEST(the_background_is_grey)
 {
-    (void)state;
     const float values[] = {NAN, 9.0f, -1.0f, 0.0f, 1.0f, 0.5f, 0.5f, NAN, 1.0f, 1.0f, 1.0f, 0.5f};
     uint8_t bytes[9];
     show(values, 3, 4, bytes);
@@ -62,10 +59,8 @@ static void the_background_is_grey(void **state)
     assert_int_equal(bytes[6], 197);
 }
 
-static void bytes_are_refused(void **state)
+TEST_WITH_CONTEXT(bytes_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_image *image = NULL, *display = NULL;
     alp_image_info info = {2, 2, 3, ALP_COMPONENT_U8};
     ASSERT_OK(context, alp_image_create(context, info, &image));
@@ -73,16 +68,4 @@ static void bytes_are_refused(void **state)
     assert_int_equal(alp_image_to_display(NULL, &display), ALP_ERROR_INVALID_ARGUMENT);
     assert_null(display);
     alp_image_destroy(image);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_is_encoded_as_srgb),
-        cmocka_unit_test(colors_keep_their_places),
-        cmocka_unit_test(the_background_is_grey),
-        cmocka_unit_test(bytes_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

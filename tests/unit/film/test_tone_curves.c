@@ -11,9 +11,8 @@ static const double ROUNDING = 1e-14;
 
 static const alp_tone tones[] = {ALP_TONE_FILM, ALP_TONE_REINHARD, ALP_TONE_FILMIC, ALP_TONE_NONE};
 
-static void black_stays_black(void **state)
+TEST(black_stays_black)
 {
-    (void)state;
     for (int i = 0; i < 4; i++) {
         assert_true(alpi_film_curve(tones[i], 4.0, 0.0) == 0.0);
         assert_true(alpi_film_curve(tones[i], 4.0, -3.0) == 0.0);
@@ -21,9 +20,8 @@ static void black_stays_black(void **state)
     }
 }
 
-static void more_light_is_never_darker(void **state)
+TEST(more_light_is_never_darker)
 {
-    (void)state;
     const double whites[] = {1e-6, 0.5, 4.0, 5.6, 1e6, (double)INFINITY};
     for (int i = 0; i < 4; i++) {
         for (int w = 0; w < 6; w++) {
@@ -41,9 +39,8 @@ static void more_light_is_never_darker(void **state)
     }
 }
 
-static void film_is_exponential(void **state)
+TEST(film_is_exponential)
 {
-    (void)state;
     ASSERT_NEAR(alpi_film_curve(ALP_TONE_FILM, 0.0, 1.0), 1.0 - exp(-1.0), ROUNDING);
     ASSERT_NEAR(alpi_film_curve(ALP_TONE_FILM, 0.0, log(2.0)), 0.5, ROUNDING);
     // two exposures one after the other leave what both leave: 1 − f(a + b) = (1 − f(a))(1 − f(b))
@@ -54,9 +51,8 @@ static void film_is_exponential(void **state)
     ASSERT_NEAR(alpi_film_curve(ALP_TONE_FILM, 0.0, 1e-6) / 1e-6, 1.0 - 0.5e-6, 1e-12);
 }
 
-static void reinhard_reaches_white(void **state)
+TEST(reinhard_reaches_white)
 {
-    (void)state;
     for (double white = 0.25; white < 100.0; white *= 2.0) {
         ASSERT_NEAR(alpi_film_curve(ALP_TONE_REINHARD, white, white), 1.0, ROUNDING);
     }
@@ -73,9 +69,8 @@ static double published(double x)
     return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
 }
 
-static void filmic_is_as_published(void **state)
+TEST(filmic_is_as_published)
 {
-    (void)state;
     double white = alpi_film_default_white(ALP_TONE_FILMIC);
     ASSERT_NEAR(white, 5.6, ROUNDING);
     ASSERT_NEAR(alpi_film_curve(ALP_TONE_FILMIC, white, white), 1.0, ROUNDING);
@@ -87,19 +82,8 @@ static void filmic_is_as_published(void **state)
     ASSERT_NEAR(alpi_film_curve(ALP_TONE_FILMIC, white, 0.18), 0.12834, 1e-5); // digits given
 }
 
-static void none_is_none(void **state)
+TEST(none_is_none)
 {
-    (void)state;
     assert_true(alpi_film_curve(ALP_TONE_NONE, 4.0, 0.7) == 0.7);
     assert_true(alpi_film_curve(ALP_TONE_NONE, 4.0, 70.0) == 70.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(black_stays_black),      cmocka_unit_test(more_light_is_never_darker),
-        cmocka_unit_test(film_is_exponential),    cmocka_unit_test(reinhard_reaches_white),
-        cmocka_unit_test(filmic_is_as_published), cmocka_unit_test(none_is_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

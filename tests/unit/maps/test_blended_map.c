@@ -48,10 +48,8 @@ static float linear_at(vec3 p)
     return 0.5f + 0.2f * p.x - 0.1f * p.y + 0.15f * p.z;
 }
 
-static void a_linear_function_is_read_back(void **state)
+TEST_WITH_CONTEXT(a_linear_function_is_read_back, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = smooth_sphere(context);
     alp_lightmap *lightmap = make_map(scene, 256);
     const alpi_texels *texels = &lightmap->texels;
@@ -82,7 +80,6 @@ static void a_linear_function_is_read_back(void **state)
     assert_true(sum / count < 0.01 * texel);
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// The largest difference of look-ups at points of edges from the triangles on their two sides.
@@ -115,11 +112,9 @@ static double largest_step(const alp_scene *scene, const alp_lightmap *lightmap)
     return worst;
 }
 
-static void charts_end_where_they_are_not_seen(void **state)
+TEST_WITH_CONTEXT(charts_end_where_they_are_not_seen, 2)
 {
-    (void)state;
     // Each chart in a value of its own, so that a step is the weight of a chart that ends.
-    alp_context *context = test_context(2);
     alp_scene *scene = smooth_sphere(context);
     alp_lightmap *lightmap = make_map(scene, 256);
     const alpi_texels *texels = &lightmap->texels;
@@ -139,14 +134,4 @@ static void charts_end_where_they_are_not_seen(void **state)
     assert_true(largest_step(scene, lightmap) > 0.3); // one of two or three charts, up to 1 apart
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_linear_function_is_read_back),
-        cmocka_unit_test(charts_end_where_they_are_not_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,9 +80,8 @@ static bool is_rim(uint32_t i)
     return x < rim || y < rim || x >= WIDTH - rim || y >= WIDTH - rim;
 }
 
-static void noise_falls_by_the_number_of_neighbours(void **state)
+TEST(noise_falls_by_the_number_of_neighbours)
 {
-    (void)state;
     const double sigma = 0.2;
     enum { SEEDS = 8 };
     double before = 0.0, after = 0.0, stated = 0.0, sum = 0.0, largest = 0.0;
@@ -115,9 +114,8 @@ static void noise_falls_by_the_number_of_neighbours(void **state)
     ASSERT_NEAR(sum, 0.0, 4.0 * 1.3 * sigma / sqrt((double)SEEDS * COUNT));
 }
 
-static void a_gradient_stays(void **state)
+TEST(a_gradient_stays)
 {
-    (void)state;
     field *f = new_field();
     for (uint32_t i = 0; i < COUNT; i++) {
         set(f, i, 10.0f + 2.0f * f->positions[i][0] - f->positions[i][2], 0.01f);
@@ -134,9 +132,8 @@ static void a_gradient_stays(void **state)
     free(f);
 }
 
-static void an_edge_stays_sharp(void **state)
+TEST(an_edge_stays_sharp)
 {
-    (void)state;
     // A step of ten standard errors with nothing to tell it by but the light.
     field *f = new_field();
     for (uint32_t i = 0; i < COUNT; i++) {
@@ -183,17 +180,15 @@ static void check_wall(float gap, bool traced)
     alp_context_destroy(context);
 }
 
-static void no_light_passes_a_wall(void **state)
+TEST(no_light_passes_a_wall)
 {
-    (void)state;
     check_wall(0.0f, true);
     check_wall(0.2f * SIDE, true); // a slit below it that a texel cannot show
     check_wall(0.0f, false);
 }
 
-static void other_sides_and_floors_are_strangers(void **state)
+TEST(other_sides_and_floors_are_strangers)
 {
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
         // Every second row is the underside of a thin floor, or a floor a little higher.
         field *f = new_field();
@@ -211,9 +206,8 @@ static void other_sides_and_floors_are_strangers(void **state)
     }
 }
 
-static void a_seam_is_not_seen(void **state)
+TEST(a_seam_is_not_seen)
 {
-    (void)state;
     // The same texels as two charts, whose texels alternate in space and not in memory.
     field *one = new_field(), *two = new_field();
     for (uint32_t i = 0; i < COUNT; i++) {
@@ -233,9 +227,8 @@ static void a_seam_is_not_seen(void **state)
     free(two);
 }
 
-static void without_variance_nothing_changes(void **state)
+TEST(without_variance_nothing_changes)
 {
-    (void)state;
     field *f = new_field();
     for (uint32_t i = 0; i < COUNT; i++) {
         set(f, i, deviate(4, i), 0.0f);
@@ -246,9 +239,8 @@ static void without_variance_nothing_changes(void **state)
     free(f);
 }
 
-static void what_is_not_known_comes_from_neighbours(void **state)
+TEST(what_is_not_known_comes_from_neighbours)
 {
-    (void)state;
     field *f = new_field();
     for (uint32_t i = 0; i < COUNT; i++) {
         set(f, i, 1.0f, 0.01f);
@@ -276,9 +268,8 @@ static void what_is_not_known_comes_from_neighbours(void **state)
     free(f);
 }
 
-static void any_number_of_workers_gives_the_same_bits(void **state)
+TEST(any_number_of_workers_gives_the_same_bits)
 {
-    (void)state;
     field *first = NULL;
     for (uint32_t workers = 1; workers <= 7; workers = workers == 2 ? 7 : workers + 1) {
         field *f = new_field();
@@ -304,9 +295,8 @@ static void any_number_of_workers_gives_the_same_bits(void **state)
     free(first);
 }
 
-static void none_and_one(void **state)
+TEST(none_and_one)
 {
-    (void)state;
     field *f = new_field();
     set(f, 0, 0.3f, 0.7f);
     f->count = 0;
@@ -327,9 +317,8 @@ static bool say_no(void *user, const alp_progress *progress)
     return false;
 }
 
-static void it_can_be_stopped_and_run_out_of_memory(void **state)
+TEST(it_can_be_stopped_and_run_out_of_memory)
 {
-    (void)state;
     field *f = new_field();
     const alpi_denoise_texels texels = texels_of(f);
     const alpi_task_progress progress = {.callback = say_no};
@@ -349,22 +338,4 @@ static void it_can_be_stopped_and_run_out_of_memory(void **state)
     assert_true(failures > 6 && failures < 100); // there are six arrays
     alp_context_destroy(context);
     free(f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_falls_by_the_number_of_neighbours),
-        cmocka_unit_test(a_gradient_stays),
-        cmocka_unit_test(an_edge_stays_sharp),
-        cmocka_unit_test(no_light_passes_a_wall),
-        cmocka_unit_test(other_sides_and_floors_are_strangers),
-        cmocka_unit_test(a_seam_is_not_seen),
-        cmocka_unit_test(without_variance_nothing_changes),
-        cmocka_unit_test(what_is_not_known_comes_from_neighbours),
-        cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
-        cmocka_unit_test(none_and_one),
-        cmocka_unit_test(it_can_be_stopped_and_run_out_of_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

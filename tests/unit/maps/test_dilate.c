@@ -8,10 +8,8 @@
 
 enum { WIDTH = 23, HEIGHT = 17 };
 
-static void nearest_value_spreads(void **state)
+TEST_WITH_CONTEXT(nearest_value_spreads, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static float page[HEIGHT][WIDTH][4];
     memset(page, 0, sizeof page);
     const int seeds[][2] = {{3, 4}, {20, 2}, {11, 15}};
@@ -35,25 +33,12 @@ static void nearest_value_spreads(void **state)
             assert_true((page[y][x][3] > 0.0f) == (best == 0));
         }
     }
-    alp_context_destroy(context);
 }
 
-static void an_empty_page_stays_empty(void **state)
+TEST_WITH_CONTEXT(an_empty_page_stays_empty, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     float page[4][4] = {{0}};
     page[2][0] = 3.0f; // a value without coverage is no seed
     ASSERT_OK(context, alpi_dilate(context, page[0], 2, 2));
     assert_true(page[0][0] == 0.0f && page[2][0] == 3.0f && page[3][3] == 0.0f);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_value_spreads),
-        cmocka_unit_test(an_empty_page_stays_empty),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,12 +18,10 @@ static alp_lightmap *make_lightmap(alp_scene *scene, uint32_t size)
     return lightmap;
 }
 
-static void a_linear_function_is_read_back(void **state)
+TEST_WITH_CONTEXT(a_linear_function_is_read_back, 1)
 {
-    (void)state;
     // Bilinear look-up reproduces a function that is linear over a flat chart, away from its
     // border.
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 2}, (double[]){3, 0, 0}, (double[]){0, 0, -2});
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -53,15 +51,12 @@ static void a_linear_function_is_read_back(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void values_go_to_their_own_page(void **state)
+TEST_WITH_CONTEXT(values_go_to_their_own_page, 1)
 {
-    (void)state;
     // Squares of one metre at 16 texels per metre, one to a page of 16.
     enum { SQUARES = 3 };
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     for (int i = 0; i < SQUARES; i++) {
         test_mesh_quad(mesh, (double[]){2.0 * i, 0, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
@@ -93,13 +88,10 @@ static void values_go_to_their_own_page(void **state)
     }
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void pages_become_images(void **state)
+TEST_WITH_CONTEXT(pages_become_images, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -128,15 +120,4 @@ static void pages_become_images(void **state)
     assert_null(alp_lightmap_page(lightmap, 1, NULL, NULL));
     alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_linear_function_is_read_back),
-        cmocka_unit_test(values_go_to_their_own_page),
-        cmocka_unit_test(pages_become_images),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

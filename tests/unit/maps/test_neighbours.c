@@ -41,12 +41,10 @@ static bool is_near(const alpi_site *centre, const alpi_site *s, float radius)
            s->side <= 2.0f * centre->side && s->side >= 0.5f * centre->side;
 }
 
-static void the_grid_finds_what_looking_at_all_finds(void **state)
+TEST_WITH_CONTEXT(the_grid_finds_what_looking_at_all_finds, 1)
 {
-    (void)state;
     static cloud c;
     static bool listed[COUNT];
-    alp_context *context = test_context(1);
     scatter(&c);
     alpi_neighbours n;
     ASSERT_OK(context, alpi_neighbours_create(context, COUNT, (const float(*)[3])c.positions,
@@ -73,14 +71,11 @@ static void the_grid_finds_what_looking_at_all_finds(void **state)
     }
     assert_true(sum > COUNT); // or the test shows nothing
     alpi_neighbours_destroy(&n);
-    alp_context_destroy(context);
 }
 
-static void places_that_are_none_are_nobodys_neighbours(void **state)
+TEST_WITH_CONTEXT(places_that_are_none_are_nobodys_neighbours, 1)
 {
-    (void)state;
     static cloud c;
-    alp_context *context = test_context(1);
     scatter(&c);
     c.positions[0][1] = NAN;
     c.positions[1][2] = INFINITY;
@@ -109,14 +104,4 @@ static void places_that_are_none_are_nobodys_neighbours(void **state)
         }
     }
     alpi_neighbours_destroy(&n);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_grid_finds_what_looking_at_all_finds),
-        cmocka_unit_test(places_that_are_none_are_nobodys_neighbours),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

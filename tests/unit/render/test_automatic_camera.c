@@ -44,10 +44,8 @@ static alp_scene *make_open_box(alp_context *context, unsigned without, bool dou
 
 /// A Cornell box, whichever way it stands: through its open side one sees all its walls, from
 /// elsewhere three of them or their backs.
-static void an_open_box_is_seen_through_its_open_side(void **state)
+TEST_WITH_CONTEXT(an_open_box_is_seen_through_its_open_side, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     static const float open[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
     for (int i = 0; i < 12; i++) {
@@ -65,7 +63,6 @@ static void an_open_box_is_seen_through_its_open_side(void **state)
         assert_true(out > 1.0); // outside, .5 being the side itself
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 /// How many of the reds .1, .2, … (`count`) are seen in a picture with the automatic
@@ -130,16 +127,13 @@ static alp_scene *make_row(alp_context *context, bool stand)
     return scene;
 }
 
-static void all_of_a_row_is_seen(void **state)
+TEST_WITH_CONTEXT(all_of_a_row_is_seen, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (int stand = 0; stand < 2; stand++) {
         alp_scene *scene = make_row(context, stand != 0);
         assert_int_equal(count_colors(context, scene, ROW), ROW);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 static void assert_same(const alp_camera *a, const alp_camera *b)
@@ -150,10 +144,8 @@ static void assert_same(const alp_camera *a, const alp_camera *b)
 
 /// Closed rooms from inside, things from above a corner: as before anyone asked rays. Six equal
 /// sides, three of which are seen from anywhere: no view is better.
-static void where_no_view_is_better_the_usual_one_stays(void **state)
+TEST_WITH_CONTEXT(where_no_view_is_better_the_usual_one_stays, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (int inwards = 0; inwards < 2; inwards++) {
         test_mesh *mesh = test_mesh_start();
         add_box(mesh, (double[3]){0, 0, 0}, (double[3]){4, 3, 5}, inwards != 0, 0);
@@ -163,14 +155,11 @@ static void where_no_view_is_better_the_usual_one_stays(void **state)
         assert_true((camera.position[2] < 5.0f) == (inwards != 0));
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 /// All that is in the scene has no area: there is nothing to see, and no fault.
-static void a_scene_of_nothing_has_a_camera(void **state)
+TEST_WITH_CONTEXT(a_scene_of_nothing_has_a_camera, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     const double corner[3] = {1, 2, 3}, none[3] = {0, 0, 0};
     test_mesh_quad(mesh, corner, none, none);
@@ -178,29 +167,12 @@ static void a_scene_of_nothing_has_a_camera(void **state)
     const alp_camera camera = choose(context, scene), usual = alp_scene_get_camera(scene, 0);
     assert_same(&camera, &usual);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_camera_of_the_scene_is_taken_as_it_is(void **state)
+TEST_WITH_CONTEXT(a_camera_of_the_scene_is_taken_as_it_is, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
+    alp_scene *scene = test_load(context, "builtin:cornell");
     const alp_camera camera = choose(context, scene), own = alp_scene_get_camera(scene, 0);
     assert_same(&camera, &own);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_open_box_is_seen_through_its_open_side),
-        cmocka_unit_test(all_of_a_row_is_seen),
-        cmocka_unit_test(where_no_view_is_better_the_usual_one_stays),
-        cmocka_unit_test(a_scene_of_nothing_has_a_camera),
-        cmocka_unit_test(a_camera_of_the_scene_is_taken_as_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,28 +9,7 @@
 enum { N = 32, SIDE = 2 * N, PIXELS = SIDE * SIDE };
 typedef float picture[PIXELS][4];
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
-
-static alp_scene *load(alp_context *with, const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(with, alp_scene_load(with, name, &scene));
-    return scene;
-}
+TEST_CONTEXT(2);
 
 static alp_camera camera_at(vec3 position, vec3 target, float fov)
 {
@@ -73,11 +52,10 @@ static bool is_corner(uint32_t i)
 static const vec3 ON_WALL = {0.0f, 0.25f, 0.28f}, INTO_ROOM = {0.5f, 0.25f, 0.28f};
 
 /// Weights make 1, a Lambertian π; the product is what is seen times them; corners are black.
-static void weights_and_products(void **state)
+TEST(weights_and_products)
 {
-    (void)state;
     static picture seen, product, weight, cosines[2];
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     float(*const pictures[])[4] = {seen, product, weight, cosines[0], cosines[1]};
     double sum = 0.0;
     test_log_clear();
@@ -117,15 +95,14 @@ static void middle_of(const float (*pixels)[4], uint32_t side, double mean[3])
 
 /// A camera of 90° at the same place shows what the front face shows, by paths: of plain walls,
 /// which pixels cut alike.
-static void the_front_face_sees_what_a_camera_sees(void **state)
+TEST_SLOW(the_front_face_sees_what_a_camera_sees)
 {
-    (void)state;
     static const vec3 places[3][2] = {{{0.0f, 0.45f, 0.28f}, {0.5f, 0.45f, 0.28f}},
                                       {{0.278f, 0.45f, 0.01f}, {0.278f, 0.45f, 0.5f}},
                                       {{0.15f, 0.1f, 0.4f}, {0.15f, 1.0f, 0.4f}}};
     static const uint32_t bounces[3] = {ALP_BOUNCES_CONVERGE, 0, 1};
     static picture seen;
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (int i = 0; i < 3; i++) {
         alp_render_options o = options_of(ALP_HEMICUBE_SEEN, places[i][0], places[i][1]);
         alp_image *image = NULL, *errors = NULL;
@@ -156,11 +133,10 @@ static void the_front_face_sees_what_a_camera_sees(void **state)
 }
 
 /// Straight up to the lamp: what it emits, and no lamp is seen that is a point.
-static void emitters_and_skies_are_seen(void **state)
+TEST(emitters_and_skies_are_seen)
 {
-    (void)state;
     static picture seen;
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o =
         options_of(ALP_HEMICUBE_SEEN, (vec3){0.278f, 0.4f, 0.28f}, (vec3){0.278f, 0.5f, 0.28f});
     o.bounces = 0;
@@ -169,7 +145,7 @@ static void emitters_and_skies_are_seen(void **state)
     assert_true(ahead[0] > ahead[1] && ahead[1] > ahead[2]);
     ASSERT_NEAR(ahead[0], 20.717, 0.05); // and a little that it reflects
     alp_scene_destroy(scene);
-    scene = load(context, "builtin:sphere-plane");
+    scene = test_load(context, "builtin:sphere-plane");
     o = options_of(ALP_HEMICUBE_SEEN, (vec3){0.0f, 8.0f, 0.0f}, (vec3){0.0f, 9.0f, 0.0f});
     alp_lamp lamp = alp_lamp_default();
     lamp.position[1] = 9.0f;
@@ -186,13 +162,12 @@ static void emitters_and_skies_are_seen(void **state)
     alp_scene_destroy(scene);
 }
 
-static void any_number_of_workers(void **state)
+TEST(any_number_of_workers)
 {
-    (void)state;
     static picture pictures[2];
     for (int i = 0; i < 2; i++) {
         alp_context *own = test_context(i == 0 ? 1 : 3);
-        alp_scene *scene = load(own, "builtin:cornell");
+        alp_scene *scene = test_load(own, "builtin:cornell");
         alp_render_options o = options_of(ALP_HEMICUBE_PRODUCT, ON_WALL, INTO_ROOM);
         o.atlas.size = 64;
         draw(scene, &o, pictures[i]);
@@ -202,14 +177,13 @@ static void any_number_of_workers(void **state)
     assert_memory_equal(pictures[0], pictures[1], sizeof(picture));
 }
 
-static void what_is_no_hemicube_is_refused(void **state)
+TEST(what_is_no_hemicube_is_refused)
 {
-    (void)state;
     static const struct {
         uint32_t pixels;
         int show;
     } bad[] = {{0, 0}, {31, 0}, {1026, 0}, {32, -1}, {32, 5}};
-    alp_scene *scene = load(context, "builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         alp_render_options o = options_of((alp_hemicube_show)bad[i].show, ON_WALL, INTO_ROOM);
         alp_image *image = NULL;
@@ -221,12 +195,11 @@ static void what_is_no_hemicube_is_refused(void **state)
 }
 
 /// Every allocation of it may fail.
-static void lack_of_memory_is_told(void **state)
+TEST(lack_of_memory_is_told)
 {
-    (void)state;
     int left = 1 << 30;
     alp_context *failing = test_context_failing(&left);
-    alp_scene *scene = load(failing, "builtin:furnace");
+    alp_scene *scene = test_load(failing, "builtin:furnace");
     alp_render_options o = options_of(ALP_HEMICUBE_SEEN, (vec3){0, 0, 0}, (vec3){0, 0, 1});
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     o.hemicube = 8;
@@ -242,17 +215,4 @@ static void lack_of_memory_is_told(void **state)
     left = 1 << 30;
     alp_scene_destroy(scene);
     alp_context_destroy(failing);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_and_products),
-        TEST_OF_FIGURES(the_front_face_sees_what_a_camera_sees),
-        cmocka_unit_test(emitters_and_skies_are_seen),
-        cmocka_unit_test(any_number_of_workers),
-        cmocka_unit_test(what_is_no_hemicube_is_refused),
-        cmocka_unit_test(lack_of_memory_is_told),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -11,30 +11,9 @@
 
 enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
 
-static alp_context *context;
-
-static int setup(void **state)
-{
-    (void)state;
-    context = test_context(2);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    alp_context_destroy(context);
-    return 0;
-}
+TEST_CONTEXT(2);
 
 typedef float picture[PIXELS][4];
-
-static alp_scene *load(const char *name)
-{
-    alp_scene *scene = NULL;
-    ASSERT_OK(context, alp_scene_load(context, name, &scene));
-    return scene;
-}
 
 static alp_render_options options_of(alp_render_method method, uint32_t samples)
 {
@@ -108,11 +87,10 @@ static void assert_black(picture pixels, float alpha)
 // --- rooms that are known ------------------------------------------------------------------------
 
 /// L = 1 / (1 − ½) = 2 in every direction.
-static void every_pixel_of_the_furnace_is_two(void **state)
+TEST(every_pixel_of_the_furnace_is_two)
 {
-    (void)state;
     static picture pixels, error;
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     draw(scene, options_of(ALP_RENDER_RADIOSITY, 256), pixels, error);
     double mean = 0.0, squares = 0.0;
     for (int i = 0; i < PIXELS; i++) {
@@ -143,11 +121,10 @@ static void every_pixel_of_the_furnace_is_two(void **state)
 }
 
 /// L = 1 + ½ + … + ½^(n + 1): one for the direct light, one for each bounce.
-static void bounces_are_counted_as_the_reference_does(void **state)
+TEST(bounces_are_counted_as_the_reference_does)
 {
-    (void)state;
     static picture pixels;
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     for (uint32_t n = 1; n <= 3; n++) {
         alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 256);
         double mean = 0.0;
@@ -163,11 +140,10 @@ static void bounces_are_counted_as_the_reference_does(void **state)
 }
 
 /// Whatever is in the map is shown: Le + ρ/π · E, to rounding.
-static void a_painted_map_is_shown_as_it_is(void **state)
+TEST(a_painted_map_is_shown_as_it_is)
 {
-    (void)state;
     static picture pixels;
-    alp_scene *scene = load("builtin:furnace"); // ρ = ½, Le = 1
+    alp_scene *scene = test_load(context, "builtin:furnace"); // ρ = ½, Le = 1
     alp_lightmap *lightmap = bake(scene, 16, NULL);
     paint(lightmap, 3.0f);
     alp_render_options o = options_of(ALP_RENDER_LIGHTMAP, 4);
@@ -182,11 +158,10 @@ static void a_painted_map_is_shown_as_it_is(void **state)
 }
 
 /// Direct light alone is the reference's, bit for bit: nothing is known then.
-static void without_bounces_it_is_the_reference(void **state)
+TEST(without_bounces_it_is_the_reference)
 {
-    (void)state;
     static picture one, other;
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
     o.bounces = 0;
     draw(scene, o, one, NULL);
@@ -231,11 +206,10 @@ static void print(const char *scene, const char *what, difference d)
 }
 
 /// The lower two thirds of the room, without the lamp, whose edge is noise of the camera's rays.
-static void cornell_is_like_the_reference(void **state)
+TEST(cornell_is_like_the_reference)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
     o.camera = alp_scene_get_camera(scene, 0);
     o.camera.target[1] -= 0.18f;
@@ -276,9 +250,8 @@ static alp_scene *make_box(bool inward, bool double_sided, bool lamp_inside)
 }
 
 /// Backs light each other where no front sees them: the inside of a box whose normals point out.
-static void a_room_of_backs_is_lit(void **state)
+TEST(a_room_of_backs_is_lit)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = make_box(false, true, true);
     alp_lamp lamp = alp_lamp_default();
@@ -303,9 +276,8 @@ static void a_room_of_backs_is_lit(void **state)
 
 // --- what is black -------------------------------------------------------------------------------
 
-static void single_sided_walls_are_black_from_behind(void **state)
+TEST(single_sided_walls_are_black_from_behind)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = make_box(true, false, false); // seen from outside, the lamp is in it
     alp_lamp lamp = alp_lamp_default();
@@ -322,9 +294,8 @@ static void single_sided_walls_are_black_from_behind(void **state)
     alp_scene_destroy(scene);
 }
 
-static void without_light_all_is_black(void **state)
+TEST(without_light_all_is_black)
 {
-    (void)state;
     static picture pixels;
     alp_scene *scene = make_box(true, false, true);
     const alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
@@ -360,9 +331,8 @@ static alp_scene *make_pane(void)
 
 /// Pane and wall each show a painted map, the sky stands behind; α a² … as alpi_surface_pane says,
 /// by hand: through = (1 − a)(1 − a + a c), kept = a.
-static void a_lightmap_is_seen_through_panes(void **state)
+TEST(a_lightmap_is_seen_through_panes)
 {
-    (void)state;
     static picture pixels;
     const double c[3] = {0.8, 0.4, 0.2}, a = 0.6, e = 3.0;
     alp_scene *scene = make_pane();
@@ -394,9 +364,8 @@ static void a_lightmap_is_seen_through_panes(void **state)
 }
 
 /// A path that bounces onto a pane takes what it keeps and what comes through.
-static void radiosity_goes_through_panes_as_the_reference_does(void **state)
+TEST(radiosity_goes_through_panes_as_the_reference_does)
 {
-    (void)state;
     static picture truth, truth_error, pixels, error;
     alp_scene *scene = make_pane();
     alp_render_options o = options_of(ALP_RENDER_REFERENCE, 2048);
@@ -420,10 +389,9 @@ static void radiosity_goes_through_panes_as_the_reference_does(void **state)
 
 // --- what is refused, and who ends it ------------------------------------------------------------
 
-static void maps_without_light_are_refused(void **state)
+TEST(maps_without_light_are_refused)
 {
-    (void)state;
-    alp_scene *scene = load("builtin:furnace");
+    alp_scene *scene = test_load(context, "builtin:furnace");
     alp_render_options o = options_of(ALP_RENDER_LIGHTMAP, 1);
     alp_image *image = NULL;
     assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_INVALID_ARGUMENT);
@@ -451,33 +419,13 @@ static bool stop_at_light(void *user, const alp_progress *progress)
     return strcmp(progress->stage, "light") != 0;
 }
 
-static void the_solution_can_be_cancelled(void **state)
+TEST(the_solution_can_be_cancelled)
 {
-    (void)state;
-    alp_scene *scene = load("builtin:cornell");
+    alp_scene *scene = test_load(context, "builtin:cornell");
     alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 1);
     alp_image *image = NULL;
     o.progress = stop_at_light;
     assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_CANCELLED);
     assert_null(image);
     alp_scene_destroy(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pixel_of_the_furnace_is_two),
-        cmocka_unit_test(bounces_are_counted_as_the_reference_does),
-        cmocka_unit_test(a_painted_map_is_shown_as_it_is),
-        cmocka_unit_test(without_bounces_it_is_the_reference),
-        cmocka_unit_test(cornell_is_like_the_reference),
-        cmocka_unit_test(a_room_of_backs_is_lit),
-        cmocka_unit_test(single_sided_walls_are_black_from_behind),
-        cmocka_unit_test(without_light_all_is_black),
-        cmocka_unit_test(a_lightmap_is_seen_through_panes),
-        cmocka_unit_test(radiosity_goes_through_panes_as_the_reference_does),
-        cmocka_unit_test(maps_without_light_are_refused),
-        cmocka_unit_test(the_solution_can_be_cancelled),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
 }

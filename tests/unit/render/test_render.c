@@ -43,10 +43,8 @@ static alp_render_options look_ahead(void)
     return options;
 }
 
-static void things_appear_where_the_camera_says(void **state)
+TEST_WITH_CONTEXT(things_appear_where_the_camera_says, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     alp_scene *scene = make_scene(context);
     alp_render_options options = look_ahead();
     alp_image *image = NULL;
@@ -70,14 +68,11 @@ static void things_appear_where_the_camera_says(void **state)
     }
     alp_image_destroy(image);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void occlusion_by_rays_meets_the_closed_form(void **state)
+TEST_WITH_CONTEXT(occlusion_by_rays_meets_the_closed_form, 2)
 {
-    (void)state;
     // Seen from above, the floor beside a long wall of height 2 at distance 1: 1 − .276393202.
-    alp_context *context = test_context(2);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-50, 0, 900}, (double[]){100, 0, 0}, (double[]){0, 0, -1800});
     test_mesh_quad(mesh, (double[]){1, 0, -900}, (double[]){0, 0, 1800}, (double[]){0, 2, 0});
@@ -94,7 +89,6 @@ static void occlusion_by_rays_meets_the_closed_form(void **state)
     ASSERT_NEAR(alp_image_floats(image)[0], 1.0 - 0.276393202, 1e-3);
     alp_image_destroy(image);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// A picture of a few pixels that all look at the origin from `height` on the y axis.
@@ -129,11 +123,9 @@ static double picture_mean(const alp_scene *scene, const alp_render_options *opt
     return mean;
 }
 
-static void each_side_has_its_own_occlusion(void **state)
+TEST_WITH_CONTEXT(each_side_has_its_own_occlusion, 2)
 {
-    (void)state;
     // A floor with a rectangle of 1 × 1 m a metre below it: open above, oracle 6 below.
-    alp_context *context = test_context(2);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-9, 0, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
     test_mesh_quad(mesh, (double[]){0, -1, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
@@ -144,14 +136,11 @@ static void each_side_has_its_own_occlusion(void **state)
     options = look_at_origin(-0.5f);
     ASSERT_NEAR(picture_mean(scene, &options, &different), 1.0 - 0.138531606, 1e-3);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void pixels_have_samples_of_their_own(void **state)
+TEST_WITH_CONTEXT(pixels_have_samples_of_their_own, 2)
 {
-    (void)state;
     // What all pixels share would show as a pattern: no error may be that of its neighbour.
-    alp_context *context = test_context(2);
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){-9, 0, 9}, (double[]){18, 0, 0}, (double[]){0, 0, -18});
     test_mesh_quad(mesh, (double[]){0, 1, 1}, (double[]){1, 0, 0}, (double[]){0, 0, -1});
@@ -163,13 +152,10 @@ static void pixels_have_samples_of_their_own(void **state)
     ASSERT_NEAR(picture_mean(scene, &options, &different), 1.0 - 0.138531606, 2e-3);
     assert_true(different > 256); // of few values near the true one
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_border_of_things_keeps_their_colour(void **state)
+TEST_WITH_CONTEXT(the_border_of_things_keeps_their_colour, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context);
     alp_render_options options = look_ahead();
     options.height = 20; // 5 pixels a metre: the panel's left side is inside a pixel
@@ -185,13 +171,10 @@ static void the_border_of_things_keeps_their_colour(void **state)
     assert_true(partly >= 4);
     alp_image_destroy(image);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void bad_cameras_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_cameras_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context);
     alp_image *image = NULL;
     alp_render_options options = look_ahead();
@@ -211,17 +194,13 @@ static void bad_cameras_are_refused(void **state)
     assert_int_equal(alp_render(scene, &options, &image), ALP_ERROR_INVALID_ARGUMENT);
     assert_null(image);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void the_automatic_camera_sees_the_scene(void **state)
+TEST_WITH_CONTEXT(the_automatic_camera_sees_the_scene, 2)
 {
-    (void)state;
-    alp_context *context = test_context(2);
     const char *const names[] = {"builtin:sphere-plane", "builtin:cornell", "builtin:furnace"};
     for (int i = 0; i < 3; i++) {
-        alp_scene *scene = NULL;
-        ASSERT_OK(context, alp_scene_load(context, names[i], &scene));
+        alp_scene *scene = test_load(context, names[i]);
         alp_render_options options = alp_render_options_default();
         options.width = options.height = 32;
         options.samples = 8;
@@ -237,14 +216,11 @@ static void the_automatic_camera_sees_the_scene(void **state)
         alp_image_destroy(image);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 /// A large card and a small one in front of it: most area faces the centre, but it is no room.
-static void a_flat_scene_is_seen_from_outside(void **state)
+TEST_WITH_CONTEXT(a_flat_scene_is_seen_from_outside, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     const double right[3] = {3, 0, 0}, up[3] = {0, 2, 0}, behind[3] = {0, 0, 0};
     const double half_right[3] = {1, 0, 0}, half_up[3] = {0, 1, 0}, before[3] = {1, 0.5, 0.02};
     test_mesh *mesh = test_mesh_start();
@@ -256,12 +232,10 @@ static void a_flat_scene_is_seen_from_outside(void **state)
     ASSERT_NEAR(camera.target[0], 1.5, 1e-5);
     ASSERT_NEAR(camera.target[1], 1.0, 1e-5);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void methods_of_zero_to_one_are_shown_as_they_are(void **state)
+TEST(methods_of_zero_to_one_are_shown_as_they_are)
 {
-    (void)state;
     const alp_render_method plain[] = {ALP_RENDER_AO, ALP_RENDER_CONSTANT};
     for (int i = 0; i < 2; i++) {
         alp_film_options film = alp_render_film_options(plain[i]);
@@ -279,20 +253,4 @@ static void methods_of_zero_to_one_are_shown_as_they_are(void **state)
         assert_int_equal(film.tone, ALP_TONE_FILM);
         assert_int_equal(film.dither, ALP_DITHER_HASHED);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(things_appear_where_the_camera_says),
-        cmocka_unit_test(occlusion_by_rays_meets_the_closed_form),
-        cmocka_unit_test(each_side_has_its_own_occlusion),
-        cmocka_unit_test(pixels_have_samples_of_their_own),
-        cmocka_unit_test(the_border_of_things_keeps_their_colour),
-        cmocka_unit_test(bad_cameras_are_refused),
-        cmocka_unit_test(the_automatic_camera_sees_the_scene),
-        cmocka_unit_test(a_flat_scene_is_seen_from_outside),
-        cmocka_unit_test(methods_of_zero_to_one_are_shown_as_they_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,10 +6,8 @@
 
 #include <math.h>
 
-static void points_follow_area(void **state)
+TEST_WITH_CONTEXT(points_follow_area, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     const double u[] = {1, 0, 0}, v[] = {0, 0, -1}, v3[] = {0, 0, -3}, low[] = {0, 0, 0},
                  up[] = {0, 5, 0};
@@ -40,13 +38,10 @@ static void points_follow_area(void **state)
     ASSERT_NEAR(b1, 1.0 / 3.0, 4.0 / sqrt(18.0 * COUNT));
     ASSERT_NEAR(b2, 1.0 / 3.0, 4.0 / sqrt(18.0 * COUNT));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void no_area_no_points(void **state)
+TEST_WITH_CONTEXT(no_area_no_points, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     for (int i = 0; i < 3; i++) {
         test_mesh_vertex(mesh, i, 0, 0);
@@ -56,14 +51,4 @@ static void no_area_no_points(void **state)
     alpi_area_point point;
     assert_false(alpi_area_points(scene, 1, &point));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(points_follow_area),
-        cmocka_unit_test(no_area_no_points),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

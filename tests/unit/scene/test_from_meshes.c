@@ -23,10 +23,8 @@ static alp_mesh square(void)
                       .base_color = {0.5f, 0.25f, 0.75f}};
 }
 
-static void arrays_arrive(void **state)
+TEST_WITH_CONTEXT(arrays_arrive, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_mesh meshes[2] = {square(), square()};
     meshes[1].name = NULL;
     meshes[1].normals = NULL;
@@ -67,13 +65,10 @@ static void arrays_arrive(void **state)
     // A vertex made for a flat triangle knows which vertex of the source it came from.
     assert_int_equal(scene->vertex_source[scene->triangles[3][2]], 3);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_array_is_in_the_hash(void **state)
+TEST_WITH_CONTEXT(every_array_is_in_the_hash, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     uint64_t hashes[6] = {0};
     float moved[4][3], tilted[4][3], shifted[4][2];
     memcpy(moved, SQUARE, sizeof moved);
@@ -98,13 +93,10 @@ static void every_array_is_in_the_hash(void **state)
             assert_true(hashes[i] != hashes[k]);
         }
     }
-    alp_context_destroy(context);
 }
 
-static void bad_arrays_are_refused(void **state)
+TEST_WITH_CONTEXT(bad_arrays_are_refused, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     alp_mesh meshes[2] = {square(), square()};
     assert_int_equal(alp_scene_create_from_meshes(context, NULL, 1, &scene),
@@ -123,13 +115,10 @@ static void bad_arrays_are_refused(void **state)
     assert_int_equal(alp_scene_create_from_meshes(context, meshes, 2, &scene),
                      ALP_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(alp_context_message(context), "positions is NULL"));
-    alp_context_destroy(context);
 }
 
-static void nothing_is_an_empty_scene(void **state)
+TEST_WITH_CONTEXT(nothing_is_an_empty_scene, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_create_from_meshes(context, NULL, 0, &scene));
     assert_int_equal(alp_scene_get_info(scene).triangles, 0);
@@ -138,12 +127,10 @@ static void nothing_is_an_empty_scene(void **state)
     ASSERT_OK(context, alp_scene_create_from_meshes(context, &empty, 1, &scene));
     assert_int_equal(alp_scene_get_info(scene).surfaces, 1);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void every_failed_allocation_is_reported(void **state)
+TEST(every_failed_allocation_is_reported)
 {
-    (void)state;
     int left = 0;
     alp_context *context = test_context_failing(&left);
     alp_mesh meshes[2] = {square(), square()};
@@ -159,16 +146,4 @@ static void every_failed_allocation_is_reported(void **state)
     }
     assert_in_range(allowed, 10, 40);
     alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arrays_arrive),
-        cmocka_unit_test(every_array_is_in_the_hash),
-        cmocka_unit_test(bad_arrays_are_refused),
-        cmocka_unit_test(nothing_is_an_empty_scene),
-        cmocka_unit_test(every_failed_allocation_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

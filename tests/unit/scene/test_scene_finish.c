@@ -35,10 +35,8 @@ static alp_scene *finish(alpi_builder *builder)
     return scene;
 }
 
-static void a_good_scene_says_nothing(void **state)
+TEST_WITH_CONTEXT(a_good_scene_says_nothing, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, UP);
@@ -48,13 +46,10 @@ static void a_good_scene_says_nothing(void **state)
     ASSERT_NEAR(scene->bounds_max.x, 2.0, 0.0);
     ASSERT_NEAR(scene->bounds_min.y, 0.0, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void triangles_without_area_are_left_out(void **state)
+TEST_WITH_CONTEXT(triangles_without_area_are_left_out, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, UP);
@@ -70,12 +65,10 @@ static void triangles_without_area_are_left_out(void **state)
     assert_non_null(strstr(test_log_text(), "odd mesh: 2 of 4"));
     ASSERT_NEAR(scene->bounds_max.z, 2.0, 0.0); // the bounds do not see it
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void coordinates_that_are_no_numbers(void **state)
+TEST(coordinates_that_are_no_numbers)
 {
-    (void)state;
     const float bad[] = {NAN, INFINITY, -INFINITY, 2e15f, -3e38f};
     for (int i = 0; i < 5; i++) {
         alp_context *context = test_context(1);
@@ -97,9 +90,8 @@ static void coordinates_that_are_no_numbers(void **state)
     }
 }
 
-static void bad_normals_become_the_triangles(void **state)
+TEST(bad_normals_become_the_triangles)
 {
-    (void)state;
     const vec3 bad[] = {{0.0f, 0.0f, 0.0f}, {NAN, 0.0f, 1.0f}, {INFINITY, 0.0f, 0.0f}};
     for (int i = 0; i < 3; i++) {
         alp_context *context = test_context(1);
@@ -120,10 +112,8 @@ static void bad_normals_become_the_triangles(void **state)
     }
 }
 
-static void normals_become_unit(void **state)
+TEST_WITH_CONTEXT(normals_become_unit, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, (vec3){0.0f, 1e-30f, 0.0f});
@@ -134,13 +124,10 @@ static void normals_become_unit(void **state)
     }
     assert_false(test_log_has("bad-normals"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void materials_are_clamped(void **state)
+TEST_WITH_CONTEXT(materials_are_clamped, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, UP);
@@ -163,13 +150,10 @@ static void materials_are_clamped(void **state)
     ASSERT_NEAR(material->transmission, 0.0, 0.0);
     assert_true(test_log_has("material-range"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void albedo_has_a_limit(void **state)
+TEST_WITH_CONTEXT(albedo_has_a_limit, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, UP);
@@ -180,13 +164,10 @@ static void albedo_has_a_limit(void **state)
     scene->surfaces[0].material = ALPI_NONE;
     ASSERT_NEAR(alpi_surface_albedo(scene, 0, 0.2f, 0.2f).x, 0.5, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void far_from_the_origin_is_said(void **state)
+TEST_WITH_CONTEXT(far_from_the_origin_is_said, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alpi_builder builder;
     start(&builder, context);
     add_triangle(&builder, 2.0f, UP);
@@ -197,12 +178,10 @@ static void far_from_the_origin_is_said(void **state)
     assert_true(test_log_has("precision"));
     assert_non_null(strstr(test_log_text(), "are 0.002 m apart")); // 2^14 · 2^-23, up to 2^15
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void indices_out_of_range_are_errors(void **state)
+TEST(indices_out_of_range_are_errors)
 {
-    (void)state;
     for (int i = 0; i < 2; i++) {
         alp_context *context = test_context(1);
         alpi_builder builder;
@@ -221,10 +200,8 @@ static void indices_out_of_range_are_errors(void **state)
     }
 }
 
-static void a_metal_scene_says_so(void **state)
+TEST_WITH_CONTEXT(a_metal_scene_says_so, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (int metal = 0; metal <= 1; metal++) {
         alpi_builder builder;
         start(&builder, context);
@@ -236,14 +213,11 @@ static void a_metal_scene_says_so(void **state)
         assert_int_equal(test_log_has("metal"), metal);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
 }
 
 /// Of a picture with one texel of metal and one of none.
-static void metal_in_a_texture_counts(void **state)
+TEST_WITH_CONTEXT(metal_in_a_texture_counts, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     for (int metal = 0; metal <= 1; metal++) {
         alpi_builder builder;
         start(&builder, context);
@@ -266,23 +240,4 @@ static void metal_in_a_texture_counts(void **state)
         assert_int_equal(test_log_has("metal"), metal);
         alp_scene_destroy(scene);
     }
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_good_scene_says_nothing),
-        cmocka_unit_test(a_metal_scene_says_so),
-        cmocka_unit_test(metal_in_a_texture_counts),
-        cmocka_unit_test(triangles_without_area_are_left_out),
-        cmocka_unit_test(coordinates_that_are_no_numbers),
-        cmocka_unit_test(bad_normals_become_the_triangles),
-        cmocka_unit_test(normals_become_unit),
-        cmocka_unit_test(materials_are_clamped),
-        cmocka_unit_test(albedo_has_a_limit),
-        cmocka_unit_test(far_from_the_origin_is_said),
-        cmocka_unit_test(indices_out_of_range_are_errors),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

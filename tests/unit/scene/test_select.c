@@ -43,11 +43,9 @@ static const char *selected(const alp_scene *scene, const char *pattern)
     return word;
 }
 
-static void patterns_select_by_name(void **state)
+TEST_WITH_CONTEXT(patterns_select_by_name, 1)
 {
-    (void)state;
     static const char *const names[] = {"floor", "chair.001", "Stühle, rot", "chair.002", ""};
-    alp_context *context = test_context(1);
     alp_scene *scene = named_squares(context, names, 5);
     assert_string_equal(selected(scene, "floor"), "10000");
     assert_string_equal(selected(scene, "chair.*"), "01010");
@@ -56,18 +54,15 @@ static void patterns_select_by_name(void **state)
     assert_string_equal(selected(scene, "*"), "11111");
     assert_string_equal(selected(scene, ""), "00001"); // names that are empty
     assert_string_equal(selected(scene, "floor,"), "10001");
-    bool *surfaces = (bool *)&state;
+    bool *surfaces = (bool *)&context;
     ASSERT_OK(context, alpi_scene_select(scene, NULL, &surfaces));
     assert_null(surfaces); // all
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_pattern_without_a_match_is_refused(void **state)
+TEST_WITH_CONTEXT(a_pattern_without_a_match_is_refused, 1)
 {
-    (void)state;
     static const char *const names[] = {"a", "b", "c", "d", "e", "f", "g", "h", "floor", "Flur"};
-    alp_context *context = test_context(1);
     alp_scene *scene = named_squares(context, names, 10);
     assert_string_equal(selected(scene, "flor"), "refused");
     test_message_has(context, "\"flor\"");
@@ -91,15 +86,12 @@ static void a_pattern_without_a_match_is_refused(void **state)
     assert_string_equal(selected(scene, "*"), "refused"); // nothing is there
     test_message_has(context, "none");
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void instances_follow_the_first_whole_one(void **state)
+TEST_WITH_CONTEXT(instances_follow_the_first_whole_one, 1)
 {
-    (void)state;
     // Mesh 0 has two primitives. Node 0 flattens it to nothing, so node 1 is the original.
     static const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(
         context,
@@ -135,15 +127,4 @@ static void instances_follow_the_first_whole_one(void **state)
     assert_int_equal(originals[6], 6);
     alpi_release(context, originals);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_select_by_name),
-        cmocka_unit_test(a_pattern_without_a_match_is_refused),
-        cmocka_unit_test(instances_follow_the_first_whole_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,10 +37,8 @@ static alpi_texture texture(void)
     return t;
 }
 
-static void base_colour_is_encoded_and_metal_is_the_blue_channel(void **state)
+TEST_WITH_CONTEXT(base_colour_is_encoded_and_metal_is_the_blue_channel, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, (uint8_t[]){188, 255, 51, 102});
     alpi_material *m = &scene->materials[scene->surfaces[0].material];
     m->base_color_texture = texture();
@@ -53,13 +51,10 @@ static void base_colour_is_encoded_and_metal_is_the_blue_channel(void **state)
     albedo = alpi_surface_albedo(scene, 0, 0.25f, 0.25f);
     ASSERT_NEAR(albedo.y, 0.5 * (1.0 - 0.5 * 0.2), 1e-6);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void albedo_stays_below_one(void **state)
+TEST_WITH_CONTEXT(albedo_stays_below_one, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, (uint8_t[]){255, 255, 255, 255});
     alpi_material *m = &scene->materials[scene->surfaces[0].material];
     m->base_color[0] = 1.0f;
@@ -67,13 +62,10 @@ static void albedo_stays_below_one(void **state)
     scene->surfaces[0].material = ALPI_NONE;
     ASSERT_NEAR(alpi_surface_albedo(scene, 0, 0.0f, 0.0f).x, 0.5, 1e-6);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void occlusion_is_the_red_channel_by_its_strength(void **state)
+TEST_WITH_CONTEXT(occlusion_is_the_red_channel_by_its_strength, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, (uint8_t[]){51, 255, 255, 255});
     alpi_material *m = &scene->materials[scene->surfaces[0].material];
     float value = -1.0f;
@@ -87,13 +79,10 @@ static void occlusion_is_the_red_channel_by_its_strength(void **state)
         ASSERT_NEAR(value, expected[i], 1e-6);
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void a_cut_is_below_the_cutoff(void **state)
+TEST_WITH_CONTEXT(a_cut_is_below_the_cutoff, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, (uint8_t[]){255, 255, 255, 102}); // alpha 0.4
     alpi_material *m = &scene->materials[scene->surfaces[0].material];
     m->base_color_texture = texture();
@@ -106,13 +95,10 @@ static void a_cut_is_below_the_cutoff(void **state)
     m->base_color[3] = 0.5f; // 0.4 · 0.5
     assert_true(alpi_surface_is_cut(scene, 0, 0.0f, 0.0f));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void transmission_is_the_red_channel(void **state)
+TEST_WITH_CONTEXT(transmission_is_the_red_channel, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = make_scene(context, (uint8_t[]){51, 255, 102, 153});
     alpi_material *m = &scene->materials[scene->surfaces[0].material];
     ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.0, 0.0); // the default
@@ -125,17 +111,4 @@ static void transmission_is_the_red_channel(void **state)
     scene->surfaces[0].material = ALPI_NONE;
     ASSERT_NEAR(alpi_surface_transmission(scene, 0, 0.25f, 0.25f), 0.0, 0.0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(base_colour_is_encoded_and_metal_is_the_blue_channel),
-        cmocka_unit_test(albedo_stays_below_one),
-        cmocka_unit_test(occlusion_is_the_red_channel_by_its_strength),
-        cmocka_unit_test(a_cut_is_below_the_cutoff),
-        cmocka_unit_test(transmission_is_the_red_channel),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -214,9 +214,12 @@ static alp_scene *make_many(alp_context *context)
     return soup_make(context, 3000, 0.4f);
 }
 
-static void many_triangles(void **state)
+TEST(many_triangles)
 {
-    (void)state;
+#if defined(__x86_64__)
+    print_message("this machine %s vectors of sixteen\n",
+                  __builtin_cpu_supports("avx512f") ? "has" : "lacks");
+#endif
     hold_every_level(make_many, NULL);
 }
 
@@ -225,9 +228,8 @@ static alp_scene *make_few(alp_context *context)
     return soup_make(context, 30, 2.5f);
 }
 
-static void few_triangles(void **state)
+TEST(few_triangles)
 {
-    (void)state;
     hold_every_level(make_few, NULL);
 }
 
@@ -239,9 +241,8 @@ static alp_scene *make_sphere(alp_context *context)
     return test_mesh_scene(context, mesh, 0);
 }
 
-static void edges_of_two_triangles(void **state)
+TEST(edges_of_two_triangles)
 {
-    (void)state;
     hold_every_level(make_sphere, NULL);
 }
 
@@ -280,25 +281,9 @@ static alp_scene *make_mixed(alp_context *context)
     return scene;
 }
 
-static void surfaces_of_all_kinds(void **state)
+TEST(surfaces_of_all_kinds)
 {
-    (void)state;
     static const bool last[MIXED_SURFACES] = {false, false, false, true};
     hold_every_level(make_mixed, NULL);
     hold_every_level(make_mixed, last); // all solid, but not from the scene's first triangle on
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_triangles),
-        cmocka_unit_test(few_triangles),
-        cmocka_unit_test(edges_of_two_triangles),
-        cmocka_unit_test(surfaces_of_all_kinds),
-    };
-#if defined(__x86_64__)
-    print_message("this machine %s vectors of sixteen\n",
-                  __builtin_cpu_supports("avx512f") ? "has" : "lacks");
-#endif
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,12 +113,10 @@ static uint32_t count_slips(const alp_scene *scene, const alpi_tracer *tracer,
     return slips;
 }
 
-static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
+TEST_WITH_CONTEXT(quick_rays_slip_through_edges_as_rarely_as_is_told, 1)
 {
-    (void)state;
     const uint32_t few = 1u << 12, many = 1u << 18;
     const alpi_trace_filter quick = {.quick = true}, careful = {0};
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 200, 100, 1.0, 1); // 40,000 triangles
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -139,13 +137,11 @@ static void quick_rays_slip_through_edges_as_rarely_as_is_told(void **state)
     assert_true(aimed > 0);  // they are quick
     assert_true(slips <= 8); // one in a million, and four standard errors
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 /// Many small triangles, and a few large ones.
-static void random_rays_hit_what_brute_force_hits(void **state)
+TEST(random_rays_hit_what_brute_force_hits)
 {
-    (void)state;
     const struct {
         uint32_t triangles;
         float size;
@@ -179,9 +175,8 @@ static alp_scene *make_octahedron(alp_context *context)
 }
 
 /// From the middle of a solid exactly through its corners, and the middles of its edges and faces.
-static void corners_stop_rays(void **state)
+TEST(corners_stop_rays)
 {
-    (void)state;
     alp_context *context = test_context(1);
     alp_scene *scene = make_octahedron(context);
     alpi_tracer *tracer = NULL;
@@ -254,10 +249,8 @@ static void cut_half(alp_scene *scene)
     pixels[3] = pixels[15] = 0;
 }
 
-static void alpha_cuts_let_rays_through(void **state)
+TEST_WITH_CONTEXT(alpha_cuts_let_rays_through, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     alp_scene *scene = soup_make(context, 600, 0.4f);
     int solid = 0, cut = 0;
     if (scene->uvs[0] == NULL) {
@@ -274,14 +267,11 @@ static void alpha_cuts_let_rays_through(void **state)
     print_message("%d hits, %d with cuts\n", solid, cut);
     assert_true(cut < solid - PACKETS / 10);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void chosen_surfaces_alone_are_hit(void **state)
+TEST_WITH_CONTEXT(chosen_surfaces_alone_are_hit, 1)
 {
-    (void)state;
     // Three squares one above the other; rays go down through all of them.
-    alp_context *context = test_context(1);
     const float squares[3][4][3] = {
         {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}},
         {{-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}},
@@ -334,13 +324,10 @@ static void chosen_surfaces_alone_are_hit(void **state)
     alpi_tracer_destroy(NULL);
     assert_null(scene->attachments[ALPI_ATTACHMENT_TRACER].data); // none of these stays
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void an_empty_scene_is_never_hit(void **state)
+TEST_WITH_CONTEXT(an_empty_scene_is_never_hit, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     uint32_t v = test_mesh_vertex(mesh, 0, 0, 0);
     test_mesh_triangle(mesh, v, v, v);
@@ -349,7 +336,6 @@ static void an_empty_scene_is_never_hit(void **state)
     agrees_with_brute_force(scene, (alpi_trace_filter){0}, &hits);
     assert_int_equal(hits, 0);
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
 static bool refuse(void *user, const alp_progress *progress)
@@ -359,10 +345,8 @@ static bool refuse(void *user, const alp_progress *progress)
     return false;
 }
 
-static void building_can_be_cancelled(void **state)
+TEST_WITH_CONTEXT(building_can_be_cancelled, 1)
 {
-    (void)state;
-    alp_context *context = test_context(1);
     test_mesh *mesh = test_mesh_start();
     test_mesh_sphere(mesh, (double[]){0, 0, 0}, 1, 500, 390, 1.0, 1); // 0.1 s to build
     alp_scene *scene = test_mesh_scene(context, mesh, 0);
@@ -372,19 +356,4 @@ static void building_can_be_cancelled(void **state)
     assert_true(result == ALP_ERROR_CANCELLED || result == ALP_OK);
     ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quick_rays_slip_through_edges_as_rarely_as_is_told),
-        cmocka_unit_test(random_rays_hit_what_brute_force_hits),
-        cmocka_unit_test(corners_stop_rays),
-        cmocka_unit_test(alpha_cuts_let_rays_through),
-        cmocka_unit_test(chosen_surfaces_alone_are_hit),
-        cmocka_unit_test(an_empty_scene_is_never_hit),
-        cmocka_unit_test(building_can_be_cancelled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

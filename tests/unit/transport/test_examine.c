@@ -86,9 +86,8 @@ static void stop(setup *s)
     alp_context_destroy(s->context);
 }
 
-static void lamps_in_the_open_are_fine(void **state)
+TEST(lamps_in_the_open_are_fine)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL);
     add_block(&s);
     finish(&s);
@@ -100,9 +99,8 @@ static void lamps_in_the_open_are_fine(void **state)
     stop(&s);
 }
 
-static void a_lamp_in_a_block_is_told(void **state)
+TEST(a_lamp_in_a_block_is_told)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL);
     add_block(&s);
     finish(&s);
@@ -116,9 +114,8 @@ static void a_lamp_in_a_block_is_told(void **state)
     stop(&s);
 }
 
-static void a_lamp_behind_the_walls_is_told(void **state)
+TEST(a_lamp_behind_the_walls_is_told)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL);
     finish(&s);
     const vec3 places[] = {{2.1f, 0, 0}, {0, -3, 0}, {500, 20, -7}};
@@ -133,9 +130,8 @@ static void a_lamp_behind_the_walls_is_told(void **state)
 }
 
 /// Only the rays in its cone count.
-static void a_spot_is_judged_by_its_cone(void **state)
+TEST(a_spot_is_judged_by_its_cone)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_TOP);
     finish(&s);
     alpi_light spot = lamp(0.0f, -2.5f, 0.0f); // under the floor
@@ -150,9 +146,8 @@ static void a_spot_is_judged_by_its_cone(void **state)
 }
 
 /// What is beside its cone does not count: in a block without a lid, a spot that looks down.
-static void a_spot_in_an_open_block(void **state)
+TEST(a_spot_in_an_open_block)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL);
     alpi_builder_box(&s.builder, (vec3){0.7f, -0.5f, -0.5f}, (vec3){1.7f, 0.5f, 0.5f},
                      ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_TOP);
@@ -167,9 +162,8 @@ static void a_spot_in_an_open_block(void **state)
 }
 
 /// Around a bulb: double-sided, blended, transmissive, or open at both ends.
-static void bulbs_and_shades_are_fine(void **state)
+TEST(bulbs_and_shades_are_fine)
 {
-    (void)state;
     for (int kind = 0; kind < 5; kind++) {
         setup s = start_room(ALPI_FACE_ALL);
         if (kind < 4) {
@@ -193,9 +187,8 @@ static void bulbs_and_shades_are_fine(void **state)
 
 /// Exactly in a surface: fine at the ceiling, whose back nobody sees, and told of a screen between
 /// two halves of the room.
-static void lamps_in_surfaces(void **state)
+TEST(lamps_in_surfaces)
 {
-    (void)state;
     setup s = start_room(ALPI_FACE_ALL);
     add_block(&s);
     finish(&s);
@@ -216,9 +209,8 @@ static void lamps_in_surfaces(void **state)
     stop(&s);
 }
 
-static void many_lamps_are_counted(void **state)
+TEST(many_lamps_are_counted)
 {
-    (void)state;
     enum { COUNT = 1000 };
     setup s = start_room(ALPI_FACE_ALL);
     add_block(&s);
@@ -260,9 +252,8 @@ static const char *told_with_sky(const setup *s)
     return test_log_text();
 }
 
-static void closed_rooms_are_told(void **state)
+TEST(closed_rooms_are_told)
 {
-    (void)state;
     for (int closed = 0; closed <= 1; closed++) {
         setup s = start_room(ALPI_FACE_ALL & ~(unsigned)(closed ? 0 : ALPI_FACE_LEFT));
         add_block(&s);
@@ -281,9 +272,8 @@ static void add_slotted_wall(setup *s, float slot)
                       (vec3[]){{-2, -2, -2}, {-2, top, -2}, {-2, top, 2}, {-2, -2, 2}});
 }
 
-static void a_window_of_a_hundredth_is_an_opening(void **state)
+TEST(a_window_of_a_hundredth_is_an_opening)
 {
-    (void)state;
     // 1024 bounces from each point: the slot is missed by e^−10 of them, and by e^−0.01.
     const float slots[] = {0.01f, 1e-5f};
     for (int i = 0; i < 2; i++) {
@@ -297,9 +287,8 @@ static void a_window_of_a_hundredth_is_an_opening(void **state)
 
 /// Walls with an outer side: half of what is seen is in a closed room, and all in the open with the
 /// door out of both shells.
-static void walls_may_be_thick(void **state)
+TEST(walls_may_be_thick)
 {
-    (void)state;
     for (int door = 0; door <= 1; door++) {
         const unsigned faces = ALPI_FACE_ALL & ~(unsigned)(door ? ALPI_FACE_LEFT : 0);
         setup s = start_room(faces);
@@ -313,9 +302,8 @@ static void walls_may_be_thick(void **state)
 }
 
 /// What is hidden inside other solids is in no room: two blocks of one size in one place.
-static void hidden_faces_are_no_room(void **state)
+TEST(hidden_faces_are_no_room)
 {
-    (void)state;
     setup s = {.context = test_context(1)};
     alpi_builder *b = &s.builder;
     alpi_builder_start(b, s.context, "blocks");
@@ -328,9 +316,8 @@ static void hidden_faces_are_no_room(void **state)
 }
 
 /// A closed room with glass in it, and one with something that shines, are no fault.
-static void closed_rooms_that_are_fine(void **state)
+TEST(closed_rooms_that_are_fine)
 {
-    (void)state;
     for (int kind = 0; kind < 5; kind++) {
         setup s = start_room(ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_LEFT);
         alpi_builder_quad(&s.builder, (vec3[]){{-2, -2, -2}, {-2, 2, -2}, {-2, 2, 2}, {-2, -2, 2}});
@@ -356,9 +343,8 @@ static bool refuse(void *user, const alp_progress *progress)
     return false;
 }
 
-static void odd_calls(void **state)
+TEST_WITH_CONTEXT(odd_calls, 1)
 {
-    (void)state;
     assert_int_equal(alp_scene_examine(NULL, NULL, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
     setup s = start_room(ALPI_FACE_ALL);
     finish(&s);
@@ -369,7 +355,6 @@ static void odd_calls(void **state)
     set_lights(&s, &light, 1);
     assert_int_equal(alp_scene_examine(s.scene, NULL, refuse, NULL), ALP_ERROR_CANCELLED);
     stop(&s);
-    alp_context *context = test_context(1);
     alpi_builder empty;
     alp_scene *scene = NULL;
     alpi_builder_start(&empty, context, "nothing");
@@ -379,12 +364,10 @@ static void odd_calls(void **state)
     assert_true(test_log_has("no-light"));
     assert_false(test_log_has("closed-room"));
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
 }
 
-static void memory_may_end(void **state)
+TEST(memory_may_end)
 {
-    (void)state;
     int left = 0;
     alp_context *context = test_context_failing(&left);
     setup s = {.context = context};
@@ -402,26 +385,4 @@ static void memory_may_end(void **state)
     assert_true(failures > 2);
     left = plenty;
     stop(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lamps_in_the_open_are_fine),
-        cmocka_unit_test(a_lamp_in_a_block_is_told),
-        cmocka_unit_test(a_lamp_behind_the_walls_is_told),
-        cmocka_unit_test(a_spot_is_judged_by_its_cone),
-        cmocka_unit_test(a_spot_in_an_open_block),
-        cmocka_unit_test(bulbs_and_shades_are_fine),
-        cmocka_unit_test(lamps_in_surfaces),
-        cmocka_unit_test(many_lamps_are_counted),
-        cmocka_unit_test(closed_rooms_are_told),
-        cmocka_unit_test(a_window_of_a_hundredth_is_an_opening),
-        cmocka_unit_test(walls_may_be_thick),
-        cmocka_unit_test(hidden_faces_are_no_room),
-        cmocka_unit_test(closed_rooms_that_are_fine),
-        cmocka_unit_test(odd_calls),
-        cmocka_unit_test(memory_may_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// More samples of direct light, dealt out to the texels of a floor beside a box's shadow.
+#include "bake/light/light_direct.h"
+#include "base/memory.h"
+#include "test_radiant.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { FIRST = 8 };
+
+/// A floor of 4 m, and a square of 1 m that hides a sun of 20° from a part of it.
+static alp_scene *make_scene(alp_context *context)
+{
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, context, "shade");
+    alpi_builder_surface(&b, "floor", test_grey(&b, "grey", 0.5, 0.0));
+    alpi_builder_quad(&b, (const vec3[4]){{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}});
+    alpi_builder_quad(
+        &b,
+        (const vec3[4]){{-0.5f, 1, 0.5f}, {0.5f, 1, 0.5f}, {0.5f, 1, -0.5f}, {-0.5f, 1, -0.5f}});
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    return scene;
+}
+
+/// What a bake has after its first round.
+typedef struct stage {
+    alp_context *context;
+    test_radiant r;
+    alpi_receivers receivers;
+    alpi_bake_job job;
+    alpi_light_task task;
+    alpi_light_direct direct;
+} stage;
+
+static void start(uint32_t workers, stage *s)
+{
+    *s = (stage){.context = test_context(workers)};
+    alp_lighting_options light = alp_lighting_options_default();
+    light.sun = (alp_sun_options){.azimuth = 0.7f,
+                                  .elevation = 1.1f,
+                                  .illuminance = 10.0f,
+                                  .color = {1.0f, 0.9f, 0.8f},
+                                  .size = 0.35f};
+    test_radiant_options o = test_radiant_default();
+    o.lighting = &light;
+    o.direct_samples = FIRST;
+    test_radiant_open(make_scene(s->context), &o, &s->r);
+    s->receivers = alpi_texels_receivers(&s->r.texels);
+    s->job.context = s->context;
+    s->task = (alpi_light_task){.receivers = &s->receivers,
+                                .order = s->r.lattice.order,
+                                .count = s->r.texels.count,
+                                .lattice = &s->r.lattice};
+    s->direct = (alpi_light_direct){.job = &s->job,
+                                    .task = &s->task,
+                                    .solution = &s->r.solution,
+                                    .values = s->r.solution.direct,
+                                    .most = FIRST,
+                                    .limit = 65536.0,
+                                    .power = 0.6};
+    s->direct.fresh = ALPI_NEW(s->context, alpi_reference_value, s->task.count);
+    s->direct.counts = ALPI_NEW(s->context, uint32_t, s->task.count);
+    assert_true(s->direct.fresh != NULL && s->direct.counts != NULL);
+    for (uint32_t t = 0; t < s->task.count; t++) {
+        s->direct.counts[t] = FIRST;
+    }
+}
+
+static void finish(stage *s)
+{
+    alpi_release(s->context, s->direct.fresh);
+    alpi_release(s->context, s->direct.counts);
+    test_radiant_close(&s->r);
+    alp_context_destroy(s->context);
+}
+
+/// Root mean square of what texels' variances state.
+static double find_error(const stage *s)
+{
+    double sum = 0.0;
+    for (uint32_t t = 0; t < s->task.count; t++) {
+        const float *v = s->direct.values[t].variance;
+        sum += ((double)v[0] + (double)v[1] + (double)v[2]) / 3.0;
+    }
+    return sqrt(sum / s->task.count);
+}
+
+static uint64_t count_dealt(const stage *s)
+{
+    uint64_t sum = 0;
+    for (uint32_t t = 0; t < s->task.count; t++) {
+        sum += s->direct.counts[t] - FIRST;
+    }
+    return sum;
+}
+
+static bool deal(stage *s, alpi_light_goal goal)
+{
+    bool dealt = false;
+    ASSERT_OK(s->context, alpi_light_more_direct(&s->direct, &goal, &dealt));
+    return dealt;
+}
+
+/// What is foreseen comes, about: the noisy get more, those in full light or shade nothing.
+TEST(noise_comes_down_to_what_is_wanted)
+{
+    static stage s;
+    start(2, &s);
+    const double first = find_error(&s), wanted = 0.2 * first;
+    assert_true(deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
+    const double then = find_error(&s);
+    print_message("%.4g to %.4g, wanted %.4g, foreseen %.4g, %.1f samples a texel\n", first, then,
+                  wanted, s.direct.foreseen, (double)count_dealt(&s) / s.task.count);
+    assert_true(s.direct.foreseen <= wanted && s.direct.foreseen > 0.8 * wanted);
+    ASSERT_NEAR(then / s.direct.foreseen, 1.0, 0.25);
+    uint32_t least = UINT32_MAX, most = 0;
+    for (uint32_t t = 0; t < s.task.count; t++) {
+        least = s.direct.counts[t] < least ? s.direct.counts[t] : least;
+        most = s.direct.counts[t] > most ? s.direct.counts[t] : most;
+    }
+    assert_int_equal(least, FIRST);
+    assert_int_equal(most, s.direct.most);
+    assert_true(most >= 64);
+    finish(&s);
+}
+
+/// Of texels that are left out, only those beside others get any.
+TEST(some_texels_count_alone)
+{
+    static stage s;
+    start(1, &s);
+    const double wanted = 0.2 * find_error(&s);
+    uint8_t *among = ALPI_NEW(s.context, uint8_t, s.task.count);
+    assert_non_null(among);
+    assert_false(
+        deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
+    assert_true(count_dealt(&s) == 0);
+    uint32_t noisiest = 0;
+    for (uint32_t t = 0; t < s.task.count; t++) {
+        const bool more = s.direct.values[t].variance[0] > s.direct.values[noisiest].variance[0];
+        noisiest = more ? t : noisiest;
+    }
+    among[noisiest] = 1;
+    assert_true(
+        deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
+    uint32_t got = 0;
+    for (uint32_t t = 0; t < s.task.count; t++) {
+        got += s.direct.counts[t] > FIRST;
+    }
+    assert_true(s.direct.counts[noisiest] > FIRST && got <= 9);
+    alpi_release(s.context, among);
+    finish(&s);
+}
+
+TEST(workers_change_nothing)
+{
+    static const uint32_t workers[3] = {1, 2, 7};
+    static stage s[3];
+    for (int i = 0; i < 3; i++) {
+        start(workers[i], &s[i]);
+        const double wanted = 0.3 * find_error(&s[i]);
+        assert_true(deal(&s[i], (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
+        const size_t count = s[0].task.count;
+        assert_int_equal(s[i].task.count, count);
+        assert_memory_equal(s[i].direct.values, s[0].direct.values,
+                            count * sizeof *s[0].direct.values);
+        assert_memory_equal(s[i].direct.counts, s[0].direct.counts,
+                            count * sizeof *s[0].direct.counts);
+        assert_true(s[i].direct.foreseen == s[0].direct.foreseen);
+    }
+    for (int i = 0; i < 3; i++) {
+        finish(&s[i]);
+    }
+}
+
+/// Values of the first round stay as they are, to the bit.
+static void expect_nothing(stage *s, alpi_light_goal goal)
+{
+    const size_t size = s->task.count * sizeof *s->direct.values;
+    alpi_reference_value *before = ALPI_NEW(s->context, alpi_reference_value, s->task.count);
+    assert_non_null(before);
+    memcpy(before, s->direct.values, size);
+    assert_false(deal(s, goal));
+    assert_memory_equal(before, s->direct.values, size);
+    assert_true(count_dealt(s) == 0 && s->direct.most == FIRST);
+    alpi_release(s->context, before);
+}
+
+TEST(nothing_is_dealt_where_nothing_may_be)
+{
+    static stage s;
+    start(1, &s);
+    const double first = find_error(&s);
+    const alpi_light_goal good = {.wanted = 100.0 * first, .most = HUGE_VAL, .seed = 5};
+    const alpi_light_goal bad = {.wanted = 0.1 * first, .most = HUGE_VAL, .seed = 5};
+    expect_nothing(&s, good); // no texel is noisy
+    s.direct.limit = FIRST;
+    expect_nothing(&s, bad);
+    s.direct.limit = FIRST + 7; // not even eight more
+    expect_nothing(&s, bad);
+    finish(&s);
+}
+
+/// No texel has more than the limit, nor all together more than they may: few enough are listed for
+/// all of them to be asked.
+TEST(limits_hold)
+{
+    static stage s;
+    start(1, &s);
+    const double wanted = 0.01 * find_error(&s);
+    s.direct.limit = 43.0;
+    for (int round = 0; round < 4; round++) {
+        deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5});
+    }
+    assert_int_equal(s.direct.most, 40); // in eights
+    finish(&s);
+    start(1, &s);
+    const double most = 16.0 * s.task.count;
+    assert_true(deal(&s, (alpi_light_goal){.wanted = wanted, .most = most, .seed = 5}));
+    const double dealt = (double)count_dealt(&s);
+    assert_true(dealt <= most && dealt > 0.5 * most);
+    finish(&s);
+}
+
+static uint32_t count_above(const stage *s, double error)
+{
+    uint32_t above = 0;
+    for (uint32_t t = 0; t < s->task.count; t++) {
+        above += (double)s->direct.values[t].variance[0] > error * error;
+    }
+    return above;
+}
+
+/// For the worst texels, each by itself comes to what is wanted: the more is known of it, the
+/// nearer.
+TEST(each_comes_to_what_is_wanted)
+{
+    static stage s;
+    start(2, &s);
+    const double wanted = find_error(&s);
+    const uint32_t before = count_above(&s, 1.2 * wanted);
+    for (uint64_t round = 0; round < 3; round++) {
+        const alpi_light_goal goal = {
+            .wanted = wanted, .each = true, .most = HUGE_VAL, .seed = round};
+        assert_true(deal(&s, goal));
+    }
+    const uint32_t after = count_above(&s, 1.2 * wanted);
+    print_message("%u of %u texels too noisy, then %u\n", before, s.task.count, after);
+    assert_true(before > 100 && after < before / 20);
+    finish(&s);
+}
