@@ -40,7 +40,7 @@ static alp_scene *make_room(void)
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
     scene->materials[1].double_sided = true;
     test_lit_set_lamps(scene,
-                       &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                       &(alpi_light){.kind = ALP_LIGHT_POINT,
                                      .color = {1, 1, 1},
                                      .intensity = 1.0f,
                                      .position = {-0.4f, 0.6f, 0.3f},

@@ -371,7 +371,7 @@ static void materials_that_are_cut_away(void **state)
 
 static alpi_light lamp(vec3 position, float intensity, float range)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_POINT,
+    return (alpi_light){.kind = ALP_LIGHT_POINT,
                         .color = {1.0f, 0.5f, 0.0f},
                         .intensity = intensity,
                         .position = position,
@@ -383,7 +383,7 @@ static void lights_that_do_nothing_or_too_much(void **state)
 {
     (void)state;
     const vec3 above = {1.0f, 3.0f, -1.0f}, on = {1.5f, 0.0f, -1.0f}, beside = {5.0f, 0.0f, -1.0f};
-    const alpi_light sun = {.kind = ALPI_LIGHT_DIRECTIONAL,
+    const alpi_light sun = {.kind = ALP_LIGHT_DIRECTIONAL,
                             .color = {1.0f, 1.0f, 1.0f},
                             .intensity = 1e5f,
                             .direction = {0.0f, -1.0f, 0.0f}};

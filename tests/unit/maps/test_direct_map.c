@@ -40,12 +40,12 @@ static void set_up(setting *s)
         (const vec3[4]){{-.2f, .3f, .2f}, {.2f, .3f, .2f}, {.2f, .3f, -.2f}, {-.2f, .3f, -.2f}});
     ASSERT_OK(s->context, alpi_builder_finish(&b, &scene));
     scene->materials[0].double_sided = scene->materials[1].double_sided = true;
-    const alpi_light lamps[LAYERS] = {{.kind = ALPI_LIGHT_POINT,
+    const alpi_light lamps[LAYERS] = {{.kind = ALP_LIGHT_POINT,
                                        .color = {1.0f, 0.25f, 0.125f},
                                        .intensity = 9.0f,
                                        .position = {0.1f, 1.5f, 0.2f},
                                        .range = INFINITY},
-                                      {.kind = ALPI_LIGHT_POINT,
+                                      {.kind = ALP_LIGHT_POINT,
                                        .color = {0.25f, 1.0f, 0.5f},
                                        .intensity = 5.0f,
                                        .position = {-0.4f, -2.0f, 0.3f},
