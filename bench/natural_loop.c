@@ -44,7 +44,8 @@ static uint32_t trace_eight(const natural_loop *loop, const uint32_t shift[3], u
     const alpi_ray_lanes to = ALPI_RAY_LANES(&stand->rays[0], 0);
     alpi_lanes_start(lanes, &to);
     alpi_lanes_aim(loop->setup, lanes, &packet, shift, &to);
-    limit(loop->setup, &packet, shift[2], to.maximum);
+    alpi_falloff_ranges(loop->setup->falloff, loop->setup->distance, packet.w, shift[2],
+                        to.maximum);
     alpi_trace_occluded(loop->setup->tracer, &stand->rays[0], 1, (1u << ALPI_PACKET) - 1u,
                         loop->setup->filter, ALPI_RAYS_NEAR);
     count_open(stand, 0, 1, 0, &tally);

@@ -119,13 +119,6 @@ static bool is_emissive(const alp_surface_info *s)
     return s->emission[0] > 0.0f || s->emission[1] > 0.0f || s->emission[2] > 0.0f;
 }
 
-static const char *const light_kinds[] = {"point", "spot", "directional"};
-
-static const char *light_unit(const alp_light_info *l)
-{
-    return l->kind == ALP_LIGHT_DIRECTIONAL ? "lux" : "candela";
-}
-
 static void print_light_name(const alp_light_info *l, uint32_t index)
 {
     if (l->name[0] != '\0') {
@@ -136,35 +129,37 @@ static void print_light_name(const alp_light_info *l, uint32_t index)
 }
 
 /// Position and direction of a light, as far as its kind has them.
-static void print_place(const alp_light_info *l)
+static void print_place(const alp_light_info *l, const alp_light_traits *traits)
 {
     const double degrees = 180.0 / M_PI;
-    if (l->kind != ALP_LIGHT_DIRECTIONAL) {
+    if (traits->has_position) {
         printf(", at %g %g %g m", (double)l->position[0], (double)l->position[1],
                (double)l->position[2]);
     }
-    if (l->kind != ALP_LIGHT_POINT) {
+    if (traits->has_direction) {
         printf(", towards %g %g %g", (double)l->direction[0], (double)l->direction[1],
                (double)l->direction[2]);
     }
-    if (l->kind == ALP_LIGHT_SPOT) {
+    if (traits->has_cone) {
         printf(", cone %g inside %g degrees", (double)l->inner_cone * degrees,
                (double)l->outer_cone * degrees);
     }
-    if (l->kind == ALP_LIGHT_DIRECTIONAL) {
+    if (traits->has_size) {
         printf(", size %g degrees", (double)l->size * degrees);
-    } else if (isfinite(l->range)) {
+    }
+    if (traits->has_position && isfinite(l->range)) {
         printf(", range %g m", (double)l->range);
     }
 }
 
 static void print_lamp(const alp_light_info *l, uint32_t index)
 {
+    const alp_light_traits traits = alp_light_traits_of(l->kind);
     printf("light      ");
     print_light_name(l, index);
-    printf(", %s: %g %s, colour %g %g %g", light_kinds[l->kind], (double)l->intensity,
-           light_unit(l), (double)l->color[0], (double)l->color[1], (double)l->color[2]);
-    print_place(l);
+    printf(", %s: %g %s, colour %g %g %g", traits.name, (double)l->intensity, traits.unit,
+           (double)l->color[0], (double)l->color[1], (double)l->color[2]);
+    print_place(l, &traits);
     putchar('\n');
 }
 
@@ -249,15 +244,15 @@ static json_t *make_angle(bool has, float radians)
 
 static json_t *make_light(const alp_light_info *l)
 {
-    const bool spot = l->kind == ALP_LIGHT_SPOT;
+    const alp_light_traits traits = alp_light_traits_of(l->kind);
     return json_pack("{s:o, s:s, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name",
-                     json_text(l->name), "kind", light_kinds[l->kind], "intensity",
-                     json_number((double)l->intensity), "unit", light_unit(l), "color",
+                     json_text(l->name), "kind", traits.name, "intensity",
+                     json_number((double)l->intensity), "unit", traits.unit, "color",
                      make_vector(l->color), "position", make_vector(l->position), "direction",
                      make_vector(l->direction), "range", json_number((double)l->range),
-                     "inner_cone_degrees", make_angle(spot, l->inner_cone), "outer_cone_degrees",
-                     make_angle(spot, l->outer_cone), "size_degrees",
-                     make_angle(l->kind == ALP_LIGHT_DIRECTIONAL, l->size));
+                     "inner_cone_degrees", make_angle(traits.has_cone, l->inner_cone),
+                     "outer_cone_degrees", make_angle(traits.has_cone, l->outer_cone),
+                     "size_degrees", make_angle(traits.has_size, l->size));
 }
 
 static json_t *make_lights(const alp_scene *scene, uint32_t count)

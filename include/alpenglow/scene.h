@@ -89,6 +89,18 @@ typedef enum alp_light_kind {
     ALP_LIGHT_DIRECTIONAL = 2 ///< intensity in lux
 } alp_light_kind;
 
+/// Properties of a kind of light. Fields of alp_light_info that its kind does not have are unused.
+typedef struct alp_light_traits {
+    const char *name;   ///< "point", "spot", "directional"; static
+    const char *unit;   ///< of the intensity: "candela" or "lux"; static
+    bool has_position;  ///< and a range
+    bool has_direction; ///< along which its light travels
+    bool has_cone;      ///< inner and outer, about the direction
+    bool has_size;      ///< an angle that its disk fills in the sky
+} alp_light_traits;
+/// @param kind else than those of the enumeration: a zeroed struct with empty names
+ALP_API alp_light_traits alp_light_traits_of(alp_light_kind kind);
+
 /// A punctual light of the file.
 typedef struct alp_light_info {
     const char *name; ///< owned by the scene

@@ -21,23 +21,6 @@ alp_atlas_options alp_atlas_options_default(void)
                                .max_angle = (float)(ALPI_PI / 4.0)};
 }
 
-alp_result alpi_atlas_tick(alpi_atlas_clock *clock, const char *stage, uint64_t done,
-                           uint64_t total)
-{
-    if (clock->callback == NULL) {
-        return ALP_OK;
-    }
-    double now = alpi_seconds();
-    if (now - clock->last < 0.05) {
-        return ALP_OK;
-    }
-    clock->last = now;
-    alp_progress report = {.stage = stage, .done = done, .total = total, .seconds_left = -1.0};
-    return clock->callback(clock->user, &report)
-               ? ALP_OK
-               : alpi_fail(clock->context, ALP_ERROR_CANCELLED, "cancelled");
-}
-
 static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
 {
     if (o->block < 1 || o->block > ALPI_ATLAS_BLOCK_LIMIT) {

@@ -32,7 +32,8 @@ static double distance_to_scene(const alp_scene *scene, vec3 p)
 static alp_result look_at_strength(alp_diagnosis *d, uint32_t index)
 {
     const alpi_light *light = &d->scene->lights[index];
-    const bool sun = light->kind == ALPI_LIGHT_DIRECTIONAL;
+    const alp_light_traits traits = alp_light_traits_of(light->kind);
+    const bool sun = !traits.has_position;
     const double strength = (double)light->intensity * (double)largest(light->color);
     alpi_finding_facts facts = {.place = ALP_PLACE_LIGHT, .index = index, .value = strength};
     if (!(strength > 0.0)) {
@@ -41,8 +42,8 @@ static alp_result look_at_strength(alp_diagnosis *d, uint32_t index)
     }
     if (strength > (sun ? STRONGEST_SUN : STRONGEST_LAMP)) {
         facts.kind = ALP_FINDING_LIGHT_STRONG;
-        return alpi_diagnosis_add(d, facts, "%.3g %s, more than any %s", strength,
-                                  sun ? "lux" : "candela", sun ? "sun on Earth" : "usual lamp");
+        return alpi_diagnosis_add(d, facts, "%.3g %s, more than any %s", strength, traits.unit,
+                                  sun ? "sun on Earth" : "usual lamp");
     }
     return ALP_OK;
 }
@@ -50,7 +51,7 @@ static alp_result look_at_strength(alp_diagnosis *d, uint32_t index)
 static alp_result look_at_range(alp_diagnosis *d, uint32_t index)
 {
     const alpi_light *light = &d->scene->lights[index];
-    if (light->kind == ALPI_LIGHT_DIRECTIONAL || d->scene->usable_count == 0) {
+    if (!alp_light_traits_of(light->kind).has_position || d->scene->usable_count == 0) {
         return ALP_OK;
     }
     const double distance = distance_to_scene(d->scene, light->position);
@@ -115,7 +116,7 @@ static alp_result look_for_surface(alp_diagnosis *d, uint32_t index)
 {
     const alp_scene *scene = d->scene;
     const alpi_light *light = &scene->lights[index];
-    if (light->kind == ALPI_LIGHT_DIRECTIONAL || !(light->intensity > 0.0f) ||
+    if (!alp_light_traits_of(light->kind).has_position || !(light->intensity > 0.0f) ||
         (light->name != NULL && is_told(d, light->name))) {
         return ALP_OK;
     }

@@ -22,16 +22,6 @@ typedef struct development {
     double white;
 } development;
 
-alp_film_options alp_film_options_default(void)
-{
-    return (alp_film_options){.struct_size = sizeof(alp_film_options),
-                              .key = 0.18f,
-                              .meter_low = 0.05f,
-                              .meter_high = 0.95f,
-                              .tone = ALP_TONE_NONE,
-                              .kelvin = 6504.0f};
-}
-
 /// Linear light to values in [0, 1].
 static void expose(const development *d, const float rgba[4], double values[3])
 {

@@ -18,7 +18,6 @@ enum { BIN_COUNT = 1 << 15, BIN_SHIFT = 16 };
 
 /// Coloured light must not become a demand to amplify noise.
 static const double AUTO_BALANCE_LIMIT = 4.0;
-static const double EXPOSURE_LIMIT = 64.0;
 
 typedef struct meter_bin {
     uint64_t count;
@@ -129,56 +128,7 @@ alp_result alpi_film_balance(const alp_image *linear, const alp_film_options *op
 double alpi_film_exposure(const alp_film_options *options, double log2_luminance)
 {
     const double exposure = log2((double)options->key) - log2_luminance;
-    return fmin(fmax(exposure, -EXPOSURE_LIMIT), EXPOSURE_LIMIT);
-}
-
-static bool within(double value, double low, double high) // NaN is not
-{
-    return value >= low && value <= high;
-}
-
-static const char *find_fault(const alp_film_options *o)
-{
-    if (o->struct_size != sizeof *o) {
-        return "options are not from _default()";
-    }
-    if (!within(o->exposure, -EXPOSURE_LIMIT, EXPOSURE_LIMIT)) {
-        return "exposure must be -64 to 64";
-    }
-    if (!(o->key > 0.0f && o->key <= 1.0f)) {
-        return "key must be above 0, and 1 at most";
-    }
-    if (!(o->meter_low >= 0.0f && o->meter_low < o->meter_high && o->meter_high <= 1.0f)) {
-        return "meter_low and meter_high must be 0 to 1, low below high";
-    }
-    if (o->tone < ALP_TONE_FILM || o->tone > ALP_TONE_NONE) {
-        return "unknown tone curve";
-    }
-    // below, the filmic curve's white would be rounding
-    if (o->white_point != 0.0f && !(o->white_point >= 1e-6f)) {
-        return "white_point must be 0 (the curve's own) or 1e-6 and more";
-    }
-    if (o->white_balance < ALP_WHITE_BALANCE_OFF || o->white_balance > ALP_WHITE_BALANCE_AUTO) {
-        return "unknown white balance";
-    }
-    if (!within((double)o->kelvin, 1000.0, 25000.0)) {
-        return "kelvin must be 1000 to 25000";
-    }
-    return o->dither < ALP_DITHER_NONE || o->dither > ALP_DITHER_HASHED ? "unknown dithering"
-                                                                        : NULL;
-}
-
-alp_result alpi_film_check(const alp_image *linear, const alp_film_options *options)
-{
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if (linear == NULL) {
-        return code;
-    }
-    if (linear->info.component != ALP_COMPONENT_FLOAT) {
-        return alpi_fail(linear->context, code, "film: a linear float image is needed, not 8 bits");
-    }
-    const char *fault = options != NULL ? find_fault(options) : NULL;
-    return fault != NULL ? alpi_fail(linear->context, code, "film: %s", fault) : ALP_OK;
+    return fmin(fmax(exposure, -ALPI_EXPOSURE_LIMIT), ALPI_EXPOSURE_LIMIT);
 }
 
 alp_result alp_film_meter(const alp_image *linear, const alp_film_options *options,

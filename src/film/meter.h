@@ -6,6 +6,9 @@
 
 #include <alpenglow/film.h>
 
+/// Exposures lie in [−64, 64] EV.
+#define ALPI_EXPOSURE_LIMIT 64.0
+
 /// What a picture's light is like, over the pixels that alp_film_meter counts.
 typedef struct alpi_meter {
     uint64_t pixels;       // that count; 0: nothing else has a meaning

@@ -333,7 +333,7 @@ alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
     }
     const alpi_light *l = &scene->lights[index];
     info = (alp_light_info){.name = l->name,
-                            .kind = (alp_light_kind)l->kind,
+                            .kind = l->kind,
                             .intensity = l->intensity,
                             .range = l->range,
                             .inner_cone = l->inner_cone,

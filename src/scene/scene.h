@@ -69,17 +69,11 @@ typedef struct alpi_surface {
                             // All 0: the world's own
 } alpi_surface;
 
-typedef enum alpi_light_kind {
-    ALPI_LIGHT_POINT,
-    ALPI_LIGHT_SPOT,
-    ALPI_LIGHT_DIRECTIONAL
-} alpi_light_kind;
-
 typedef struct alpi_light {
     char *name;
-    alpi_light_kind kind;
+    alp_light_kind kind;
     vec3 color;                   // linear, unitless
-    float intensity;              // candela (point, spot) or lux (directional)
+    float intensity;              // candela or lux: alp_light_traits.unit
     vec3 position, direction;     // world; direction: where the light travels, unit
     float range;                  // metres, INFINITY = none
     float inner_cone, outer_cone; // radians, half-angles

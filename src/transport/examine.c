@@ -54,7 +54,7 @@ typedef struct examination {
 
 static bool is_lamp(const alpi_light *light)
 {
-    return light->kind != ALPI_LIGHT_DIRECTIONAL && light->intensity > 0.0f &&
+    return alp_light_traits_of(light->kind).has_position && light->intensity > 0.0f &&
            (light->color.x > 0.0f || light->color.y > 0.0f || light->color.z > 0.0f);
 }
 
@@ -76,7 +76,7 @@ static vec3 normal_of(const alp_scene *scene, uint32_t triangle)
 static bool aim(const examination *e, uint32_t light_index, uint32_t index, vec3 *direction)
 {
     const alpi_light *light = alpi_lighting_light(e->lighting, light_index);
-    const bool spot = light->kind == ALPI_LIGHT_SPOT;
+    const bool spot = alp_light_traits_of(light->kind).has_cone;
     const float edge = spot ? cosf(light->outer_cone) : -1.0f;
     const vec3 none = {0.0f, 0.0f, 0.0f};
     if (index >= RAYS_AROUND) {

@@ -78,7 +78,7 @@ TEST(a_lamp_over_a_patch)
 TEST(a_spot)
 {
     alpi_light spot = test_lamp((vec3){0, 2, 0}, 10.0f);
-    spot.kind = ALPI_LIGHT_SPOT;
+    spot.kind = ALP_LIGHT_SPOT;
     spot.direction = (vec3){0, -1, 0};
     spot.inner_cone = 0.3f;
     spot.outer_cone = 0.6f;
@@ -138,7 +138,7 @@ TEST(a_half_covered_sun)
 {
     // The roof covers x < 0, 3 m up; the floor at x sees the edge at atan(x/3) left of the zenith.
     const vec3 roof[4] = {{-9, 3, 9}, {0, 3, 9}, {0, 3, -9}, {-9, 3, -9}};
-    alpi_light sun = {.kind = ALPI_LIGHT_DIRECTIONAL,
+    alpi_light sun = {.kind = ALP_LIGHT_DIRECTIONAL,
                       .color = {1, 1, 1},
                       .intensity = 100.0f,
                       .direction = {0, -1, 0},

@@ -45,7 +45,7 @@ static test_patches make_patches(test_patch patches[PATCHES])
 
 static alpi_light make_sun(float size)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_DIRECTIONAL,
+    return (alpi_light){.kind = ALP_LIGHT_DIRECTIONAL,
                         .color = {1, 1, 0.5f},
                         .intensity = 3.0f,
                         .direction = {0.6f, -0.8f, 0},

@@ -116,7 +116,7 @@ TEST_WITH_CONTEXT(lamps_stand_between_file_and_sun, 1)
     alp_scene *scene = small_ground(context);
     scene->lights = ALPI_NEW(context, alpi_light, 1);
     assert_non_null(scene->lights);
-    scene->lights[0] = (alpi_light){.kind = ALPI_LIGHT_POINT,
+    scene->lights[0] = (alpi_light){.kind = ALP_LIGHT_POINT,
                                     .color = {1, 1, 1},
                                     .intensity = 3.0f,
                                     .position = {0, 1, 0},
@@ -132,7 +132,7 @@ TEST_WITH_CONTEXT(lamps_stand_between_file_and_sun, 1)
     ASSERT_NEAR(alpi_lighting_light(lighting, 0)->intensity, 3.0, 0.0);
     assert_string_equal(alpi_lighting_light(lighting, 1)->name, "lamp 0");
     assert_string_equal(alpi_lighting_light(lighting, 2)->name, "lamp 1");
-    assert_int_equal(alpi_lighting_light(lighting, 2)->kind, ALPI_LIGHT_SPOT);
+    assert_int_equal(alpi_lighting_light(lighting, 2)->kind, ALP_LIGHT_SPOT);
     ASSERT_NEAR(alpi_lighting_light(lighting, 2)->direction.y, -1.0, 1e-7);
     assert_string_equal(alpi_lighting_light(lighting, 3)->name, "sun");
     const double sum = 3.0 + 4.0 * 0.8 + spot_light(0.1) * cos(0.1) + 4.0 * sin(0.5);

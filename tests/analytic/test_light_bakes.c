@@ -200,7 +200,7 @@ TEST(a_solid_under_a_lamp)
     const alp_bake_options o = light_options(16);
     alp_scene *scene = make_solid();
     test_lit_set_lamps(scene,
-                       &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                       &(alpi_light){.kind = ALP_LIGHT_POINT,
                                      .color = {1, 1, 1},
                                      .intensity = 50.0f,
                                      .position = LAMP,

@@ -215,7 +215,7 @@ TEST(a_solid_under_a_lamp)
     alp_lightmap *lightmap = NULL;
     alp_bake_options o = light_options(16);
     o.light.bounces = 0;
-    const alpi_light lamp = {.kind = ALPI_LIGHT_POINT,
+    const alpi_light lamp = {.kind = ALP_LIGHT_POINT,
                              .color = {1, 1, 1},
                              .intensity = 50.0f,
                              .position = LAMP,

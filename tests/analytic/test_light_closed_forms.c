@@ -183,12 +183,12 @@ enum { LAMPS = 3 };
 /// A point, a spot that looks down −x, and a directional light.
 static void make_lamps(alpi_light lamps[LAMPS])
 {
-    lamps[0] = (alpi_light){.kind = ALPI_LIGHT_POINT,
+    lamps[0] = (alpi_light){.kind = ALP_LIGHT_POINT,
                             .color = {0.5f, 1.0f, 0.25f},
                             .intensity = 80.0f,
                             .position = {1.0f, 3.0f, -2.0f},
                             .range = INFINITY};
-    lamps[1] = (alpi_light){.kind = ALPI_LIGHT_SPOT,
+    lamps[1] = (alpi_light){.kind = ALP_LIGHT_SPOT,
                             .color = {0.5f, 1.0f, 0.25f},
                             .intensity = 200.0f,
                             .position = {4.0f, 0.0f, 0.0f},
@@ -196,7 +196,7 @@ static void make_lamps(alpi_light lamps[LAMPS])
                             .range = INFINITY,
                             .inner_cone = 0.2f,
                             .outer_cone = 0.5f};
-    lamps[2] = (alpi_light){.kind = ALPI_LIGHT_DIRECTIONAL,
+    lamps[2] = (alpi_light){.kind = ALP_LIGHT_DIRECTIONAL,
                             .color = {0.5f, 1.0f, 0.25f},
                             .intensity = 7.0f,
                             .direction = {0.0f, -1.0f, 0.0f},
@@ -214,10 +214,10 @@ static double lamp_irradiance(const alpi_light *l, vec3 point, vec3 normal)
     const double n[3] = {(double)normal.x, (double)normal.y, (double)normal.z};
     const double a[3] = {(double)l->direction.x, (double)l->direction.y, (double)l->direction.z};
     double cosine = (d[0] * n[0] + d[1] * n[1] + d[2] * n[2]) / r, ramp = 1.0;
-    if (l->kind == ALPI_LIGHT_DIRECTIONAL) {
+    if (l->kind == ALP_LIGHT_DIRECTIONAL) {
         return (double)l->intensity * fmax(-(a[0] * n[0] + a[1] * n[1] + a[2] * n[2]), 0.0);
     }
-    if (l->kind == ALPI_LIGHT_SPOT) {
+    if (l->kind == ALP_LIGHT_SPOT) {
         const double inner = cos((double)l->inner_cone), outer = cos((double)l->outer_cone);
         const double axis = -(d[0] * a[0] + d[1] * a[1] + d[2] * a[2]) / r;
         ramp = fmin(fmax((axis - outer) / (inner - outer), 0.0), 1.0);

@@ -139,7 +139,7 @@ TEST(a_lamp_in_a_sphere)
         const double rho = albedos[i], intensity = 2.0;
         alp_scene *scene = make_sphere(rho, 0);
         test_lit_set_lamps(scene,
-                           &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                           &(alpi_light){.kind = ALP_LIGHT_POINT,
                                          .color = {1, 1, 1},
                                          .intensity = (float)intensity,
                                          .range = INFINITY},
@@ -310,7 +310,7 @@ TEST(a_cube_with_a_glowing_ceiling)
 /// shadows, lit by its ceiling and by a lamp.
 TEST(the_mean_over_a_room_with_shadows)
 {
-    static const alpi_light lamp = {.kind = ALPI_LIGHT_POINT,
+    static const alpi_light lamp = {.kind = ALP_LIGHT_POINT,
                                     .color = {1, 1, 1},
                                     .intensity = 0.2f,
                                     .position = {0.8f, 0.4f, 0.3f},

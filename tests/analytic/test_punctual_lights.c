@@ -23,7 +23,7 @@ static alp_scene *light_scene(alp_context *context, const alpi_light *lights, ui
 
 static alpi_light lamp(vec3 position, float candela)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_POINT,
+    return (alpi_light){.kind = ALP_LIGHT_POINT,
                         .color = {1.0f, 0.5f, 0.0f},
                         .intensity = candela,
                         .position = position,
@@ -86,7 +86,7 @@ TEST(a_spot_fades_between_its_cones)
 {
     alp_context *context = test_context(1);
     alpi_light light = lamp((vec3){0, 2, 0}, 8.0f);
-    light.kind = ALPI_LIGHT_SPOT;
+    light.kind = ALP_LIGHT_SPOT;
     light.direction = (vec3){0, -1, 0};
     light.inner_cone = 0.3f;
     light.outer_cone = 0.6f;
@@ -114,7 +114,7 @@ TEST(a_spot_of_one_cone_has_an_edge)
 {
     alp_context *context = test_context(1);
     alpi_light light = lamp((vec3){0, 1, 0}, 1.0f);
-    light.kind = ALPI_LIGHT_SPOT;
+    light.kind = ALP_LIGHT_SPOT;
     light.direction = (vec3){0, -1, 0};
     light.inner_cone = light.outer_cone = (float)(ALPI_PI / 4.0);
     alp_scene *scene = light_scene(context, &light, 1);
@@ -190,11 +190,11 @@ TEST(a_sun_on_the_horizon_gives_its_upper_half)
 TEST(the_file_s_suns_get_a_size)
 {
     alp_context *context = test_context(1);
-    const alpi_light lights[2] = {{.kind = ALPI_LIGHT_DIRECTIONAL,
+    const alpi_light lights[2] = {{.kind = ALP_LIGHT_DIRECTIONAL,
                                    .color = {1, 1, 1},
                                    .intensity = 100.0f,
                                    .direction = {0, -1, 0}},
-                                  {.kind = ALPI_LIGHT_DIRECTIONAL,
+                                  {.kind = ALP_LIGHT_DIRECTIONAL,
                                    .color = {1, 1, 1},
                                    .intensity = 50.0f,
                                    .direction = {0, -1, 0}}};
@@ -229,13 +229,13 @@ TEST(many_lamps_add_up)
             lights[i] = lamp((vec3){8 * draw.u.x - 4, 6 * draw.pick - 1, 8 * draw.u.y - 4}, 1.0f);
             lights[i].intensity = i % 100 == 0 ? 50.0f : 1.0f;
             if (i % 3 == 0) {
-                lights[i].kind = ALPI_LIGHT_SPOT;
+                lights[i].kind = ALP_LIGHT_SPOT;
                 lights[i].direction = (vec3){0, -1, 0};
                 lights[i].inner_cone = 0.5f;
                 lights[i].outer_cone = 1.0f;
             }
         }
-        lights[1].kind = ALPI_LIGHT_DIRECTIONAL;
+        lights[1].kind = ALP_LIGHT_DIRECTIONAL;
         lights[1].direction = (vec3){0, -1, 0};
         alp_scene *scene = light_scene(context, lights, counts[k]);
         alpi_lighting *lighting = make(scene, context, NULL);

@@ -238,7 +238,7 @@ TEST(a_lamp_in_a_sphere)
         scene->materials[0].base_color[k] = (float)rho;
     }
     test_lit_set_lamps(scene,
-                       &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                       &(alpi_light){.kind = ALP_LIGHT_POINT,
                                      .color = {1, 1, 1},
                                      .intensity = (float)intensity,
                                      .range = INFINITY},

@@ -15,7 +15,7 @@ TEST_CONTEXT(2);
 static void put_lamp(alp_scene *scene, vec3 position)
 {
     test_lit_set_lamps(scene,
-                       &(alpi_light){.kind = ALPI_LIGHT_POINT,
+                       &(alpi_light){.kind = ALP_LIGHT_POINT,
                                      .color = ONE,
                                      .intensity = 1.0f,
                                      .position = position,

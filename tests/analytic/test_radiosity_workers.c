@@ -29,7 +29,7 @@ static alp_scene *make_room(alp_context *context, unsigned lamps)
     scene->materials[1].double_sided = true;
     for (uint32_t i = 0; i < 2; i++) {
         if (lamps >> i & 1u) {
-            lights[count++] = (alpi_light){.kind = ALPI_LIGHT_POINT,
+            lights[count++] = (alpi_light){.kind = ALP_LIGHT_POINT,
                                            .color = {1.0f, 0.5f, 0.25f},
                                            .intensity = (float)(i + 1),
                                            .position = PLACES[i],
@@ -126,7 +126,7 @@ TEST_WITH_CONTEXT(a_symmetric_room_has_a_symmetric_map, 2)
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
     test_lit_set_lamps(
         scene,
-        &(alpi_light){.kind = ALPI_LIGHT_POINT, .color = ONE, .intensity = 1.0f, .range = INFINITY},
+        &(alpi_light){.kind = ALP_LIGHT_POINT, .color = ONE, .intensity = 1.0f, .range = INFINITY},
         1);
     o.rays = 1024;
     o.size = 48;

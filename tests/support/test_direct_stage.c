@@ -111,7 +111,7 @@ test_patch test_point(vec3 position, vec3 normal)
 
 alpi_light test_lamp(vec3 position, float candela)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_POINT,
+    return (alpi_light){.kind = ALP_LIGHT_POINT,
                         .color = {1.0f, 0.5f, 0.25f},
                         .intensity = candela,
                         .position = position,

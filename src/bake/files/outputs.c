@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/formats.h"
+#include "transport/occlusion/falloff.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -183,12 +184,6 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 
 // --- what made it --------------------------------------------------------------------------------
 
-static const char *falloff_name(alp_falloff falloff)
-{
-    static const char *const names[] = {"none", "linear", "smooth", "exp"};
-    return names[falloff];
-}
-
 static const char *atlas_name(alp_atlas_mode mode)
 {
     return mode == ALP_ATLAS_KEEP     ? "keep"
@@ -317,7 +312,7 @@ char *alpi_bake_make_extras(const alpi_bake_job *job)
         "{s:s, s:s, s:{s:s, s:s, s:i, s:o, s:s, s:f, s:s, s:b, s:I, s:o, s:b, s:s, s:i, s:i, s:i}}",
         "version", alp_version(), "input_hash", hash, "occlusion", "quantity",
         "accessibility: 1 open, 0 closed", "unit", "1", "samples", (int)job->report.ao_samples,
-        "distance_m", distance_value(job), "falloff", falloff_name(ao->falloff), "cone_rad",
+        "distance_m", distance_value(job), "falloff", alpi_falloff_name(ao->falloff), "cone_rad",
         (double)ao->cone, "distribution",
         ao->distribution == ALP_DISTRIBUTION_COSINE ? "cosine" : "uniform", "one_sided",
         (int)ao->one_sided, "seed", (json_int_t)ao->seed, "stated_relative_error",

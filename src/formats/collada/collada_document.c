@@ -360,3 +360,13 @@ void alpi_collada_document_destroy(alpi_collada_document *d)
         alpi_release(context, owned[i]);
     }
 }
+
+alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity, size_t count,
+                             size_t size)
+{
+    void *grown = NULL;
+    memcpy(&grown, items, sizeof grown); // items points to a typed pointer
+    alp_result result = alpi_grow(context, &grown, capacity, count, size);
+    memcpy(items, &grown, sizeof grown);
+    return result;
+}

@@ -75,6 +75,10 @@ alp_result alpi_collada_file_read(const alpi_collada_document *document, const c
 alp_result alpi_collada_file_name(const alpi_collada_document *document, const char *uri,
                                   char **name);
 
+/// Makes room for one more item of an array. @param items points to a typed pointer
+alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity, size_t count,
+                             size_t size);
+
 // --- collada_scan.c ------------------------------------------------------------------------------
 
 /// Finds the spans of all elements, before the parser sees the text: depth and count are limited, a
@@ -105,6 +109,9 @@ const char *alpi_xml_attribute(const xmlNode *node, const char *name);
 const char *alpi_xml_text(const xmlNode *node);
 /// Text without the white space around it; released by the caller.
 char *alpi_xml_copy_text(alp_context *context, const xmlNode *node);
+
+/// A name for people: name="", else id="", else `fallback`. Released by the caller.
+char *alpi_collada_copy_name(alp_context *context, const xmlNode *node, const char *fallback);
 
 /// The element with that id, NULL when there is none (or no id).
 xmlNode *alpi_collada_find(const alpi_collada_document *document, const char *id);

@@ -8,10 +8,9 @@
 
 #include "base/memory.h"
 #include "formats/collada/collada_numbers.h"
+#include "scene/lights/light_kinds.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 // --- lights --------------------------------------------------------------------------------------
 
@@ -92,15 +91,25 @@ static alp_result read_cone(const alpi_collada_reader *reader, const xmlNode *el
     return ALP_OK;
 }
 
+/// The element that makes a <light> one of a kind; NULL without any.
+static const xmlNode *find_kind(const xmlNode *common, alp_light_kind *kind)
+{
+    for (int k = 0;; k++) {
+        const char *name = alp_light_traits_of((alp_light_kind)k).name;
+        const xmlNode *element = name[0] != '\0' ? alpi_xml_child(common, name) : NULL;
+        if (element != NULL || name[0] == '\0') {
+            *kind = (alp_light_kind)k;
+            return element;
+        }
+    }
+}
+
 static alp_result read_light(const alpi_collada_reader *reader, const alpi_collada_fixture *at,
                              double distance, alpi_light *light, bool *usable)
 {
-    static const char *const kinds[] = {"point", "spot", "directional"};
     const xmlNode *common = alpi_xml_child(at->target, "technique_common");
-    const xmlNode *element = NULL;
-    int kind = 0;
-    for (; kind < 3 && (element = alpi_xml_child(common, kinds[kind])) == NULL; kind++) {
-    }
+    alp_light_kind kind = ALP_LIGHT_POINT;
+    const xmlNode *element = find_kind(common, &kind);
     *usable = element != NULL;
     if (element == NULL) {
         char owner[ALPI_COLLADA_OWNER_SIZE];
@@ -111,21 +120,18 @@ static alp_result read_light(const alpi_collada_reader *reader, const alpi_colla
                       : "left out: it is not a point, spot or directional light");
         return ALP_OK;
     }
-    *light = (alpi_light){.kind = (alpi_light_kind)kind, .range = INFINITY};
+    const alp_light_traits traits = alp_light_traits_of(kind);
+    *light = (alpi_light){.kind = kind, .range = INFINITY};
     ALP_TRY(read_color(reader, element, light));
-    if (kind == ALPI_LIGHT_DIRECTIONAL) {
-        light->intensity = (float)ALPI_PI;
-    } else {
+    if (traits.has_position) {
         ALP_TRY(read_intensity(reader, element, distance, light));
+    } else {
+        light->intensity = (float)ALPI_PI;
     }
-    if (kind == ALPI_LIGHT_SPOT) {
+    if (traits.has_cone) {
         ALP_TRY(read_cone(reader, element, light));
     }
-    light->position = mat4_transform_point(&at->world, (vec3){0.0f, 0.0f, 0.0f});
-    light->direction = vec3_normalize_or(
-        mat4_transform_direction(&at->world, (vec3){0.0f, 0.0f, -1.0f}), (vec3){0.0f, 0.0f, 0.0f});
-    *usable = vec3_is_finite(light->position) &&
-              (kind == ALPI_LIGHT_POINT || vec3_length(light->direction) > 0.5f);
+    *usable = alpi_light_place(light, &at->world);
     if (*usable) {
         light->name = alpi_collada_copy_name(reader->context, at->target, "light");
     }

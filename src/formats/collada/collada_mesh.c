@@ -11,24 +11,6 @@
 
 enum { STRIDE_LIMIT = 256, INPUT_LIMIT = 64 };
 
-alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity, size_t count,
-                             size_t size)
-{
-    void *grown = NULL;
-    memcpy(&grown, items, sizeof grown); // items points to a typed pointer
-    alp_result result = alpi_grow(context, &grown, capacity, count, size);
-    memcpy(items, &grown, sizeof grown);
-    return result;
-}
-
-float alpi_collada_value(const alpi_collada_source *source, uint32_t i, uint32_t k)
-{
-    return k < source->components
-               ? source
-                     ->values[(size_t)source->first + (size_t)i * source->stride + source->place[k]]
-               : 0.0f;
-}
-
 // --- sources -------------------------------------------------------------------------------------
 
 /// Which numbers of an element are its components: those whose <param> has a name.

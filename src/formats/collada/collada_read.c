@@ -55,17 +55,6 @@ static void destroy_origin(alp_context *context, void *data)
     alpi_release(context, origin);
 }
 
-char *alpi_collada_copy_name(alp_context *context, const xmlNode *node, const char *fallback)
-{
-    const char *name = alpi_xml_attribute(node, "name"), *id = alpi_xml_attribute(node, "id");
-    name = name != NULL && name[0] != '\0' ? name : id != NULL && id[0] != '\0' ? id : fallback;
-    char *copy = alpi_copy_string(context, name);
-    for (char *c = copy; copy != NULL && *c != '\0'; c++) {
-        *c = (unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c;
-    }
-    return copy;
-}
-
 // --- sizes ---------------------------------------------------------------------------------------
 
 static uint32_t scene_vertex_count(const alpi_collada_part *part)

@@ -31,6 +31,15 @@ typedef struct alpi_collada_source {
     uint32_t components, place[4];
 } alpi_collada_source;
 
+/// Component k of element i, 0 where the source has none.
+static inline float alpi_collada_value(const alpi_collada_source *source, uint32_t i, uint32_t k)
+{
+    return k < source->components
+               ? source
+                     ->values[(size_t)source->first + (size_t)i * source->stride + source->place[k]]
+               : 0.0f;
+}
+
 /// What a corner of a primitive has an index of.
 typedef enum alpi_collada_key {
     ALPI_COLLADA_POSITION,
@@ -172,10 +181,6 @@ typedef struct alpi_collada_reader {
     const xmlNode *lost_set; // the first <bind_vertex_input> of a set that is not there
 } alpi_collada_reader;
 
-/// Makes room for one more item; the arrays of the reader grow so.
-alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity, size_t count,
-                             size_t size);
-
 /// The mesh of a <geometry>, read at its first use. ALPI_NONE: it is no mesh.
 alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry, uint32_t *mesh);
 /// The inputs of a primitive element, with their sources.
@@ -187,8 +192,6 @@ bool alpi_collada_is_primitive(const xmlNode *element);
 alp_result alpi_collada_read_faces(alpi_collada_reader *reader, xmlNode *element,
                                    const alpi_collada_inputs *inputs, alpi_collada_faces *faces);
 void alpi_collada_faces_destroy(alp_context *context, alpi_collada_faces *faces);
-/// Component k of element i, 0 where the source has none.
-float alpi_collada_value(const alpi_collada_source *source, uint32_t i, uint32_t k);
 
 /// Fills placements and fixtures.
 alp_result alpi_collada_read_nodes(alpi_collada_reader *reader);
@@ -227,8 +230,5 @@ alp_result alpi_collada_scene_from_document(alpi_collada_document *document, alp
 /// A reader of its own for a document; destroyed with alpi_collada_reader_destroy.
 alp_result alpi_collada_reader_create(alpi_collada_document *document, alpi_collada_reader *reader);
 void alpi_collada_reader_destroy(alpi_collada_reader *reader);
-
-/// A name for people: name="", else id="", else `fallback`. Released by the caller.
-char *alpi_collada_copy_name(alp_context *context, const xmlNode *node, const char *fallback);
 
 #endif

@@ -288,3 +288,14 @@ alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *ur
     alpi_release(d->context, path);
     return result;
 }
+
+char *alpi_collada_copy_name(alp_context *context, const xmlNode *node, const char *fallback)
+{
+    const char *name = alpi_xml_attribute(node, "name"), *id = alpi_xml_attribute(node, "id");
+    name = name != NULL && name[0] != '\0' ? name : id != NULL && id[0] != '\0' ? id : fallback;
+    char *copy = alpi_copy_string(context, name);
+    for (char *c = copy; copy != NULL && *c != '\0'; c++) {
+        *c = (unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c;
+    }
+    return copy;
+}

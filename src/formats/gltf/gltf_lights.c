@@ -5,22 +5,16 @@
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
+#include "scene/lights/light_kinds.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static alp_result read_kind(const alpi_gltf_reader *reader, json_t *object, const char *owner,
-                            alpi_light_kind *kind)
+                            alp_light_kind *kind)
 {
-    static const char *const names[] = {"point", "spot", "directional"};
-    static const alpi_light_kind kinds[] = {ALPI_LIGHT_POINT, ALPI_LIGHT_SPOT,
-                                            ALPI_LIGHT_DIRECTIONAL};
     const char *type = alpi_gltf_text(object, "type");
-    for (size_t i = 0; type != NULL && i < 3; i++) {
-        if (strcmp(type, names[i]) == 0) {
-            *kind = kinds[i];
-            return ALP_OK;
-        }
+    if (type != NULL && alpi_light_kind_named(type, kind)) {
+        return ALP_OK;
     }
     return alpi_gltf_fail(reader->document, owner, "type \"%.20s\" is unknown",
                           type != NULL ? type : "");
@@ -84,27 +78,17 @@ static alp_result read_strength(const alpi_gltf_reader *reader, json_t *object, 
     return ALP_OK;
 }
 
-/// *usable is false when the node's transform gives the light no place or direction.
 static alp_result read_light(const alpi_gltf_reader *reader, json_t *object, const char *owner,
-                             const mat4 *world, alpi_light *light)
+                             alpi_light *light)
 {
     *light = (alpi_light){0};
     ALP_TRY(read_kind(reader, object, owner, &light->kind));
     ALP_TRY(read_strength(reader, object, owner, light));
-    if (light->kind == ALPI_LIGHT_SPOT) {
+    if (alp_light_traits_of(light->kind).has_cone) {
         ALP_TRY(read_cone(reader, object, owner, light));
     }
-    light->position = mat4_transform_point(world, (vec3){0.0f, 0.0f, 0.0f});
-    light->direction = vec3_normalize_or(mat4_transform_direction(world, (vec3){0.0f, 0.0f, -1.0f}),
-                                         (vec3){0.0f, 0.0f, 0.0f});
     light->name = alpi_gltf_copy_name(reader->context, object);
     return light->name == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-}
-
-static bool light_is_placed(const alpi_light *light)
-{
-    return vec3_is_finite(light->position) &&
-           (light->kind == ALPI_LIGHT_POINT || vec3_length(light->direction) > 0.5f);
 }
 
 alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader)
@@ -131,8 +115,8 @@ alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader)
         }
         snprintf(owner, sizeof owner, "light %zu", index);
         alpi_light *light = &scene->lights[scene->light_count];
-        ALP_TRY(read_light(reader, object, owner, &reader->world[node], light));
-        if (light_is_placed(light)) {
+        ALP_TRY(read_light(reader, object, owner, light));
+        if (alpi_light_place(light, &reader->world[node])) {
             scene->light_count++;
         } else {
             alpi_warn(reader->context, "light", owner,

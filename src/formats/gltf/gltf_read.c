@@ -8,16 +8,6 @@
 #include "formats/formats.h"
 #include "formats/gltf/gltf_tree.h"
 
-char *alpi_gltf_copy_name(alp_context *context, json_t *object)
-{
-    const char *name = alpi_gltf_text(object, "name");
-    char *copy = alpi_copy_string(context, name != NULL ? name : "");
-    if (copy != NULL) {
-        alpi_gltf_clean(copy);
-    }
-    return copy;
-}
-
 static uint64_t hash_document(const alpi_gltf_document *document)
 {
     uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, document->file_bytes, document->file_size);

@@ -65,7 +65,4 @@ json_t *alpi_gltf_instancing(json_t *node);
 alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t node,
                                     alpi_gltf_instance **instances, uint32_t *count);
 
-/// object.name with control characters replaced; "" when there is none. Released by the caller.
-char *alpi_gltf_copy_name(alp_context *context, json_t *object);
-
 #endif

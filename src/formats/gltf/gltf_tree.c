@@ -2,6 +2,8 @@
 // Typed access to the JSON tree of a glTF asset: every index and number is checked here.
 #include "formats/gltf/gltf_tree.h"
 
+#include "base/memory.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -142,4 +144,14 @@ void alpi_gltf_clean(char *text)
 float alpi_gltf_float(double value)
 {
     return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
+}
+
+char *alpi_gltf_copy_name(alp_context *context, json_t *object)
+{
+    const char *name = alpi_gltf_text(object, "name");
+    char *copy = alpi_copy_string(context, name != NULL ? name : "");
+    if (copy != NULL) {
+        alpi_gltf_clean(copy);
+    }
+    return copy;
 }

@@ -40,6 +40,9 @@ json_t *alpi_gltf_extension(json_t *object, const char *name);
 /// Replaces control characters by '?': names from a file reach terminals.
 void alpi_gltf_clean(char *text);
 
+/// object.name with control characters replaced; "" when there is none. Released by the caller.
+char *alpi_gltf_copy_name(alp_context *context, json_t *object);
+
 /// Double to float without overflow: ±FLT_MAX at most.
 float alpi_gltf_float(double value);
 

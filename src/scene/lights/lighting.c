@@ -60,7 +60,7 @@ static alp_result sort_lights(alpi_lighting *lighting)
     }
     for (uint32_t i = 0; i < lighting->list.count; i++) {
         alpi_light *light = &lighting->list.lights[i];
-        bool disk = light->kind == ALPI_LIGHT_DIRECTIONAL && light->size >= ALPI_SUN_LEAST_SIZE;
+        bool disk = alp_light_traits_of(light->kind).has_size && light->size >= ALPI_SUN_LEAST_SIZE;
         light->size = disk ? light->size : 0.0f;
         if (!(light->intensity > 0.0f && is_lit(light->color))) {
             continue;

@@ -15,9 +15,9 @@ static bool is_strength(float value)
 /// A scene made by hand may hold what readers refuse.
 static bool light_is_sound(const alpi_light *light)
 {
-    bool aimed =
-        light->kind == ALPI_LIGHT_POINT || fabsf(vec3_length(light->direction) - 1) < 1e-3f;
-    bool placed = light->kind == ALPI_LIGHT_DIRECTIONAL || vec3_is_finite(light->position);
+    const alp_light_traits traits = alp_light_traits_of(light->kind);
+    bool aimed = !traits.has_direction || fabsf(vec3_length(light->direction) - 1) < 1e-3f;
+    bool placed = !traits.has_position || vec3_is_finite(light->position);
     return aimed && placed && is_strength(light->intensity) && is_strength(light->color.x) &&
            is_strength(light->color.y) && is_strength(light->color.z);
 }
@@ -33,7 +33,7 @@ static alp_result add_sun(alp_context *context, const alp_sun_options *sun, alpi
     }
     list->lights[list->count++] =
         (alpi_light){.name = list->sun_name,
-                     .kind = ALPI_LIGHT_DIRECTIONAL,
+                     .kind = ALP_LIGHT_DIRECTIONAL,
                      .color = vec3_load(sun->color),
                      .intensity = sun->illuminance,
                      .direction = vec3_scale(alpi_sun_direction(sun), -1.0f),
@@ -64,7 +64,7 @@ alp_result alpi_light_list_gather(const alp_scene *scene, const alp_lighting_opt
     for (uint32_t i = 0; i < scene->light_count; i++) {
         alpi_light *light = &list->lights[i];
         *light = scene->lights[i];
-        if (light->kind == ALPI_LIGHT_DIRECTIONAL && !(light->size > 0.0f)) {
+        if (alp_light_traits_of(light->kind).has_size && !(light->size > 0.0f)) {
             light->size = options->file_sun_size;
         }
         if (!light_is_sound(light)) {

@@ -54,7 +54,7 @@ static alp_result check_lamp(alp_context *context, uint32_t index, const alp_lam
 {
     const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
     const double limit = (double)ALPI_COORDINATE_LIMIT;
-    if (lamp->kind != ALP_LIGHT_POINT && lamp->kind != ALP_LIGHT_SPOT) {
+    if (!alp_light_traits_of(lamp->kind).has_position) {
         return alpi_fail(context, code,
                          "lamp %u: kind %d, need 0 (point) or 1 (spot); a directional light is "
                          "given as the sun",
@@ -74,7 +74,8 @@ static alp_result check_lamp(alp_context *context, uint32_t index, const alp_lam
         return alpi_fail(context, code, "lamp %u: intensity %g candela, need 0 to 1e20", index,
                          (double)lamp->intensity);
     }
-    return lamp->kind == ALP_LIGHT_SPOT ? check_spot(context, index, lamp) : ALP_OK;
+    return alp_light_traits_of(lamp->kind).has_direction ? check_spot(context, index, lamp)
+                                                         : ALP_OK;
 }
 
 static alp_result check_lamps(alp_context *context, const alp_lighting_options *o)
@@ -137,13 +138,12 @@ alp_result alpi_lighting_options_check(alp_context *context, const alp_lighting_
 alpi_light alpi_lamp_light(const alp_lamp *lamp, char *name)
 {
     alpi_light light = {.name = name,
-                        .kind = ALPI_LIGHT_POINT,
+                        .kind = lamp->kind,
                         .color = vec3_load(lamp->color),
                         .intensity = lamp->intensity,
                         .position = vec3_load(lamp->position),
                         .range = INFINITY};
-    if (lamp->kind == ALP_LIGHT_SPOT) {
-        light.kind = ALPI_LIGHT_SPOT;
+    if (alp_light_traits_of(lamp->kind).has_direction) {
         light.direction = double3_to_vec3(double3_unit(double3_from(vec3_load(lamp->direction))));
         light.inner_cone = lamp->inner_cone;
         light.outer_cone = lamp->outer_cone;

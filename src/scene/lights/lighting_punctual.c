@@ -30,7 +30,7 @@ static double range_window(double range, double distance)
 bool alpi_punctual_at(const alpi_light *light, vec3 point, alpi_punctual_light *at)
 {
     double strength = (double)light->intensity;
-    if (light->kind == ALPI_LIGHT_DIRECTIONAL) {
+    if (light->kind == ALP_LIGHT_DIRECTIONAL) {
         at->direction = vec3_scale(light->direction, -1.0f);
         at->distance = INFINITY;
     } else {
@@ -41,7 +41,7 @@ bool alpi_punctual_at(const alpi_light *light, vec3 point, alpi_punctual_light *
         at->distance = (float)distance;
         strength /= distance * distance;
         strength *= range_window((double)light->range, distance);
-        if (light->kind == ALPI_LIGHT_SPOT) {
+        if (light->kind == ALP_LIGHT_SPOT) {
             strength *= spot_falloff(light, -double3_dot(unit, double3_from(light->direction)));
         }
     }
@@ -67,7 +67,7 @@ static double irradiance(const alpi_light *light, vec3 point, vec3 normal)
 
 static alpi_light_bound bound_light(const alpi_light *light)
 {
-    bool spot = light->kind == ALPI_LIGHT_SPOT;
+    bool spot = light->kind == ALP_LIGHT_SPOT;
     double color = (double)light->color.x + (double)light->color.y + (double)light->color.z;
     return (alpi_light_bound){.low = light->position,
                               .high = light->position,
@@ -101,10 +101,10 @@ alp_result alpi_punctual_collect(alp_context *context, const alpi_light *lights,
     ALPI_TRY_NEW(context, punctual->placed, count);
     uint32_t places = 0;
     for (uint32_t i = 0; i < count; i++) {
-        places += lights[indices[i]].kind != ALPI_LIGHT_DIRECTIONAL;
+        places += alp_light_traits_of(lights[indices[i]].kind).has_position;
     }
     for (uint32_t i = 0; i < count; i++) {
-        if (places > LIST_LIMIT && lights[indices[i]].kind != ALPI_LIGHT_DIRECTIONAL) {
+        if (places > LIST_LIMIT && alp_light_traits_of(lights[indices[i]].kind).has_position) {
             punctual->placed[punctual->placed_count++] = indices[i];
         } else {
             punctual->list[punctual->listed++] = indices[i];

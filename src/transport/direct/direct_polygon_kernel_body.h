@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "scene/double3.h"
-#include "transport/occlusion/occlusion_aim.h"
+#include "transport/lane_loop.h"
 
 static inline uint32_t half_of(uint32_t sample)
 {

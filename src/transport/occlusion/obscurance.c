@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "transport/occlusion/obscurance.h"
 
+#include "transport/occlusion/falloff.h"
 #include "transport/occlusion/occlusion_aim.h"
 
-/// w(t): how much a hit at t = distance over limit, [0, 1], occludes.
-static float weight_of(alp_falloff falloff, float t)
-{
-    switch (falloff) {
-    case ALP_FALLOFF_LINEAR:
-        return 1.0f - t;
-    case ALP_FALLOFF_SMOOTH:
-        return (1.0f - t) * (1.0f - t) * (1.0f + 2.0f * t);
-    case ALP_FALLOFF_EXP: {
-        const float end = 0.018315638889f; // e^−4
-        return (expf(-4.0f * t) - end) / (1.0f - end);
-    }
-    case ALP_FALLOFF_NONE:
-    default:
-        return 1.0f;
-    }
-}
-
-/// What a hit reflects towards where the ray came from.
+/// The albedo of a hit on the side that its ray met: black behind a single-sided surface.
 static vec3 albedo_of(const alp_scene *scene, const alpi_hits *hits, const alpi_rays *rays,
                       int lane)
 {
@@ -50,7 +33,7 @@ static void add_hits(const alpi_occlusion_setup *setup, const alpi_rays *rays,
             tally->open[i]++;
         } else {
             const float t = fminf(hits->distance[i] / setup->distance, 1.0f);
-            const float w = weight_of(setup->falloff, t);
+            const float w = alpi_falloff_weight(setup->falloff, t);
             const vec3 albedo = albedo_of(setup->scene, hits, rays, i);
             color[0] = (1.0f - w) + w * albedo.x;
             color[1] = (1.0f - w) + w * albedo.y;

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "transport/occlusion/falloff.h"
 #include "transport/occlusion/occlusion_kernel.h"
 
 #include <math.h>
@@ -49,8 +50,7 @@ alp_result alpi_occlusion_check(const alp_scene *scene, const alp_occlusion_opti
         return alpi_fail(context, code, "occlusion: cone half-angle %g rad, need (0, pi/2]",
                          (double)o->cone);
     }
-    if ((int)o->falloff < ALP_FALLOFF_NONE || o->falloff > ALP_FALLOFF_EXP ||
-        (int)o->distribution < ALP_DISTRIBUTION_COSINE ||
+    if (alpi_falloff_name(o->falloff) == NULL || (int)o->distribution < ALP_DISTRIBUTION_COSINE ||
         o->distribution > ALP_DISTRIBUTION_UNIFORM) {
         return alpi_fail(context, code, "occlusion: unknown fall-off or distribution");
     }

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where the rays of eight points leave and in which directions: what the kernels that ask different
-// things of the same rays have in common. Every loop runs over the eight lanes and becomes a few
-// vector instructions (gcc -fopt-info-vec shows it).
+// Origins and directions of the rays of eight points, for both kernels: occlusion and obscurance
+// trace the same rays.
 #ifndef ALPI_TRANSPORT_OCCLUSION_AIM_H
 #define ALPI_TRANSPORT_OCCLUSION_AIM_H
 
+#include "transport/lane_loop.h"
 #include "transport/occlusion/occlusion_kernel.h"
 
 #include <math.h>
-
-// Unrolled by 8 first, a loop of 8 would no longer be seen as one.
-#ifdef __clang__ // finds them by itself, and warns when asked to in a build without optimisation
-#define ALPI_EACH_LANE for (int i = 0; i < ALPI_PACKET; i++)
-#else
-#define ALPI_EACH_LANE                                                                             \
-    _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int i = 0; i < ALPI_PACKET; i++)
-#endif
-
-static inline float alpi_lane_unit(uint32_t bits)
-{
-    return (float)(int32_t)(bits >> 8) * 0x1p-24f; // 24 bits: exact, and below 1
-}
 
 /// Where eight rays lie: in a packet, or in a half of a pair.
 typedef struct alpi_ray_lanes {

@@ -1,61 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Body of alpi_occlusion_kernel, included once for each instruction set. Every inner loop runs over
-// the eight lanes and becomes a few vector instructions (gcc -fopt-info-vec shows it).
-//
-// Fall-off without distances: the expectation of w(t) over hits is the chance that a ray of random
-// length R reaches its hit, where R has the survival function w: P(R > t) = w(t). So every ray is
-// only asked whether it is blocked, which for diverging rays costs half to a quarter of asking
-// where, and short rays cost less still.
+// Body of alpi_occlusion_kernel, included once for each instruction set. Rays of random length
+// replace the weights of the fall-off (falloff.h), so each ray is only tested for being blocked.
+#include "transport/occlusion/falloff.h"
 #include "transport/occlusion/occlusion_aim.h"
-
-/// t with 3t² − 2t³ = u, the inverse of smoothstep, to 5e-6: symmetric about ½, and analytic in √u
-/// below (a polynomial of least largest error for ½ − sin(asin(1 − 2u) / 3) over √u).
-static inline float inverse_smoothstep(float u)
-{
-    const float rest = 1.0f - u;                // exact
-    const float s = sqrtf(u < rest ? u : rest); // a minimum: else gcc does both ends of the curve
-    const float t =
-        s * (0.57698999f +
-             s * (0.11991628f +
-                  s * (-0.016986352f + s * (0.28287674f + s * (-0.39250040f + s * 0.29372040f)))));
-    return u < 0.5f ? t : 1.0f - t;
-}
-
-/// How far the rays reach: the limit, or a random length below it.
-static inline void limit(const alpi_occlusion_setup *setup, const alpi_sample_packet *samples,
-                         uint32_t shift, float *maximum)
-{
-    const float far = setup->distance;
-    switch (setup->falloff) {
-    case ALP_FALLOFF_LINEAR: // w = 1 − t
-        ALPI_EACH_LANE
-        {
-            maximum[i] = far * alpi_lane_unit(samples->w[i] ^ shift);
-        }
-        break;
-    case ALP_FALLOFF_SMOOTH: // w = (1 − t)² (1 + 2t) = 1 − smoothstep(t)
-        ALPI_EACH_LANE
-        {
-            maximum[i] = far * inverse_smoothstep(alpi_lane_unit(samples->w[i] ^ shift));
-        }
-        break;
-    case ALP_FALLOFF_EXP: // w = (e^(−4t) − e^(−4)) / (1 − e^(−4))
-        ALPI_EACH_LANE
-        {
-            const float end = 0.018315638889f; // e^−4
-            float open = 1.0f - alpi_lane_unit(samples->w[i] ^ shift);
-            maximum[i] = far * (-0.25f * logf(end + open * (1.0f - end)));
-        }
-        break;
-    case ALP_FALLOFF_NONE:
-    default:
-        ALPI_EACH_LANE
-        {
-            maximum[i] = far;
-        }
-        break;
-    }
-}
 
 /// Packet k of a batch of which the first `paired` are traced in pairs.
 static inline alpi_ray_lanes lanes_of(alpi_occlusion_stand *stand, uint32_t k, uint32_t paired)
@@ -180,7 +127,8 @@ static inline void make_packets(const alpi_occlusion_setup *setup,
         alpi_lanes_aim(setup, lanes, &packets[k], shift, &to);
     }
     for (uint32_t k = 0; k < packet_count; k++) {
-        limit(setup, &packets[k], shift[2], lanes_of(stand, first + k, paired).maximum);
+        alpi_falloff_ranges(setup->falloff, setup->distance, packets[k].w, shift[2],
+                            lanes_of(stand, first + k, paired).maximum);
     }
 }
 

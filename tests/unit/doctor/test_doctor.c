@@ -347,7 +347,7 @@ TEST_WITH_CONTEXT(materials_that_are_cut_away, 1)
 
 static alpi_light lamp(vec3 position, float intensity, float range)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_POINT,
+    return (alpi_light){.kind = ALP_LIGHT_POINT,
                         .color = {1.0f, 0.5f, 0.0f},
                         .intensity = intensity,
                         .position = position,
@@ -358,7 +358,7 @@ static alpi_light lamp(vec3 position, float intensity, float range)
 TEST(lights_that_do_nothing_or_too_much)
 {
     const vec3 above = {1.0f, 3.0f, -1.0f}, on = {1.5f, 0.0f, -1.0f}, beside = {5.0f, 0.0f, -1.0f};
-    const alpi_light sun = {.kind = ALPI_LIGHT_DIRECTIONAL,
+    const alpi_light sun = {.kind = ALP_LIGHT_DIRECTIONAL,
                             .color = {1.0f, 1.0f, 1.0f},
                             .intensity = 1e5f,
                             .direction = {0.0f, -1.0f, 0.0f}};

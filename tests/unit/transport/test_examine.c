@@ -64,7 +64,7 @@ static void set_lights(const setup *s, const alpi_light *lights, uint32_t count)
 
 static alpi_light lamp(float x, float y, float z)
 {
-    return (alpi_light){.kind = ALPI_LIGHT_POINT,
+    return (alpi_light){.kind = ALP_LIGHT_POINT,
                         .color = {1.0f, 1.0f, 1.0f},
                         .intensity = 1.0f,
                         .position = {x, y, z},
@@ -122,7 +122,7 @@ TEST(a_lamp_behind_the_walls_is_told)
     for (int i = 0; i < 3; i++) {
         alpi_light light = lamp(places[i].x, places[i].y, places[i].z);
         assert_non_null(strstr(told(&s, &light), "light-inside"));
-        light.kind = ALPI_LIGHT_DIRECTIONAL; // that has no place
+        light.kind = ALP_LIGHT_DIRECTIONAL; // that has no place
         light.direction = (vec3){0, -1, 0};
         assert_null(strstr(told(&s, &light), "light-inside"));
     }
@@ -135,7 +135,7 @@ TEST(a_spot_is_judged_by_its_cone)
     setup s = start_room(ALPI_FACE_ALL & ~(unsigned)ALPI_FACE_TOP);
     finish(&s);
     alpi_light spot = lamp(0.0f, -2.5f, 0.0f); // under the floor
-    spot.kind = ALPI_LIGHT_SPOT;
+    spot.kind = ALP_LIGHT_SPOT;
     spot.outer_cone = 0.5f;
     spot.direction = (vec3){0, 1, 0};
     assert_non_null(strstr(told(&s, &spot), "light-inside"));
@@ -154,7 +154,7 @@ TEST(a_spot_in_an_open_block)
     finish(&s);
     alpi_light spot = lamp(1.2f, 0.4f, 0.0f);
     assert_string_equal(told(&s, &spot), ""); // a bare bulb there shines over the rim
-    spot.kind = ALPI_LIGHT_SPOT;
+    spot.kind = ALP_LIGHT_SPOT;
     spot.outer_cone = 0.7f;
     spot.direction = (vec3){0, -1, 0};
     assert_non_null(strstr(told(&s, &spot), "light-inside"));

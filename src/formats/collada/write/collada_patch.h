@@ -124,6 +124,11 @@ void alpi_collada_own_sources(const alpi_collada_patcher *patcher, const xmlNode
 /// One past the highest set among an element's inputs that are not `own`.
 uint32_t alpi_collada_sets_end(const alpi_collada_patcher *patcher, const xmlNode *element,
                                const alpi_collada_own *own);
+/// The semantic that set k of a map is bound to. No <texture> names those after the first, which
+/// are blended, but a shader may.
+const char *alpi_collada_semantic(uint32_t k);
+/// Whether a semantic is one of these.
+bool alpi_collada_is_our_semantic(const char *semantic);
 /// Whether the document says that we wrote it.
 bool alpi_collada_was_baked(const alpi_collada_document *document);
 /// The first of `count` sets in a row, from `number` on, that nothing else than our maps reads
@@ -179,8 +184,6 @@ void alpi_collada_add_images(alpi_collada_patcher *patcher);
 
 // --- collada_patch_instance.c --------------------------------------------------------------------
 
-/// Whether a semantic is one that our maps are bound to.
-bool alpi_collada_is_our_semantic(const char *semantic);
 /// The whole text of a placement's instance as it is to be.
 alp_result alpi_collada_print_instance(alpi_collada_patcher *patcher, uint32_t placement,
                                        alpi_bytes *text);

@@ -82,6 +82,22 @@ static bool read_number(const alpi_collada_document *document, const xmlNode *no
     return alpi_collada_count(document, node, attribute, 0, 1 << 20, number) == ALP_OK;
 }
 
+const char *alpi_collada_semantic(uint32_t k)
+{
+    static const char *const semantics[ALPI_COLLADA_SETS] = {
+        ALPI_COLLADA_BAKED_UV, ALPI_COLLADA_BAKED_UV "_1", ALPI_COLLADA_BAKED_UV "_2"};
+    return semantics[k];
+}
+
+bool alpi_collada_is_our_semantic(const char *semantic)
+{
+    bool ours = false;
+    for (uint32_t k = 0; k < ALPI_COLLADA_SETS; k++) {
+        ours |= semantic != NULL && strcmp(semantic, alpi_collada_semantic(k)) == 0;
+    }
+    return ours;
+}
+
 /// Which sets something else than our maps reads; looked up once for all geometries.
 static void find_foreign_sets(alpi_collada_patcher *p)
 {

@@ -10,10 +10,6 @@
 
 // --- one instance --------------------------------------------------------------------------------
 
-// The further two of sets that are blended; no <texture> names them, but a shader may.
-static const char *const semantics[ALPI_COLLADA_SETS] = {
-    ALPI_COLLADA_BAKED_UV, ALPI_COLLADA_BAKED_UV "_1", ALPI_COLLADA_BAKED_UV "_2"};
-
 static void print_set(const alpi_collada_patcher *p, const alpi_collada_symbol *symbol,
                       alpi_bytes *text)
 {
@@ -22,17 +18,8 @@ static void print_set(const alpi_collada_patcher *p, const alpi_collada_symbol *
         alpi_bytes_print(text,
                          "<bind_vertex_input semantic=\"%s\" input_semantic=\"TEXCOORD\" "
                          "input_set=\"%u\"/>",
-                         semantics[k], symbol->input_set + k);
+                         alpi_collada_semantic(k), symbol->input_set + k);
     }
-}
-
-bool alpi_collada_is_our_semantic(const char *semantic)
-{
-    bool ours = false;
-    for (int k = 0; k < ALPI_COLLADA_SETS; k++) {
-        ours |= semantic != NULL && strcmp(semantic, semantics[k]) == 0;
-    }
-    return ours;
 }
 
 /// What an <instance_material> holds, without a set that an earlier bake bound.

@@ -351,9 +351,7 @@ static void add_camera(exporter *e, const alp_camera *camera)
 
 static void add_light(exporter *e, const alpi_light *light)
 {
-    static const char *const kinds[] = {[ALPI_LIGHT_POINT] = "point",
-                                        [ALPI_LIGHT_SPOT] = "spot",
-                                        [ALPI_LIGHT_DIRECTIONAL] = "directional"};
+    const alp_light_traits traits = alp_light_traits_of(light->kind);
     alpi_bytes *text = begin(e, NODES);
     alpi_bytes_print(text, "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":%zu}},",
                      e->counts[LIGHTS]);
@@ -363,7 +361,7 @@ static void add_light(exporter *e, const alpi_light *light)
     const float color[3] = {light->color.x, light->color.y, light->color.z};
     alpi_bytes_print(text, "{\"name\":");
     alpi_bytes_quote(text, light->name != NULL ? light->name : "");
-    alpi_bytes_print(text, ",\"type\":\"%s\",", kinds[light->kind]);
+    alpi_bytes_print(text, ",\"type\":\"%s\",", traits.name);
     print_numbers(text, "color", color, 3);
     alpi_bytes_print(text, ",");
     print_number(text, "intensity", light->intensity);
@@ -371,7 +369,7 @@ static void add_light(exporter *e, const alpi_light *light)
         alpi_bytes_print(text, ",");
         print_number(text, "range", light->range);
     }
-    if (light->kind == ALPI_LIGHT_SPOT) {
+    if (traits.has_cone) {
         alpi_bytes_print(text, ",\"spot\":{");
         print_number(text, "innerConeAngle", light->inner_cone);
         alpi_bytes_print(text, ",");

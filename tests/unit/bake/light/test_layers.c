@@ -206,7 +206,7 @@ TEST_WITH_CONTEXT(names_are_fit_for_files, 2)
     alpi_light lights[NAMED];
     for (int i = 0; i < NAMED; i++) {
         lights[i] = (alpi_light){.name = alpi_copy_string(context, names[i].light),
-                                 .kind = ALPI_LIGHT_POINT,
+                                 .kind = ALP_LIGHT_POINT,
                                  .color = {1.0f, 1.0f, 1.0f},
                                  .intensity = 1.0f,
                                  .position = {1.0f + 0.1f * (float)i, 1.0f, 1.0f},
@@ -285,7 +285,7 @@ TEST_WITH_CONTEXT(what_has_no_layers_is_refused, 1)
 TEST_WITH_CONTEXT(warnings_are_told_once, 1)
 {
     alp_scene *scene = test_load(context, "builtin:sphere-plane");
-    alpi_light lamp = {.kind = ALPI_LIGHT_POINT, .intensity = -1.0f};
+    alpi_light lamp = {.kind = ALP_LIGHT_POINT, .intensity = -1.0f};
     test_lit_set_lamps(scene, &lamp, 1);
     const alp_image_info info = {8, 4, 3, ALP_COMPONENT_FLOAT};
     alp_image *picture = NULL;

@@ -357,7 +357,7 @@ static alpi_light read_light(const char *inside)
 TEST_WITH_CONTEXT(lights, 1)
 {
     alpi_light light = read_light(LIGHT("<directional><color>1 0.5 0</color></directional>"));
-    assert_int_equal(light.kind, ALPI_LIGHT_DIRECTIONAL);
+    assert_int_equal(light.kind, ALP_LIGHT_DIRECTIONAL);
     ASSERT_NEAR(light.intensity, ALPI_PI, 1e-6);
     ASSERT_NEAR(light.color.y, 0.5, 0.0);
     ASSERT_NEAR(light.direction.z, -1.0, 0.0);

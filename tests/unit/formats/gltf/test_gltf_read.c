@@ -378,7 +378,7 @@ TEST_WITH_CONTEXT(lights, 1)
                       "{'extensions':{'KHR_lights_punctual':{'light':4}},'scale':[2,0.5,-7]}]");
     assert_int_equal(scene->light_count, 5);
     const alpi_light *light = scene->lights;
-    assert_int_equal(light[0].kind, ALPI_LIGHT_POINT);
+    assert_int_equal(light[0].kind, ALP_LIGHT_POINT);
     for (uint32_t i = 0; i < 5; i++) { // the public view
         const alp_light_info told = alp_scene_get_light(scene, i);
         assert_int_equal(told.kind, light[i].kind);
@@ -387,19 +387,25 @@ TEST_WITH_CONTEXT(lights, 1)
                     told.position[0] == light[i].position.x);
     }
     assert_string_equal(alp_scene_get_light(scene, 5).name, "");
+    const alp_light_traits spot = alp_light_traits_of(light[1].kind);
+    assert_string_equal(spot.name, "spot");
+    assert_string_equal(spot.unit, "candela");
+    assert_true(spot.has_position && spot.has_direction && spot.has_cone && !spot.has_size);
+    assert_string_equal(alp_light_traits_of((alp_light_kind)3).name, "");
+    assert_string_equal(alp_light_traits_of((alp_light_kind)-1).unit, "");
     assert_string_equal(light[0].name, "p");
     assert_vec3(light[0].position, 3, 5, 0);
     ASSERT_NEAR(light[0].intensity, 40, 0);
     ASSERT_NEAR(light[0].color.y, 0.5, 0);
     ASSERT_NEAR(light[0].range, 7, 0);
-    assert_int_equal(light[1].kind, ALPI_LIGHT_SPOT);
+    assert_int_equal(light[1].kind, ALP_LIGHT_SPOT);
     ASSERT_NEAR(light[1].inner_cone, 0.3, 1e-6);
     ASSERT_NEAR(light[1].outer_cone, 0.6, 1e-6);
     assert_true(isinf(light[1].range));
     assert_vec3(light[1].direction, 0, 1, 0);
     ASSERT_NEAR(light[2].inner_cone, 0.5, 1e-6); // was wider than the outer one
     assert_true(test_log_has("light"));
-    assert_int_equal(light[3].kind, ALPI_LIGHT_DIRECTIONAL);
+    assert_int_equal(light[3].kind, ALP_LIGHT_DIRECTIONAL);
     ASSERT_NEAR(light[3].intensity, 1, 0);
     assert_vec3(light[3].direction, 0, 1, 0);
     assert_vec3(light[4].direction, 0, 0, 1);

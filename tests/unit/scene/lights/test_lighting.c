@@ -57,7 +57,7 @@ static stage start_all(void)
     s.scene = test_emitter_scene(s.context, TRIANGLES, 3, (vec3){2, 1, 3});
     s.scene->materials[0].double_sided = true;
     s.scene->lights = ALPI_NEW(s.context, alpi_light, 1);
-    s.scene->lights[0] = (alpi_light){.kind = ALPI_LIGHT_POINT,
+    s.scene->lights[0] = (alpi_light){.kind = ALP_LIGHT_POINT,
                                       .color = {1, 1, 1},
                                       .intensity = 3.0f,
                                       .position = {0, 2, 1},
@@ -293,8 +293,8 @@ TEST(hostile_lamps)
     bad[1].intensity = -5.0f;
     bad[2].color.y = INFINITY;
     bad[3].position.x = NAN;
-    bad[4].kind = ALPI_LIGHT_SPOT; // no direction
-    bad[5].kind = ALPI_LIGHT_DIRECTIONAL;
+    bad[4].kind = ALP_LIGHT_SPOT; // no direction
+    bad[5].kind = ALP_LIGHT_DIRECTIONAL;
     for (int i = 0; i < 6; i++) {
         alpi_lighting *lighting;
         s.scene->lights[0] = bad[i];
