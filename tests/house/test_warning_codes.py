@@ -26,17 +26,17 @@ def main():
     assert list(codes_of("a", 'alpi_warn(\n  c->d, "e-f", g, "h")')) == [("e-f", "a:1")]
     assert list(codes_of("a", "alpi_warn(c, code, g)")) == [(None, "a:1")]
     words = set(re.findall(r'ALP_SEVERITY_\w+,\s*"([a-z0-9-]+)"',
-                           (root / "src/bake/doctor_words.c").read_text(encoding="utf-8")))
+                           (root / "src/doctor/doctor_words.c").read_text(encoding="utf-8")))
     found, used = [], set()
     for room in ("formats", "scene"):
-        for path in sorted((root / "src" / room).glob("*.c*")):
+        for path in sorted((root / "src" / room).rglob("*.c*")):
             for code, place in codes_of(path.relative_to(root),
                                         path.read_text(encoding="utf-8")):
                 used.add(code)
                 if code is None:
                     found.append(f"{place}: the code is no literal, so that nobody can look for it")
                 elif code not in words and code not in NOT_READERS:
-                    found.append(f"{place}: \"{code}\" has no words in src/bake/doctor_words.c")
+                    found.append(f"{place}: \"{code}\" has no words in src/doctor/doctor_words.c")
     found += [f"\"{code}\" of this test is told nowhere" for code in sorted(NOT_READERS - used)]
     found += [f"\"{code}\" has words, and is no writer's" for code in sorted(NOT_READERS & words)]
     if len(used) < 30:
