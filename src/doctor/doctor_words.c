@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the doctor says of each kind of finding: how grave it is, what will be seen, what to do.
-// docs/manual/doctor.md holds the same for people to read; a test compares the two.
-#include "doctor/doctor.h"
+// The words for each kind of finding: severity, visible effect, advice. docs/manual/doctor.md holds the
+// same for people to read; a test compares the two.
+#include "doctor/doctor_words.h"
 
 #include <string.h>
 

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "doctor/doctor.h"
+#include "doctor/doctor_words.h"
 
 #include <math.h>
 #include <stdio.h>
