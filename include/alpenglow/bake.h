@@ -360,23 +360,22 @@ typedef struct alp_bake_report {
     uint64_t peak_memory_bytes; ///< of our own allocations
 } alp_bake_report;
 
-/// What a bake will take.
+/// What a bake will take, about.
 typedef struct alp_bake_work {
-    uint64_t texels; ///< by areas: charts are not made
+    uint64_t texels; ///< from areas: charts are not made
+    /// Rays of the bake. With an error to reach they are those of the first round: how many more
+    /// rounds follow depends on the scene.
     uint64_t rays;
-    uint64_t bytes; ///< of our own allocations, the scene and the tracer's structure apart
-    double seconds; ///< on this machine as busy as it is
+    bool rays_at_least; ///< an error is to be reached, so that `rays` are the least
+    uint64_t bytes;     ///< of our own allocations, the scene and the tracer's structure apart
 } alp_bake_work;
 
-/// Estimates the work of a bake before it: a guess, mostly within ±50 %, and what errs by more is
-/// known (docs/conventions.md, "Limits and estimates"); all 0 with ALP_ATLAS_VERTEX or where there
-/// is nothing to bake. Lights 128 points, for light, and shades 2,048, for occlusion; makes the
-/// tracer, which the bake takes over unless surfaces are chosen to occlude. What there is to warn
-/// of in lights and sky, the bake tells.
-/// @param options NULL = default; `maps_folder` is not looked at
+/// Estimates the work of a bake from areas and options alone, within milliseconds; rays within a
+/// factor of three, mostly. All is 0 with ALP_ATLAS_VERTEX and where there is nothing to bake. Time
+/// is not estimated: alp_progress.seconds_left tells it once rays are traced.
+/// @param options NULL = default; `maps_folder` is not read
 /// @return ALP_OK; INVALID_ARGUMENT (an option of occlusion out of its range, a pattern without a
-///         match); OUT_OF_MEMORY; CANCELLED; UNSUPPORTED (the ray tracer does not start); what
-///         alp_bake says of an `output` that cannot be written
+///         match); OUT_OF_MEMORY; for an `output` that cannot be written, the error of alp_bake
 ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
                                                    const alp_bake_options *options,
                                                    alp_bake_work *work);

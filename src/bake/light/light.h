@@ -68,9 +68,6 @@ uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t t
 /// to the texels for an error.
 /// @param error over the mean, > 0
 uint32_t alpi_light_least_block_rays(double error, uint64_t texels, const alpi_trial_light *light);
-/// Rays that a block sends about, those of a trial that finds `light` included.
-uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
-                                    const alpi_trial_light *light);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
 

@@ -149,17 +149,6 @@ uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t t
     return most + (is_tried(options, most) ? TRIAL_RAYS : 0);
 }
 
-uint32_t alpi_light_sent_block_rays(const alp_light_options *options, uint64_t texels,
-                                    const alpi_trial_light *light)
-{
-    const uint32_t most = alpi_light_block_rays(options, texels);
-    if (!is_tried(options, most)) {
-        return most;
-    }
-    const uint32_t rays = alpi_light_least_block_rays((double)options->error, texels, light);
-    return rays < most ? rays : most;
-}
-
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
     double error;         // that is wanted

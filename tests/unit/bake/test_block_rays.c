@@ -61,27 +61,6 @@ static void few_blocks_send_more(void **state)
     assert_true(rays < 1024);
 }
 
-/// What is sent is at most what would be without a trial, whose own rays are the first of them.
-static void trials_are_counted(void **state)
-{
-    (void)state;
-    alp_light_options o = alp_bake_options_default().light;
-    const alpi_trial_light dark = {.blocks = 2162};
-    o.error = 0.0055f;
-    const uint32_t most = alpi_light_block_rays(&o, 28684);
-    assert_int_equal(most, 256);
-    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &SPHERE), 64);
-    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &dark), 16);
-    o.error = 1e-3f; // as many as there may be
-    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &BOX), 1024);
-    o.error = 0.01f; // too few for a trial
-    assert_int_equal(alpi_light_sent_block_rays(&o, 100000, &dark),
-                     alpi_light_block_rays(&o, 100000));
-    o.gather = ALP_GATHER_HEMICUBE;
-    assert_int_equal(alpi_light_sent_block_rays(&o, 28684, &dark),
-                     alpi_light_block_rays(&o, 28684));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -89,7 +68,6 @@ int main(void)
         cmocka_unit_test(rays_are_fewer_where_less_bounces),
         cmocka_unit_test(rays_are_more_for_less_error),
         cmocka_unit_test(few_blocks_send_more),
-        cmocka_unit_test(trials_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
