@@ -73,11 +73,9 @@ typedef struct default_work {
     alp_bake_work ao, light;
 } default_work;
 
-static alp_result estimate_work(session *s, default_work *work)
+static alp_result estimate_work(const session *s, default_work *work)
 {
     alp_bake_options options = alp_bake_options_default();
-    options.progress = session_progress;
-    options.progress_user = s;
     const alp_result result = alp_bake_estimate(s->scene, &options, &work->ao);
     options.maps = ALP_MAP_LIGHT;
     options.light.error = 0.01f;

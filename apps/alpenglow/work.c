@@ -22,18 +22,13 @@ void work_print(FILE *stream, const alp_bake_work *work)
 {
     fputs("about ", stream);
     print_count(stream, two_digits((double)work->texels));
-    fprintf(stream, " texels, %g Mrays, %.0f MiB, ", two_digits(1e-6 * (double)work->rays),
-            ceil(two_digits((double)work->bytes / 0x1p20)));
-    if (work->seconds < 1.0) {
-        fputs("under 1 s\n", stream);
-    } else {
-        fprintf(stream, "%g s\n", two_digits(work->seconds));
-    }
+    fprintf(stream, " texels, %g Mrays%s, %.0f MiB\n", two_digits(1e-6 * (double)work->rays),
+            work->rays_at_least ? " or more" : "", ceil(two_digits((double)work->bytes / 0x1p20)));
 }
 
 json_t *work_json(const alp_bake_work *work)
 {
-    return json_pack("{s:I, s:I, s:I, s:o}", "texels", (json_int_t)work->texels, "rays",
-                     (json_int_t)work->rays, "bytes", (json_int_t)work->bytes, "seconds",
-                     json_number(work->seconds));
+    return json_pack("{s:I, s:I, s:b, s:I}", "texels", (json_int_t)work->texels, "rays",
+                     (json_int_t)work->rays, "rays_at_least", (int)work->rays_at_least, "bytes",
+                     (json_int_t)work->bytes);
 }

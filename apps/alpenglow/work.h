@@ -8,9 +8,9 @@
 #include <jansson.h>
 #include <stdio.h>
 
-/// "about 47,000 texels, 12 Mrays, 40 MiB, 1 s"
+/// "about 47,000 texels, 12 Mrays or more, 40 MiB"
 void work_print(FILE *stream, const alp_bake_work *work);
-/// {"texels", "rays", "bytes", "seconds"}
+/// {"texels", "rays", "rays_at_least", "bytes"}
 json_t *work_json(const alp_bake_work *work);
 
 #endif

@@ -358,20 +358,19 @@ typedef struct alp_bake_report {
 /// Work of a bake, estimated before it.
 typedef struct alp_bake_work {
     uint64_t texels; ///< from areas, without making charts
+    /// Rays of the bake. With an error to reach they are those of the first round: the scene decides
+    /// how many further rounds follow.
     uint64_t rays;
-    uint64_t bytes; ///< our own allocations, without the scene and the tracer's structure
-    double seconds; ///< on this machine at its present load
+    bool rays_at_least; ///< an error is to be reached, so that `rays` are the least
+    uint64_t bytes;     ///< our own allocations, without the scene and the tracer's structure
 } alp_bake_work;
 
-/// Estimates the work of a bake, mostly within ±50 %. Known larger errors: docs/manual/bake.md,
-/// "When a bake stops". All fields are 0 with ALP_ATLAS_VERTEX, or if nothing can be baked. It
-/// gives no warnings of lights and sky; the bake does.
+/// Estimates the work of a bake from areas and options, within milliseconds. Rays are mostly within
+/// a factor of three. All fields are 0 with ALP_ATLAS_VERTEX, or if nothing can be baked. Time is
+/// not estimated: alp_progress.seconds_left has it once rays are traced.
 /// @param options NULL = defaults; `maps_folder` is ignored
 /// @return ALP_OK; INVALID_ARGUMENT (an option of occlusion out of its range, a pattern without a
-///         match); OUT_OF_MEMORY; CANCELLED; UNSUPPORTED (the ray tracer does not start); the
-///         errors of alp_bake for an `output` that cannot be written
-/// Cost: for light, the lighting of 128 points; for occlusion, the shading of 2,048 points; the
-/// acceleration structure, which the bake reuses unless it chooses occluders.
+///         match); OUT_OF_MEMORY; the errors of alp_bake for an `output` that cannot be written
 ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
                                                    const alp_bake_options *options,
                                                    alp_bake_work *work);

@@ -1,43 +1,42 @@
 // SPDX-License-Identifier: MIT
-// What a bake will take, told before it: texels by areas, rays and seconds by a few points that are
-// lit as the texels will be.
-#include "bake/estimate/pilot.h"
+// What a bake will take, from areas and options alone: no ray is traced for it.
 #include "bake/layers.h"
 #include "bake/light/light.h"
-#include "bake/light/light_plan.h"
 
 #include "atlas/factors.h"
 #include "base/memory.h"
+#include "transport/direct/direct.h"
 
 #include <math.h>
 
-enum { MOST_RAYS = 65536, MOST_FIRST_RAYS = 1024 }; // of a texel; and for an error in one round
-// Measured on the truth table (docs/manual/bake.md, "When a bake stops").
+// Rays of a texel in the first round for an error, about. Later rounds depend on the scene.
+enum { FIRST_RAYS = 64, TEXELS_PER_BLOCK = 5 };
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
-// Of texels that gather, others are interpolated: the lattice, and what lies along edges, whose
-// share falls with the side of a map.
-static const double LATTICE_SHARE = 1.0 / 16.0;
-static const double EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0; // × √texels: of occlusion, of light
-static const double BOUNCED_OVER_PATHS = 0.46;   // error of 64 rays of a texel, over that of paths
-static const double BOUNCED_POWER = 1.38;        // of what is asked less, that rays grow with
-static const double ALL_OVER_DIRECT = 1.5;       // mean of all light over that of direct light
-static const double OCCLUSION_POWER = 1.0 / 0.7; // the same of occlusion
-static const double ERROR_OVER_POINTS = 1.3;     // of occlusion, of texels over that of points
-// Where there is a triangle for each texel charts leave more gaps, and errors and what is traced
-// grow, by this.
-static const double LOST_TO_GAPS = 0.3, ERROR_OF_DETAIL = 1.5, TRACED_OF_DETAIL = 1.0;
-static const double NEAR_OF_DETAIL = 1.5;    // of a ray's time: more texels have surfaces near
-static const double PROBE_SHARE = 1.0 / 8.0; // of traced texels' rays, to state the error
-// Seconds of what is not rays: with charts, by triangles and texels; by pixels of a map.
-static const double ATLAS_SECONDS = 0.05, TRIANGLE_SECONDS = 14e-6, TEXEL_SECONDS = 0.6e-6;
-static const double KEPT_TRIANGLE_SECONDS = 1e-6, SEAM_SECONDS = 8e-6; // by triangles
-static const double PIXEL_SECONDS = 0.6e-6;
-static const double LIT_SECONDS = 2e-6, SHADED_SECONDS = 0.5e-6; // of a texel, besides its rays
+// Of n texels the lattice traces LATTICE_SHARE × n; along edges further texels are traced, × √n.
+static const double LATTICE_SHARE = 1.0 / 16.0, EDGE_TEXELS = 50.0, LIT_EDGE_TEXELS = 25.0;
+// Samples of a light that trace a ray: the others aim below the horizon of their texel.
+static const double SHADOW_SHARE = 0.5;
 
 // --- texels --------------------------------------------------------------------------------------
 
-/// Share of the unit square of the second coordinates that a triangle takes.
+/// Whether the maps of a bake have texels of their own for a triangle.
+static bool is_chosen(const alpi_bake_job *job, uint32_t triangle)
+{
+    const alp_scene *s = job->scene;
+    const uint32_t surface = s->triangle_surface[triangle];
+    return s->triangle_usable[triangle] && (job->only == NULL || job->only[surface]) &&
+           (job->originals == NULL || job->originals[surface] == surface);
+}
+
+static double area_of(const alp_scene *scene, uint32_t triangle)
+{
+    vec3 c[3];
+    alpi_triangle_corners(scene, triangle, c);
+    return vec3_triangle_area(c[0], c[1], c[2]);
+}
+
+/// Share of the unit square that a triangle takes in the second UV set.
 static double uv_area_of(const alp_scene *s, uint32_t triangle)
 {
     const uint32_t *v = s->triangles[triangle];
@@ -49,183 +48,98 @@ static double uv_area_of(const alp_scene *s, uint32_t triangle)
     return 0.5 * fabs(a[0] * b[1] - a[1] * b[0]);
 }
 
-/// What is known of a bake before it.
-typedef struct work_guess {
-    const alp_bake_options *options;
-    alpi_pilot pilot;
-    double area;   // of the surfaces, m²
-    double texels; // at least 1
-    double detail; // triangles in the area of a texel, at most 1
-    uint32_t triangles;
-} work_guess;
-
-/// Of any number: 2^62 at most, which no bake comes near; 0 of what is none.
+/// A number as a count: at most 2^62, which no bake comes near; 0 for NaN.
 static uint64_t to_count(double number)
 {
     return (uint64_t)fmin(fmax(number, 0.0), 0x1p62);
 }
 
-static bool keeps(const alp_bake_options *o, const alp_scene *s)
-{
-    return s->uvs[1] != NULL && alpi_atlas_may_keep(&o->atlas);
-}
-
-/// An atlas as it will about be. Whether it keeps a second set of coordinates is not looked at:
-/// where there is one for all of the page, it is taken to.
-static alp_atlas_info guess_atlas(const alpi_bake_job *job, work_guess *g)
+/// Guesses the atlas. A second UV set is taken as kept where the options allow that; whether it is
+/// valid is not examined.
+static alp_atlas_info guess_atlas(const alpi_bake_job *job)
 {
     const alp_atlas_options *o = &job->options.atlas;
     const alp_scene *s = job->scene;
-    double uv_area = 0.0;
+    double area = 0.0, uv_area = 0.0;
+    uint32_t triangles = 0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        if (alpi_pilot_is_chosen(job, t)) {
-            g->area += alpi_pilot_area(s, t);
+        if (is_chosen(job, t)) {
+            area += area_of(s, t);
             uv_area += s->uvs[1] != NULL ? uv_area_of(s, t) : 0.0;
-            g->triangles++;
+            triangles++;
         }
     }
-    const double page = (double)o->size * o->size;
-    const bool keep = keeps(&job->options, s), fits = o->texels_per_metre == 0.0;
+    const double page = (double)o->size * o->size, density = o->texels_per_metre;
+    const bool keep = s->uvs[1] != NULL && alpi_atlas_may_keep(o), fits = density == 0.0;
     const double texels = keep   ? fmin(uv_area, 1.0) * page
                           : fits ? PAGE_SHARE * page
-                                 : g->area * o->texels_per_metre * o->texels_per_metre;
-    g->detail = fmin(g->triangles / fmax(texels, 1.0), 1.0);
-    g->texels = fmax(texels * (keep || !fits ? 1.0 : 1.0 - LOST_TO_GAPS * g->detail), 1.0);
-    alp_atlas_info info = {.width = o->size, .height = o->size, .pages = 1};
+                                 : area * density * density;
     const double pages = keep || fits ? 1.0 : ceil(texels / (PAGE_SHARE * fmax(page, 1.0)));
-    info.texels = to_count(g->texels);
-    info.charts = (uint32_t)fmin(texels / TEXELS_PER_CHART + 1.0, g->triangles);
-    info.pages = (uint32_t)fmin(fmax(pages, 1.0), 65536.0);
-    return info;
+    return (alp_atlas_info){.width = o->size,
+                            .height = o->size,
+                            .pages = (uint32_t)fmin(fmax(pages, 1.0), 65536.0),
+                            .charts = (uint32_t)fmin(texels / TEXELS_PER_CHART + 1.0, triangles),
+                            .texels = to_count(fmax(texels, 1.0))};
 }
 
 // --- rays ----------------------------------------------------------------------------------------
 
-/// Samples of a texel with a variance, known by ALPI_PILOT_DIRECT_SAMPLES.
-static double deal_samples(double variance, double scale)
+/// Texels that trace rays; the others are interpolated.
+static double count_traced(const alp_bake_options *o, double texels, double edge_texels)
 {
-    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER, had = ALPI_PILOT_DIRECT_SAMPLES;
-    const double all = scale * pow(variance * pow(had, power), 1.0 / (power + 1.0));
-    return fmin(fmax(all, had), MOST_RAYS);
+    const double traced = LATTICE_SHARE * texels + edge_texels * sqrt(texels);
+    return o->sampling.accuracy == ALP_ADAPTIVE_OFF ? texels : fmin(traced, texels);
 }
 
-/// Samples of direct light for each texel, as light_more_direct.c would deal them out to texels
-/// like these. What is added for the worst of a hundred is little, and left out.
-static double count_direct(const work_guess *g)
+static double count_occlusion_rays(const alp_bake_options *o, double texels)
 {
-    const alpi_pilot *p = &g->pilot;
-    const double wanted = 0.75 * (double)g->options->light.error * ALL_OVER_DIRECT * p->mean;
-    const double power = 2.0 * ALPI_LIGHT_FIRST_POWER;
-    double low = -100.0, high = 100.0, mean = ALPI_PILOT_DIRECT_SAMPLES; // log2 of the scale
-    for (int i = 0; i < 40 && wanted > 0.0; i++) {
-        const double scale = exp2(0.5 * (low + high));
-        double square = 0.0, samples = 0.0;
-        for (uint32_t k = 0; k < p->count; k++) {
-            const double dealt = deal_samples(p->variances[k], scale);
-            square += p->variances[k] * pow(ALPI_PILOT_DIRECT_SAMPLES / dealt, power) / p->count;
-            samples += dealt / p->count;
-        }
-        const bool good = square <= wanted * wanted;
-        mean = good ? samples : mean;
-        *(good ? &high : &low) = 0.5 * (low + high);
+    const double samples =
+        o->sampling.error > 0.0f ? fmin(o->occlusion.samples, FIRST_RAYS) : o->occlusion.samples;
+    const bool colours = (o->maps & ALP_MAP_OBSCURANCE) != 0; // all texels trace rays for them
+    return samples * (count_traced(o, texels, EDGE_TEXELS) + (colours ? texels : 0.0));
+}
+
+/// Kinds of light of which each takes a ray of a sample: the parts of direct light.
+static alp_result count_lights(const alpi_bake_job *job, uint32_t *lights)
+{
+    alpi_lighting *lighting = NULL;
+    alpi_direct *direct = NULL;
+    ALP_TRY(alpi_lighting_create_quietly(job->scene, &job->options.light.lighting, &lighting));
+    const alpi_direct_options options = {
+        .context = job->context, .scene = job->scene, .lighting = lighting, .samples = 1};
+    const alp_result result = alpi_direct_create(&options, &direct);
+    if (result == ALP_OK) {
+        alpi_direct_parts(direct, lights);
     }
-    return mean;
+    alpi_direct_destroy(direct);
+    alpi_lighting_destroy(job->context, lighting);
+    return result;
 }
 
-/// Of errors, by texels that many triangles share.
-static double find_growth(const work_guess *g)
+/// Rays by which a texel gathers bounced light.
+static double count_gathered(const alp_light_options *l)
 {
-    return 1.0 + ERROR_OF_DETAIL * g->detail;
+    const double faces = l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
+    return l->gather == ALP_GATHER_HEMICUBE ? faces * 3.0 * l->hemicube * l->hemicube
+           : l->error > 0.0f                ? FIRST_RAYS
+                                            : l->samples;
 }
 
-static double find_traced_share(const work_guess *g, double edge_texels)
+static double count_light_rays(const alpi_bake_job *job, double texels, uint32_t lights)
 {
-    const double share = LATTICE_SHARE + edge_texels / sqrt(g->texels);
-    return g->options->sampling.accuracy == ALP_ADAPTIVE_OFF
-               ? 1.0
-               : fmin(share * (1.0 + TRACED_OF_DETAIL * g->detail), 1.0);
-}
-
-/// Rays of a traced texel for bounced light.
-static double count_bounced(const work_guess *g)
-{
-    const alp_light_options *l = &g->options->light;
-    const alpi_pilot *p = &g->pilot;
-    const double light = fmax(ALL_OVER_DIRECT * p->mean, p->once_bounced);
-    const double wanted = (double)l->error * light;
+    const alp_bake_options *o = &job->options;
+    const alp_light_options *l = &o->light;
     if (l->bounces == 0) {
-        return 0.0;
+        return SHADOW_SHARE * texels * l->samples * lights;
     }
-    if (l->gather == ALP_GATHER_HEMICUBE) {
-        const double faces = l->emitters == ALP_EMITTERS_COUNTED ? 2.0 : 1.0;
-        return faces * 3.0 * l->hemicube * l->hemicube;
+    if (l->gather == ALP_GATHER_PATHS) {
+        return texels * l->samples;
     }
-    if (!(l->error > 0.0f)) {
-        return l->samples;
-    }
-    const double error = BOUNCED_OVER_PATHS * find_growth(g) * p->bounced_error;
-    const double over = wanted > 0.0 ? error / wanted : 0.0;
-    return fmin(ALPI_PILOT_RAYS * fmax(pow(over, BOUNCED_POWER), 1.0), MOST_RAYS);
-}
-
-/// Rays of blocks, for each texel.
-static double count_block_rays(const work_guess *g)
-{
-    enum { TEXELS_OF_BLOCK = 5 };
-    return (double)alpi_light_block_rays(&g->options->light, to_count(g->texels)) / TEXELS_OF_BLOCK;
-}
-
-/// @param layers that there are besides the whole
-static void add_light(const work_guess *g, uint32_t layers, alp_bake_work *w)
-{
-    const alp_light_options *l = &g->options->light;
-    if (l->gather == ALP_GATHER_PATHS && l->bounces > 0) { // from every texel, which asks all light
-        const double paths = g->texels * l->samples;
-        w->rays += to_count(paths);
-        w->seconds += paths * g->pilot.path_seconds;
-        return;
-    }
-    const double direct = l->bounces == 0                     ? l->samples
-                          : alpi_light_has_rounds(g->options) ? count_direct(g)
-                                                              : 4.0 * ALPI_PILOT_DIRECT_SAMPLES;
-    const double share = find_traced_share(g, LIT_EDGE_TEXELS);
-    double rays = count_bounced(g) * share;
-    if (layers > 0) { // those of a round are sent once more, and kept
-        const double kept = l->error > 0.0f ? fmin(rays, MOST_FIRST_RAYS * share) : rays;
-        w->bytes += to_count(g->texels * kept * sizeof(uint32_t));
-        rays *= 2.0;
-    }
-    rays += l->bounces > 0 ? count_block_rays(g) : 0.0;
-    w->rays += to_count(g->texels * (rays + direct * g->pilot.rays));
-    const double ray_seconds = (1.0 + NEAR_OF_DETAIL * g->detail) * g->pilot.ray_seconds;
-    w->seconds += g->texels * (LIT_SECONDS + rays * ray_seconds + direct * g->pilot.direct_seconds);
-}
-
-static void add_occlusion(const work_guess *g, alp_bake_work *w)
-{
-    const alp_bake_options *o = g->options;
-    const double wanted = (double)o->sampling.error;
-    const double share = (1.0 + PROBE_SHARE) * find_traced_share(g, EDGE_TEXELS);
-    double rays = o->occlusion.samples;
-    if (wanted > 0.0) {
-        const double over = ERROR_OVER_POINTS * find_growth(g) * g->pilot.occlusion_error / wanted;
-        rays = fmin(rays, ALPI_PILOT_RAYS * fmax(pow(over, OCCLUSION_POWER), 1.0));
-    }
-    const bool colours = (o->maps & ALP_MAP_OBSCURANCE) != 0; // with rays of its own, of all texels
-    const double each = g->texels * rays * (share + (colours ? 1.0 : 0.0));
-    w->rays += to_count(each);
-    w->seconds += g->texels * SHADED_SECONDS + each * g->pilot.occlusion_seconds;
-}
-
-/// Seconds before and after the rays.
-static double find_other_seconds(const work_guess *g, const alp_scene *s,
-                                 const alp_atlas_info *atlas)
-{
-    const bool keep = keeps(g->options, s);
-    const double pixels = (double)atlas->pages * atlas->width * atlas->height;
-    const double each = keep ? KEPT_TRIANGLE_SECONDS : TRIANGLE_SECONDS;
-    return (keep ? 0.0 : ATLAS_SECONDS) + (each + SEAM_SECONDS) * g->triangles +
-           TEXEL_SECONDS * g->texels + PIXEL_SECONDS * pixels;
+    const double blocks = texels / TEXELS_PER_BLOCK;
+    const double times = l->layers ? 2.0 : 1.0; // layers trace the rays of texels once more
+    return SHADOW_SHARE * texels * alpi_light_first_direct(job) * lights +
+           blocks * alpi_light_block_rays(l, to_count(texels)) +
+           times * count_gathered(l) * count_traced(o, texels, LIT_EDGE_TEXELS);
 }
 
 static alp_result check_densities(const alpi_bake_job *job)
@@ -240,29 +154,22 @@ static alp_result check_densities(const alpi_bake_job *job)
 static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
 {
     const alp_bake_options *o = &job->options;
-    work_guess g = {.options = o};
-    uint32_t lights;
-    ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
+    const bool occlusion = alpi_bake_wants_occlusion(job), light = (o->maps & ALP_MAP_LIGHT) != 0;
+    uint32_t lights = 0;
+    ALP_TRY(alpi_bake_check_output(job, 1)); // no estimate for a bake that is refused
     ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
     ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
-    const alp_atlas_info atlas = guess_atlas(job, &g);
-    ALP_TRY(alpi_pilot_run(job, g.area, sqrt(g.area / g.texels), &g.pilot));
+    ALP_TRY(light ? count_lights(job, &lights) : ALP_OK);
+    const alp_atlas_info atlas = guess_atlas(job);
+    const double texels = (double)atlas.texels;
     work->texels = atlas.texels;
     work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
-    if (alpi_bake_wants_occlusion(job)) {
-        add_occlusion(&g, work);
-    }
-    if ((o->maps & ALP_MAP_LIGHT) != 0) {
-        add_light(&g, job->layers.light.count, work);
-    }
-    const double limit = o->sampling.time_limit;
-    if (limit > 0.0 && work->seconds > limit) {
-        work->rays = to_count((double)work->rays * limit / work->seconds);
-        work->seconds = limit;
-    }
-    work->seconds += find_other_seconds(&g, job->scene, &atlas);
+    work->rays = to_count((occlusion ? count_occlusion_rays(o, texels) : 0.0) +
+                          (light ? count_light_rays(job, texels, lights) : 0.0));
+    work->rays_at_least =
+        (occlusion && o->sampling.error > 0.0f) || (light && o->light.error > 0.0f);
     return ALP_OK;
 }
 
