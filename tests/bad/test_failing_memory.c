@@ -12,10 +12,6 @@ enum { BACKWARDS = 0 };
 /// rounds of a loop do not repeat it.
 enum { SOME = 23 };
 
-/// Reading and writing, where the kinds differ, lie in these many first and last allocations; under
-/// sanitizers fewer of them are tried.
-enum { FIRST = TEST_STEP > 1 ? 40 : 200, LAST = TEST_STEP > 1 ? 30 : 150 };
-
 static alp_context *make_context(test_memory *memory, uint32_t workers)
 {
     memory->backwards = workers == BACKWARDS;
@@ -58,9 +54,11 @@ static void fail_each(int kind, uint32_t workers, long step)
 {
     test_small_bake bake = test_small_bake_open(kind);
     const long total = count_allocations(&bake, workers);
+    // Reading and writing, where the kinds differ, lie in these many first and last allocations.
+    const long first = TEST_STEP > 1 ? 40 : 200, last = TEST_STEP > 1 ? 30 : 150;
     long tried = 0, harmless = 0;
     for (long i = 0; i < total;
-         i += i < FIRST || i >= total - LAST || step > 1 ? step : TEST_STEP) {
+         i += i < first || i >= total - last || step > 1 ? step : TEST_STEP) {
         harmless += fail_one(&bake, i, workers);
         tried++;
     }

@@ -47,9 +47,8 @@ static bool matches(const char *pattern, const char *text)
 
 static bool is_chosen(const test_case *c, const char *file, const char *name)
 {
-    const bool slow_too = TEST_STEP == 1 && getenv("TEST_FAST") == NULL;
     return matches(file, stem(c->file)) && matches(name, c->name) &&
-           matches(getenv("TEST_CASES"), c->name) && (slow_too || !c->slow);
+           matches(getenv("TEST_CASES"), c->name) && !(c->slow && test_is_quick());
 }
 
 /// By file, then by line.

@@ -18,8 +18,10 @@
 
 #include "test_cases.h"
 
-/// TEST_STEP: loops that try each of many like cases go on by so many: by 1, and under sanitizers,
-/// which are slow, by 13.
+/// Whether slow cases are left out: under sanitizers, and in `make test-fast` (TEST_FAST).
+bool test_is_quick(void);
+/// Loops that try each of many like cases go on by so many: by 13 where slow cases are left out.
+#define TEST_STEP (test_is_quick() ? 13 : 1)
 
 /// Fails the test with the numbers unless |actual − expected| ≤ tolerance (NaN fails).
 #define ASSERT_NEAR(actual, expected, tolerance)                                                   \

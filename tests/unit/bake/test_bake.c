@@ -88,11 +88,11 @@ TEST_WITH_CONTEXT(a_baked_scene_reads_back, 2)
 
 TEST(workers_change_no_byte)
 {
-    enum { WAYS = TEST_STEP > 1 ? 2 : 3 };
+    const int ways = TEST_STEP > 1 ? 2 : 3;
     const uint32_t workers[] = {2, 7, 1};
     unsigned char *first = NULL;
     size_t first_size = 0;
-    for (int i = 0; i < WAYS; i++) {
+    for (int i = 0; i < ways; i++) {
         alp_context *context = test_context(workers[i]);
         alp_scene *scene = test_load(context, "builtin:torus-plane");
         alp_bake_options options = small_options();
