@@ -150,8 +150,8 @@ static size_t edit_distance(const char *a, const char *b)
     return last[b_length];
 }
 
-/// Distance of a known word from the written one; 1 if the written one, of 4 letters or more, is its
-/// beginning.
+/// Distance of a known word from the written one. It is 1 if the known one begins with the written
+/// one, of 4 letters or more.
 static size_t word_distance(const char *written, const char *known)
 {
     size_t length = strlen(written);

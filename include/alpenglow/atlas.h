@@ -15,17 +15,15 @@ typedef enum alp_atlas_mode {
     /// KEEP if the second UV set can hold a bake, and `block`, `mips` and `densities` are default;
     /// else CHARTS.
     ALP_ATLAS_AUTO = 0,
-    /// The scene's second UV set (TEXCOORD_1); an error if it cannot hold a bake. It excludes
-    /// `block`,
-    /// `mips` and `densities`.
+    /// The scene's second UV set (TEXCOORD_1); an error if it cannot hold a bake. Not with
+    /// `block`, `mips` and `densities`.
     ALP_ATLAS_KEEP = 1,
     /// New charts, packed into pages.
     ALP_ATLAS_CHARTS = 2,
     /// No pages: values at the vertices. alp_bake only; the other atlas options are ignored.
     ALP_ATLAS_VERTEX = 3,
     /// Overlapping charts in three coordinate sets, one for each axis of the object. If the scene
-    /// or
-    /// the output has no objects, they are axes of the world. Set k holds the triangles whose
+    /// or the output has no objects, they are axes of the world. Set k holds the triangles whose
     /// normals are up to 87° from axis k, projected along it. A shader reads all three sets and
     /// blends them by the squares of the unit normal's components, which sum to 1:
     ///
@@ -83,14 +81,12 @@ typedef struct alp_atlas_options {
 ALP_API alp_atlas_options alp_atlas_options_default(void);
 
 /// Makes an atlas. The steps of CHARTS:
-///   1. Triangles are joined by position, and grouped into clusters. Normals of a cluster stay
-///   within
-///      max_angle of its plane; outlines are short and lie in creases.
+///   1. Triangles are joined by position, and grouped into clusters. Normals of a cluster
+///      stay within max_angle of its plane; outlines are short and lie in creases.
 ///   2. Each cluster is projected onto its plane.
 ///   3. Clusters that meet are unfolded together, as rigidly as possible. No triangle may flip or
-///   lie
-///      over another, none may have an L2 stretch above 1.75 (Sander et al. 2001, each chart having
-///      the area of its triangles), and their box may not grow.
+///      overlap another. None may have an L2 stretch above 1.75 (Sander et al. 2001, each chart
+///      having the area of its triangles). Their box may not grow.
 ///   4. Charts are turned to the tightest box and packed by their shapes, into holes too. They are
 ///      turned by quarters and never mirrored.
 ///

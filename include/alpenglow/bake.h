@@ -23,16 +23,13 @@ typedef enum alp_ao_into {
     /// Maps on the pages of the atlas, with their own coordinate set (default).
     ALP_AO_INTO_SEPARATE = 0,
     /// The red channel of an image that the material has: that of roughness and metalness, else
-    /// that
-    /// of occlusion. The image keeps its size and its other channels. If the channel is in use as
-    /// an
-    /// occlusion map, existing_ao applies; else the occlusion replaces it.
+    /// that of occlusion. The image keeps its size and its other channels. If the channel is in use
+    /// as an occlusion map, existing_ao applies; else the occlusion replaces it.
     ///
     /// Some images cannot hold the occlusion: tiled ones, those with several surfaces in one place,
     /// those of 16 bits, and those that are no PNG or JPEG. Their materials get a separate map,
-    /// with
-    /// a warning (ao-not-packed). A texel is the mean over up to 8 × 8 points of the maps. With a
-    /// packed image, the maps themselves are never multiplied by an older map.
+    /// with a warning (ao-not-packed). A texel is the mean over up to 8 × 8 points of the maps.
+    /// With a packed image, the maps themselves are never multiplied by an older map.
     ALP_AO_INTO_ORM = 1
 } alp_ao_into;
 
@@ -48,9 +45,9 @@ typedef enum alp_lightmap_as {
     /// viewer can display it. Materials with transmission stay unchanged; alpha is kept if it has
     /// an effect.
     ALP_LIGHTMAP_AS_EMISSIVE,
-    /// The vendor extension MOZ_lightmap, in extensionsUsed and never required. E = texel ×
-    /// intensity, 8-bit linear; intensity is the brightest texel of the material. Values of 1/255
-    /// of it or darker have visible steps.
+    /// The vendor extension MOZ_lightmap, in extensionsUsed and never required. The value is
+    /// texel × intensity, 8-bit linear; intensity is the brightest texel of the material. Values
+    /// of 1/255 of it or darker have visible steps.
     ALP_LIGHTMAP_AS_MOZ,
     /// Files beside the asset (alp_lightmap_format). Extras of the materials name them: "lightmap":
     /// {"uri", "texCoord", "intensity", "units"}. The value is texel × intensity.
@@ -100,8 +97,7 @@ typedef enum alp_maps_format {
 /// Attribute of the values at vertices (ALP_ATLAS_VERTEX), 16 bits normalised.
 typedef enum alp_vertex_attribute {
     /// COLOR_0, which viewers multiply into the base colour: R = G = B = accessibility, A = 1. If
-    /// the
-    /// primitive already has COLOR_0, its R, G and B are multiplied and A stays (default).
+    /// the primitive already has COLOR_0, its R, G and B are multiplied and A stays (default).
     ALP_VERTEX_COLOR = 0,
     ALP_VERTEX_OCCLUSION = 1 ///< _OCCLUSION, a scalar for custom shaders; COLOR_0 stays
 } alp_vertex_attribute;
@@ -388,10 +384,9 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0, because the caller loaded the scene
 /// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; a pattern
-/// without
-///         a match: the message has the names); INVALID_DATA (nothing to bake, or a second UV set
-///         that cannot be kept); UNSUPPORTED (an output of another format, or one without a place
-///         for these maps); LIMIT; IO; OUT_OF_MEMORY; CANCELLED
+///         without a match: the message has the names); INVALID_DATA (nothing to bake, or a second
+///         UV set that cannot be kept); UNSUPPORTED (an output of another format, or one without a
+///         place for these maps); LIMIT; IO; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

@@ -41,9 +41,8 @@ ALP_API float *alp_image_floats(alp_image *image);
 ///   PNG   16 bits are rounded to 8; a palette is expanded.
 ///   EXR   one part, channels R G B A or Y, half or float, any compression but DWAA and DWAB. Our
 ///         own attribute alpenglowScale is applied.
-///   HDR   Radiance RGBE, flat or run-length encoded, any orientation. EXPOSURE and COLORCORR of
-///   its
-///         header are divided out.
+///   HDR   Radiance RGBE, flat or run-length encoded, any orientation. EXPOSURE and COLORCORR in
+///         the header are divided out.
 /// @return ALP_OK; IO; INVALID_DATA (another format, or broken); UNSUPPORTED (an EXR or HDR of
 ///         another kind, named); LIMIT (more than 2^28 pixels); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_image_load(alp_context *context, const char *path,

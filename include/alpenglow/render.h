@@ -33,16 +33,13 @@ typedef enum alp_render_method {
     ALP_RENDER_LIGHTMAP = 4,
     /// Final gather. A radiosity (RAYS of alp_light_options) is solved on an atlas. Paths of the
     /// reference then end after one bounce in its light. Direct light is computed at each pixel.
-    /// The
-    /// bias of the radiosity remains, and is visible only through a bounce.
+    /// The bias of the radiosity remains, and is visible only through a bounce.
     ALP_RENDER_RADIOSITY = 5,
     /// The view of a point as a hemicube sees it: the five faces of half a cube, unfolded to a
-    /// cross
-    /// of 2n × 2n pixels, front in the middle, +Y above. See alp_hemicube_show. The view starts at
-    /// the camera's position, which may lie on a surface, along its axis. If the axis is the
-    /// normal,
-    /// this is the light that a texel gathers there. The camera's angle, `width`, `height` and
-    /// `samples` are ignored.
+    /// cross of 2n × 2n pixels, front in the middle, +Y above. See alp_hemicube_show. The view
+    /// starts at the camera's position, which may lie on a surface, along its axis. If the axis is
+    /// the normal, this is the light that a texel gathers there. The camera's angle, `width`,
+    /// `height` and `samples` are ignored.
     ALP_RENDER_HEMICUBE = 6
 } alp_render_method;
 

@@ -29,8 +29,7 @@ ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char
 /// Reads one of the scenes of a file that holds several.
 /// @param choice its number from 0, or its name; NULL = the file's default scene, as alp_scene_load
 /// @return as alp_scene_load; INVALID_ARGUMENT also for no such scene (the message lists them), or
-/// a
-///         choice in a file of one scene
+///         a choice in a file of one scene
 ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
                                                        const char *choice, alp_scene **scene);
 
