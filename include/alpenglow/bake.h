@@ -45,9 +45,9 @@ typedef enum alp_lightmap_as {
     /// viewer can display it. Materials with transmission stay unchanged; alpha is kept if it has
     /// an effect.
     ALP_LIGHTMAP_AS_EMISSIVE,
-    /// The vendor extension MOZ_lightmap, in extensionsUsed and never required. E = texel ×
-    /// intensity, 8-bit linear; intensity is the brightest texel of the material. Values of 1/255
-    /// of it or darker have visible steps.
+    /// The vendor extension MOZ_lightmap, in extensionsUsed and never required. The value is
+    /// texel × intensity, 8-bit linear; intensity is the brightest texel of the material. Values
+    /// of 1/255 of it or darker have visible steps.
     ALP_LIGHTMAP_AS_MOZ,
     /// Files beside the asset (alp_lightmap_format). Extras of the materials name them: "lightmap":
     /// {"uri", "texCoord", "intensity", "units"}. The value is texel × intensity.
