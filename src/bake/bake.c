@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The job: check → atlas → acceleration structure → occlusion → maps → files.
+#include "bake/check.h"
 #include "bake/layers.h"
+#include "bake/settings.h"
 
 #include "atlas/choice.h"
 #include "base/memory.h"
@@ -22,49 +24,6 @@ alp_bake_options alp_bake_options_default(void)
                               .maps = ALP_MAP_AO,
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO},
                               .stitch = true};
-}
-
-static alp_result check_options(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    if (o->struct_size != sizeof *o) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake options are not from _default()");
-    }
-    if ((int)o->existing_ao < ALP_EXISTING_AO_REPLACE || o->existing_ao > ALP_EXISTING_AO_KEEP) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: unknown choice %d for existing occlusion", (int)o->existing_ao);
-    }
-    if ((int)o->ao_into < ALP_AO_INTO_SEPARATE || o->ao_into > ALP_AO_INTO_ORM) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: unknown choice %d for where occlusion goes", (int)o->ao_into);
-    }
-    if (o->ao_into == ALP_AO_INTO_ORM && o->atlas.mode == ALP_ATLAS_VERTEX) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: occlusion at vertices has no map to pack into an image");
-    }
-    const alp_sampling_options *s = &o->sampling;
-    const bool accuracy_is_valid =
-        s->accuracy == ALP_ADAPTIVE_AUTO || (s->accuracy >= ALP_ADAPTIVE_OFF && s->accuracy < 1.0f);
-    if (!accuracy_is_valid || !(s->error >= 0.0f) || !(s->time_limit >= 0.0)) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: accuracy %g (need [0, 1), or AUTO), error %g or time limit %g s "
-                         "(need 0 or more)",
-                         (double)s->accuracy, (double)s->error, s->time_limit);
-    }
-    ALP_TRY(alpi_bake_check_vertex_options(job));
-    ALP_TRY(alpi_bake_check_maps(job));
-    ALP_TRY(alpi_bake_check_maps_format(job));
-    ALP_TRY(alpi_bake_check_light_asset(job));
-    ALP_TRY(alpi_bake_check_layers(job));
-    ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
-    if (job->scene->usable_count == 0) {
-        return alpi_fail(
-            job->context, ALP_ERROR_INVALID_DATA, "%s: nothing to bake: %s", job->scene->name,
-            job->scene->triangle_count == 0 ? "the scene has no triangles"
-                                            : "no triangle has area and finite coordinates");
-    }
-    return ALP_OK;
 }
 
 alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
@@ -93,7 +52,8 @@ static alp_result make_atlas(alpi_bake_job *job)
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alp_atlas *atlas = NULL;
-    const alpi_atlas_choice choice = {job->only, job->originals, alpi_bake_exports(job)};
+    const alpi_atlas_choice choice = {job->only, job->originals,
+                                      alpi_bake_exports(&job->options, job->scene)};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
     alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
     if (result != ALP_OK) {
@@ -110,9 +70,9 @@ static alp_result make_atlas(alpi_bake_job *job)
 static alp_result run(alpi_bake_job *job)
 {
     double started = alpi_seconds();
-    ALP_TRY(check_options(job));
+    ALP_TRY(alpi_bake_check(job));
     ALP_TRY(alpi_bake_choose(job));
-    if (alpi_bake_lights_apart(job)) {
+    if (alpi_bake_lights_apart(&job->options)) {
         job->options.maps |= ALP_MAP_DIRECT | ALP_MAP_BOUNCED;
     }
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {

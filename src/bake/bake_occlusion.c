@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The occlusion stage of a bake: tracer → map → lightmap, and what the report says of it.
 #include "bake/objects.h"
+#include "bake/settings.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -79,7 +80,7 @@ static alp_result fill_report(alpi_bake_job *job, const alpi_occlusion_map_repor
     r->ao_p99_error = map->p99;
     r->cut_off = r->cut_off || map->cut_off;
     ALP_TRY(find_area_mean(lattice, &r->ao_mean));
-    if (alpi_bake_wants_occlusion(job)) {
+    if (alpi_bake_wants_occlusion(&job->options)) {
         alpi_bake_warn_of_darkness(job);
         warn_of_error(job, map->cut_off);
     }
@@ -90,7 +91,8 @@ static alp_result fill_report(alpi_bake_job *job, const alpi_occlusion_map_repor
 static alpi_occlusion_map_options map_options(const alpi_bake_job *job)
 {
     const alp_sampling_options *s = &job->options.sampling;
-    const bool shared = (job->options.maps & ALP_MAP_LIGHT) != 0 && alpi_bake_wants_occlusion(job);
+    const bool shared =
+        (job->options.maps & ALP_MAP_LIGHT) != 0 && alpi_bake_wants_occlusion(&job->options);
     const double time = shared ? 0.5 * s->time_limit : s->time_limit; // light has the rest
     return (alpi_occlusion_map_options){
         .accuracy = s->accuracy,
@@ -173,7 +175,7 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     uint32_t count = 0;
     alp_result result = order != NULL ? drop(job, object, order, &count) : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
-        const bool wanted = alpi_bake_wants_occlusion(job);
+        const bool wanted = alpi_bake_wants_occlusion(&job->options);
         if (wanted) {
             result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
                                         job->lightmap->errors, report);
@@ -204,7 +206,7 @@ static alp_result gather_object(alpi_bake_job *job, alpi_objects *objects,
     alpi_tracer *tracer = NULL, *owned = NULL;
     ALP_TRY(alpi_object_tracer(job, objects, object, options->progress, options->progress_user,
                                &tracer, &owned));
-    const bool wanted = alpi_bake_wants_occlusion(job);
+    const bool wanted = alpi_bake_wants_occlusion(&job->options);
     bool quick = false;
     if (wanted) {
         const double rays = (double)object->texel_count * job->options.occlusion.samples;
@@ -351,7 +353,8 @@ static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
         alpi_bake_multiply_existing(job, lattice->values);
     }
     ALP_TRY(alpi_bake_store_side_maps(job));
-    return alpi_bake_wants_occlusion(job) ? alpi_lightmap_store(l, lattice->values) : ALP_OK;
+    return alpi_bake_wants_occlusion(&job->options) ? alpi_lightmap_store(l, lattice->values)
+                                                    : ALP_OK;
 }
 
 alp_result alpi_bake_occlusion(alpi_bake_job *job)

@@ -15,43 +15,6 @@
 enum { NAMED_LIMIT = 8, POINTS_LEAST = 8 };
 static const double COARSE = 0.05; // root mean square error that is worth a warning
 
-alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    bool at_vertices = o->atlas.mode == ALP_ATLAS_VERTEX;
-    if ((int)o->vertex_attribute < ALP_VERTEX_COLOR || o->vertex_attribute > ALP_VERTEX_OCCLUSION) {
-        return alpi_fail(job->context, code, "bake: unknown choice %d for the vertex attribute",
-                         (int)o->vertex_attribute);
-    }
-    if (!at_vertices && o->vertex_attribute != ALP_VERTEX_COLOR) {
-        return alpi_fail(job->context, code,
-                         "bake: a vertex attribute needs the atlas mode for vertices");
-    }
-    if (at_vertices && o->maps_folder != NULL) {
-        return alpi_fail(job->context, code,
-                         "%s: a bake at vertices has no maps to write; give an output alone",
-                         o->maps_folder);
-    }
-    if (at_vertices && (o->only != NULL || o->ao_self)) {
-        return alpi_fail(job->context, code,
-                         "bake: at vertices all surfaces are baked, and together: no only and no "
-                         "ao_self");
-    }
-    const alp_sampling_options *sampling = &o->sampling;
-    if (at_vertices && (sampling->accuracy > 0.0f || sampling->error != 0.0f ||
-                        sampling->time_limit != 0.0 || sampling->keep_partial)) {
-        return alpi_fail(job->context, code,
-                         "bake: at vertices every receiver gets all its rays: no accuracy, wanted "
-                         "error, time limit or partial result");
-    }
-    if (at_vertices && o->existing_ao != ALP_EXISTING_AO_REPLACE) {
-        return alpi_fail(job->context, code,
-                         "bake: a bake at vertices leaves the materials' occlusion maps alone");
-    }
-    return ALP_OK;
-}
-
 /// Bytes of ours at the peak, the scene and the tracer apart: of a triangle shares, ends and areas;
 /// of a vertex its receiver, three values, the table that finds equal ones, and the fit.
 static alp_result check_memory(const alpi_bake_job *job)

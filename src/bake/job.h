@@ -74,8 +74,6 @@ alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
 /// Occlusion at the texels of the lightmap, stored in it; fills the report.
 alp_result alpi_bake_occlusion(alpi_bake_job *job);
 
-/// Refuses maps that have no meaning together with the other options.
-alp_result alpi_bake_check_maps(const alpi_bake_job *job);
 /// Room for what the maps besides occlusion need while they are gathered, and its end.
 alp_result alpi_bake_begin_side_maps(alpi_bake_job *job);
 void alpi_bake_end_side_maps(alpi_bake_job *job);
@@ -85,10 +83,6 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
                                 const alpi_receivers *receivers, const uint32_t *order,
                                 uint32_t order_count, uint32_t samples,
                                 const alpi_task_progress *progress);
-/// Whether direct and bounced light get maps of their own.
-bool alpi_bake_lights_apart(const alpi_bake_job *job);
-/// Whether any map is asked for that needs occlusion.
-bool alpi_bake_wants_occlusion(const alpi_bake_job *job);
 /// Irradiance of the texels in `order`, if it was asked for; fills the report. The stage of
 /// `progress` is set here.
 alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
@@ -112,8 +106,6 @@ uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
 alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
                                   uint64_t more_pieces);
 
-/// Refuses a format that cannot hold the maps.
-alp_result alpi_bake_check_maps_format(const alpi_bake_job *job);
 /// ".exr" …: of maps that are no PNGs.
 const char *alpi_bake_map_ending(const alp_bake_options *options);
 /// A file of the maps folder on its way there.
@@ -133,8 +125,6 @@ uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t pag
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages);
 /// The same of the asset alone: makes no folder, so that an estimate may ask.
 alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages);
-/// Whether the asset is made anew from the scene in world space, instead of from the file it is of.
-bool alpi_bake_exports(const alpi_bake_job *job);
 /// Writes maps and asset; nothing appears at its place before everything is encoded.
 alp_result alpi_bake_write_outputs(alpi_bake_job *job);
 
@@ -148,27 +138,21 @@ uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
 /// Whether the occlusion of a triangle is packed into an image.
 bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
 
-/// Refuses choices of light in an asset that have no meaning.
-alp_result alpi_bake_check_light_asset(const alpi_bake_job *job);
 /// Encodes the pages of light as they go into the asset, if they are to.
 alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
 void alpi_bake_release_light_asset(alpi_bake_job *job);
 /// Bytes that making it takes at its peak, besides the encoded ones.
 uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
                                       const alp_bake_options *options);
-/// Whether a viewer's own file is written in the place of an asset (viewer_file.c).
-bool alpi_bake_is_viewer_file(const alp_bake_options *options);
-/// Its ending, and that all its files can be written.
+/// Fails if one of its files could not be written.
 alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages);
 /// It, and the pictures that it names.
 alp_result alpi_bake_add_viewer_file(const alpi_bake_job *job, alpi_file_set *files);
 /// ".png", ".ktx2" …
 const char *alpi_bake_light_ending(const alp_bake_options *options);
 /// "irradiance" …
-const char *alpi_bake_light_units(const alp_bake_options *options);
+const char *alpi_bake_light_units_name(const alp_bake_options *options);
 
-/// Refuses what has no meaning together with the choice of values at vertices or of maps.
-alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job);
 /// The whole job of ALP_ATLAS_VERTEX, after the options were checked.
 alp_result alpi_bake_vertices(alpi_bake_job *job);
 

@@ -12,28 +12,6 @@
 /// Names are cut at this many bytes: file names have 255, other parts of them included.
 enum { NAME_LIMIT = 64 };
 
-alp_result alpi_bake_check_layers(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    if (!o->light.layers) {
-        return ALP_OK;
-    }
-    if ((o->maps & ALP_MAP_LIGHT) == 0) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: layers are of light; bake ALP_MAP_LIGHT too");
-    }
-    if (o->light.denoise) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: what is denoised is no sum of layers; leave one of them out");
-    }
-    if (o->light.gather == ALP_GATHER_PATHS && o->light.bounces > 0) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: paths gather all light together; rays or hemicubes tell layers "
-                         "apart");
-    }
-    return ALP_OK;
-}
-
 // --- names ---------------------------------------------------------------------------------------
 
 /// As it may stand in the name of a file, on any system, and never be taken for a number or an

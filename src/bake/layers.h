@@ -8,8 +8,6 @@
 #include "maps/radiosity/bounced_map.h"
 #include "maps/radiosity/radiosity.h"
 
-/// Refuses what has no layers.
-alp_result alpi_bake_check_layers(const alpi_bake_job *job);
 /// Finds out which layers there are, and names them, if they are asked for.
 alp_result alpi_bake_plan_layers(alpi_bake_job *job);
 /// The same without a warning of too many. @param lights out: that there are, 0 without layers

@@ -55,11 +55,6 @@ static void note_sizes(const alpi_bake_job *job)
 alp_result alpi_bake_choose(alpi_bake_job *job)
 {
     const alp_bake_options *o = &job->options;
-    if (o->ao_self && o->occluders != NULL) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: objects that are alone (ao_self) have no other occluders; leave "
-                         "one of the two out");
-    }
     ALP_TRY(alpi_scene_select(job->scene, o->only, &job->only));
     ALP_TRY(alpi_scene_select(job->scene, o->occluders, &job->occluders));
     if (o->ao_self) {

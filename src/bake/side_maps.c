@@ -2,6 +2,7 @@
 // Maps beside occlusion: bent normals, which its rays give, coloured obscurance and irradiance,
 // which have rays of their own.
 #include "bake/layers.h"
+#include "bake/settings.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -9,143 +10,10 @@
 
 #include <string.h>
 
-enum {
-    BY_DIRECTION = ALP_MAP_SH | ALP_MAP_DIRECTION,
-    ALL_MAPS = ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT | BY_DIRECTION
-};
-enum { PATH_LIMIT = 65536 };
-
-bool alpi_bake_lights_apart(const alpi_bake_job *job)
-{
-    return (job->options.maps & ALP_MAP_LIGHT) != 0 &&
-           job->options.light.direct == ALP_DIRECT_APART;
-}
-
-/// Pixels tell neither layers nor what is outside of the surfaces that are baked.
-static alp_result check_emitters(const alpi_bake_job *job)
-{
-    const alp_light_options *o = &job->options.light;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if ((int)o->emitters < ALP_EMITTERS_ANALYTIC || o->emitters > ALP_EMITTERS_COUNTED) {
-        return alpi_fail(job->context, code, "bake: unknown choice %d of emitters",
-                         (int)o->emitters);
-    }
-    if (o->emitters == ALP_EMITTERS_ANALYTIC) {
-        return ALP_OK;
-    }
-    if (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0) {
-        return alpi_fail(job->context, code,
-                         "bake: emitters are counted by the pixels of hemicubes, and with bounces");
-    }
-    if (o->layers || job->options.only != NULL) {
-        return alpi_fail(
-            job->context, code,
-            "bake: pixels do not tell emitters apart, and count them for all surfaces; "
-            "leave out %s",
-            o->layers ? "layers" : "the choice of surfaces");
-    }
-    return ALP_OK;
-}
-
-static alp_result check_light(const alpi_bake_job *job)
-{
-    const alp_light_options *o = &job->options.light;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if ((int)o->gather < ALP_GATHER_RAYS || o->gather > ALP_GATHER_PATHS ||
-        (int)o->direct < ALP_DIRECT_ON || o->direct > ALP_DIRECT_APART) {
-        return alpi_fail(job->context, code, "bake: unknown choice %d of gatherer or %d of light",
-                         (int)o->gather, (int)o->direct);
-    }
-    if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
-        return alpi_fail(job->context, code,
-                         "bake: paths gather all light together; rays or hemicubes tell direct "
-                         "light apart");
-    }
-    if ((job->options.maps & BY_DIRECTION) != 0 && o->gather == ALP_GATHER_PATHS) {
-        return alpi_fail(job->context, code,
-                         "bake: paths do not tell where light comes from; rays or hemicubes do");
-    }
-    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
-        return alpi_fail(job->context, code, "bake: without bounces all light is direct light");
-    }
-    const alp_sampling_options *s = &job->options.sampling;
-    if (o->layers && (s->time_limit > 0.0 || s->keep_partial)) {
-        return alpi_fail(
-            job->context, code,
-            "bake: layers are gathered to their end: no time limit, no partial result");
-    }
-    if (o->layers && job->options.only != NULL) {
-        return alpi_fail(job->context, code,
-                         "bake: layers are told apart where all surfaces are baked; leave out the "
-                         "choice of surfaces, or the layers");
-    }
-    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
-        return alpi_fail(job->context, code,
-                         "bake: only bounced light that rays gather can be denoised");
-    }
-    if (o->gather == ALP_GATHER_HEMICUBE &&
-        (o->hemicube < 2 || o->hemicube > 1024 || o->hemicube % 2 != 0)) {
-        return alpi_fail(job->context, code,
-                         "bake: hemicubes of %u pixels, need an even number from 2 to 1024",
-                         o->hemicube);
-    }
-    return check_emitters(job);
-}
-
-alp_result alpi_bake_check_maps(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if (o->maps == 0 || (o->maps & ~(unsigned)ALL_MAPS) != 0) {
-        return alpi_fail(job->context, code, "bake: unknown maps 0x%x, need bits of alp_map",
-                         o->maps);
-    }
-    if (o->atlas.mode == ALP_ATLAS_VERTEX && o->maps != ALP_MAP_AO) {
-        return alpi_fail(job->context, code, "bake: only occlusion is baked at vertices");
-    }
-    if (o->output != NULL && (o->maps & ALP_MAP_AO) == 0 &&
-        o->lightmap_as == ALP_LIGHTMAP_AS_NONE) {
-        return alpi_fail(job->context, code,
-                         "%s: glTF has a place for occlusion alone, and for light as lightmap_as "
-                         "says; bake one of them too, or give no output",
-                         o->output);
-    }
-    const bool in_one_go = (o->maps & ALP_MAP_OBSCURANCE) != 0;
-    const bool light_in_one_go = (o->maps & ALP_MAP_LIGHT) != 0 &&
-                                 (o->light.gather != ALP_GATHER_RAYS || o->light.bounces == 0);
-    if ((in_one_go || light_in_one_go) &&
-        (o->sampling.time_limit > 0.0 || o->sampling.keep_partial)) {
-        return alpi_fail(job->context, code,
-                         "bake: %s gathered in one go: no time limit, no partial result",
-                         in_one_go                             ? "coloured obscurance is"
-                         : o->light.bounces == 0               ? "direct light alone is"
-                         : o->light.gather == ALP_GATHER_PATHS ? "light by paths is"
-                                                               : "light by hemicubes is");
-    }
-    if ((o->maps & ALP_MAP_LIGHT) != 0 && o->occluders != NULL) {
-        return alpi_fail(job->context, code,
-                         "bake: light falls on all surfaces: no occluders are chosen for it");
-    }
-    if ((o->maps & ALP_MAP_LIGHT) != 0 && o->ao_self) {
-        return alpi_fail(job->context, code,
-                         "bake: light falls on the whole scene, not on each object alone");
-    }
-    if ((o->maps & BY_DIRECTION) != 0 && (o->maps & ALP_MAP_LIGHT) == 0) {
-        return alpi_fail(job->context, code,
-                         "bake: light by direction is of the irradiance; bake ALP_MAP_LIGHT too");
-    }
-    ALP_TRY(check_light(job));
-    if ((o->maps & ALP_MAP_LIGHT) != 0 && (o->light.samples < 1 || o->light.samples > PATH_LIMIT)) {
-        return alpi_fail(job->context, code, "bake: %u paths of a texel, need 1 to %d",
-                         o->light.samples, PATH_LIMIT);
-    }
-    return ALP_OK;
-}
-
 alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
 {
     const uint32_t count = job->lightmap->texels.count;
-    if (alpi_bake_wants_occlusion(job)) {
+    if (alpi_bake_wants_occlusion(&job->options)) {
         ALPI_TRY_NEW(job->context, job->lightmap->errors, count);
     }
     if ((job->options.maps & ALP_MAP_BENT) != 0) {
@@ -154,7 +22,7 @@ alp_result alpi_bake_begin_side_maps(alpi_bake_job *job)
     if ((job->options.maps & ALP_MAP_OBSCURANCE) != 0) {
         ALPI_TRY_NEW(job->context, job->obscurance, count);
     }
-    if ((job->options.maps & BY_DIRECTION) != 0) {
+    if ((job->options.maps & ALPI_MAPS_BY_DIRECTION) != 0) {
         ALPI_TRY_NEW(job->context, job->directional, count);
     }
     return ALP_OK;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake will take, told before it: texels by areas, rays and seconds by a few points that are
 // lit as the texels will be.
+#include "bake/check.h"
 #include "bake/estimate/pilot.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
@@ -254,8 +255,11 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     const alp_bake_options *o = &job->options;
     work_guess g = {.options = o};
     uint32_t lights;
-    ALP_TRY(alpi_bake_check_output(job, 1)); // nobody waits for a guess at what is refused
-    ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
+    ALP_TRY(alpi_bake_check(job));
+    if (o->atlas.mode == ALP_ATLAS_VERTEX) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_bake_check_output(job, 1));
     ALP_TRY(alpi_bake_choose(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
@@ -263,7 +267,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     ALP_TRY(alpi_pilot_run(job, g.area, sqrt(g.area / g.texels), &g.pilot));
     work->texels = atlas.texels;
     work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
-    if (alpi_bake_wants_occlusion(job)) {
+    if (alpi_bake_wants_occlusion(o)) {
         add_occlusion(&g, work);
     }
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
@@ -288,7 +292,7 @@ alp_result alp_bake_estimate(const alp_scene *scene, const alp_bake_options *opt
     alpi_bake_job job = {.scene = scene,
                          .context = scene->context,
                          .options = options ? *options : alp_bake_options_default()};
-    if (scene->usable_count == 0 || job.options.atlas.mode == ALP_ATLAS_VERTEX) {
+    if (scene->usable_count == 0) {
         return ALP_OK;
     }
     const alp_result result = estimate(&job, work);

@@ -2,6 +2,7 @@
 #include "bake/estimate/pilot.h"
 
 #include "bake/objects.h"
+#include "bake/settings.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
@@ -328,7 +329,7 @@ alp_result alpi_pilot_run(const alpi_bake_job *job, double area, double texel, a
     if ((o->maps & ALP_MAP_LIGHT) != 0) {
         result = run_light(job, tracer, area, pilot);
     }
-    if (result == ALP_OK && alpi_bake_wants_occlusion(job)) {
+    if (result == ALP_OK && alpi_bake_wants_occlusion(&job->options)) {
         result = run_occlusion(job, tracer, area, texel, pilot);
     }
     alpi_tracer_destroy(owned);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light as it goes into an asset: in the units asked for, over a scale, encoded.
 #include "bake/job.h"
+#include "bake/settings.h"
 
 #include "base/half.h"
 #include "base/memory.h"
@@ -14,20 +15,12 @@ static const float PI = 3.14159265f;
 
 // --- the choice ----------------------------------------------------------------------------------
 
-static alp_light_units units_of(const alp_bake_options *o)
-{
-    if (o->light_units != ALP_LIGHT_UNITS_AUTO) {
-        return o->light_units;
-    }
-    return o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE ? ALP_LIGHT_RADIANCE : ALP_LIGHT_IRRADIANCE;
-}
-
-const char *alpi_bake_light_units(const alp_bake_options *options)
+const char *alpi_bake_light_units_name(const alp_bake_options *options)
 {
     static const char *const names[] = {[ALP_LIGHT_IRRADIANCE] = "irradiance",
                                         [ALP_LIGHT_IRRADIANCE_OVER_PI] = "irradiance/pi",
                                         [ALP_LIGHT_RADIANCE] = "radiance"};
-    return names[units_of(options)];
+    return names[alpi_bake_light_units(options)];
 }
 
 const char *alpi_bake_light_ending(const alp_bake_options *options)
@@ -36,50 +29,6 @@ const char *alpi_bake_light_ending(const alp_bake_options *options)
         [ALP_LIGHTMAP_KTX2] = ".ktx2", [ALP_LIGHTMAP_EXR] = ".exr", [ALP_LIGHTMAP_HDR] = ".hdr"};
     return options->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS ? endings[options->lightmap_format]
                                                           : ".png";
-}
-
-static const char *find_fault(const alp_bake_options *o)
-{
-    const alp_lightmap_as as = o->lightmap_as;
-    if ((int)as < ALP_LIGHTMAP_AS_NONE || as > ALP_LIGHTMAP_AS_BABYLON ||
-        (int)o->light_units < ALP_LIGHT_UNITS_AUTO || o->light_units > ALP_LIGHT_RADIANCE ||
-        (int)o->lightmap_format < ALP_LIGHTMAP_KTX2 || o->lightmap_format > ALP_LIGHTMAP_HDR) {
-        return "unknown form, units or format of light in an asset";
-    }
-    if (as == ALP_LIGHTMAP_AS_NONE) {
-        return o->light_units == ALP_LIGHT_UNITS_AUTO && o->lightmap_format == ALP_LIGHTMAP_KTX2
-                   ? NULL
-                   : "units and format are of light in an asset; say as what it goes there";
-    }
-    if ((o->maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
-        return "light goes into an asset where ALP_MAP_LIGHT and an output are asked for";
-    }
-    if (o->ao_into == ALP_AO_INTO_ORM) {
-        return "light needs coordinates of its own: occlusion beside it is not packed into images";
-    }
-    if (as != ALP_LIGHTMAP_AS_EXTRAS && o->lightmap_format != ALP_LIGHTMAP_KTX2) {
-        return "a format is of light that extras name; an image in glTF is a PNG";
-    }
-    if (alpi_bake_is_viewer_file(o) && o->light_units != ALP_LIGHT_UNITS_AUTO) {
-        return "what its viewer multiplies is what is written; leave the units alone";
-    }
-    if (as == ALP_LIGHTMAP_AS_EMISSIVE && units_of(o) != ALP_LIGHT_RADIANCE) {
-        return "what a material emits is radiance";
-    }
-    if (as == ALP_LIGHTMAP_AS_EMISSIVE && o->light.direct == ALP_DIRECT_OFF) {
-        return "a black material shows no direct light: bake it too where light becomes emission";
-    }
-    if (as == ALP_LIGHTMAP_AS_MOZ && units_of(o) == ALP_LIGHT_RADIANCE) {
-        return "readers of MOZ_lightmap multiply by the albedo; give them irradiance";
-    }
-    return NULL;
-}
-
-alp_result alpi_bake_check_light_asset(const alpi_bake_job *job)
-{
-    const char *fault = find_fault(&job->options);
-    return fault == NULL ? ALP_OK
-                         : alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT, "bake: %s", fault);
 }
 
 uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -107,7 +56,7 @@ uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_sce
 static alp_result fill_page(const alpi_bake_job *job, uint32_t page, float *values)
 {
     const alp_lightmap *l = job->lightmap;
-    const alp_light_units units = units_of(&job->options);
+    const alp_light_units units = alpi_bake_light_units(&job->options);
     if (units == ALP_LIGHT_RADIANCE) {
         return alpi_lightmap_outgoing(l, page, values);
     }

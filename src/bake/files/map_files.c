@@ -9,27 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-alp_result alpi_bake_check_maps_format(const alpi_bake_job *job)
-{
-    enum { SIGNED = ALP_MAP_BENT | ALP_MAP_SH | ALP_MAP_DIRECTION };
-    const alp_bake_options *o = &job->options;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if ((int)o->maps_format < ALP_MAPS_EXR || o->maps_format > ALP_MAPS_KTX2) {
-        return alpi_fail(job->context, code, "bake: unknown format %d of maps",
-                         (int)o->maps_format);
-    }
-    if (o->maps_format != ALP_MAPS_EXR && o->maps_folder == NULL) {
-        return alpi_fail(job->context, code,
-                         "bake: a format of maps is of those in a folder; give one");
-    }
-    if (o->maps_format == ALP_MAPS_HDR && (o->maps & (unsigned)SIGNED) != 0) {
-        return alpi_fail(job->context, code,
-                         "bake: bent normals, directions and harmonics have negative values, which "
-                         ".hdr cannot hold; take EXR or KTX2");
-    }
-    return ALP_OK;
-}
-
 const char *alpi_bake_map_ending(const alp_bake_options *options)
 {
     static const char *const endings[] = {[ALP_MAPS_EXR] = ".exr",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a bake leaves on the disk: maps as PNG and as what is asked for, and the patched asset.
 #include "bake/layers.h"
+#include "bake/settings.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -72,56 +73,6 @@ static char *map_path(const alpi_bake_job *job, uint32_t page, map_kind kind)
     return alpi_format(job->context, "%s/%s.%u%s", folder, name, page, ending);
 }
 
-static bool is_gltf_path(const char *path)
-{
-    return alpi_path_has_ending(path, ".glb") || alpi_path_has_ending(path, ".gltf");
-}
-
-bool alpi_bake_exports(const alpi_bake_job *job)
-{
-    const char *output = job->options.output;
-    const alpi_attachment *from = job->scene->attachments;
-    if (output == NULL) {
-        return false;
-    }
-    return alpi_path_has_ending(output, ".dae")
-               ? from[ALPI_ATTACHMENT_COLLADA].data == NULL
-               : !is_gltf_path(output) || from[ALPI_ATTACHMENT_DOCUMENT].data == NULL;
-}
-
-/// An OBJ holds occlusion maps, and light as emission.
-static alp_result check_obj_options(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    const char *what =
-        o->atlas.mode == ALP_ATLAS_VERTEX  ? "values at vertices"
-        : o->atlas.mode == ALP_ATLAS_BLEND ? "three coordinate sets"
-        : job->packing.count > 0           ? "occlusion packed into an image"
-        : o->lightmap_as == ALP_LIGHTMAP_AS_MOZ || o->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS
-            ? "a light map other than emission"
-            : NULL;
-    return what == NULL
-               ? ALP_OK
-               : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                           "%s: an .obj has no place for %s; write .glb or .gltf", o->output, what);
-}
-
-/// A COLLADA document holds maps of occlusion, and light as emission.
-static alp_result check_dae_options(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    const bool lit_otherwise =
-        o->lightmap_as != ALP_LIGHTMAP_AS_NONE && o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE;
-    const char *what = o->atlas.mode == ALP_ATLAS_VERTEX ? "values at vertices"
-                       : o->ao_into == ALP_AO_INTO_ORM   ? "occlusion packed into an image"
-                       : lit_otherwise                   ? "a light map other than emission"
-                                                         : NULL;
-    return what == NULL
-               ? ALP_OK
-               : alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                           "%s: a .dae has no place for %s; write .glb or .gltf", o->output, what);
-}
-
 static alp_result check_map(const alpi_bake_job *job, uint32_t page, map_kind kind)
 {
     char *path = map_path(job, page, kind);
@@ -141,14 +92,6 @@ alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages)
     }
     if (alpi_bake_is_viewer_file(o)) {
         return alpi_bake_check_viewer_file(job, pages);
-    }
-    if (alpi_path_has_ending(o->output, ".obj")) {
-        ALP_TRY(check_obj_options(job));
-    } else if (alpi_path_has_ending(o->output, ".dae")) {
-        ALP_TRY(check_dae_options(job));
-    } else if (!is_gltf_path(o->output)) {
-        return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: only .glb, .gltf, .dae and .obj are written so far", o->output);
     }
     const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
     const alpi_gltf_images images = {
@@ -281,7 +224,7 @@ static json_t *describe_light(const alpi_bake_job *job)
                                             [ALP_GATHER_PATHS] = "paths"};
     const alp_bake_options *o = &job->options;
     const alp_bake_report *r = &job->report;
-    const char *units = alpi_bake_light_units(o);
+    const char *units = alpi_bake_light_units_name(o);
     json_t *object = json_pack(
         "{s:s, s:s, s:s, s:f, s:s, s:s, s:i, s:o, s:b, s:I, s:o, s:s, s:i, s:i, s:i}", "as",
         names[o->lightmap_as], "units", units, "unit",
@@ -470,7 +413,7 @@ static alp_result add_asset(const alpi_bake_job *job, const encoded_page *pages,
                                         .page_sizes = job->light_asset.file_sizes,
                                         .ending = alpi_bake_light_ending(&job->options),
                                         .scales = job->light_asset.scales,
-                                        .units = alpi_bake_light_units(&job->options)};
+                                        .units = alpi_bake_light_units_name(&job->options)};
         const alp_atlas *atlas = job->lightmap->atlas;
         bool keep = atlas->info.mode == ALP_ATLAS_KEEP;
         alpi_mesh_patch patch = {

@@ -15,11 +15,6 @@
 
 enum { TEXELS_PER_RANGE = 4096 };
 
-bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
-{
-    return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
-}
-
 static bool is_by_hemicubes(const alpi_bake_job *job)
 {
     const alp_light_options *o = &job->options.light;

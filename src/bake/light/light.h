@@ -4,6 +4,7 @@
 #define ALPI_BAKE_LIGHT_H
 
 #include "bake/job.h"
+#include "bake/settings.h"
 #include "maps/radiosity/radiosity.h"
 #include "transport/directional.h"
 #include "transport/paths/reference.h"
@@ -51,8 +52,6 @@ typedef struct alpi_light_task {
 /// Direct light and what surfaces make of it, by rays or hemicubes.
 alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
-/// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
-bool alpi_light_has_rounds(const alp_bake_options *options);
 /// Whether blocks are texels where another surface touches: not for an error of 2 % and more, which
 /// 2 × 2 do for; strips of sun narrower than a texel need them for 1 % (docs/radiosity.md, "Borders
 /// and corners").
@@ -97,8 +96,6 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, uint32_t rays, double *noise);
 
-/// Whether texels are interpolated, in rounds of all.
-bool alpi_light_is_adaptive(const alp_bake_options *options);
 /// The error that direct light is interpolated within: that of the map, where texels are and it is
 /// given; 0: it is gathered at all.
 double alpi_light_direct_error(const alp_bake_options *options);

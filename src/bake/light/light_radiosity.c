@@ -55,12 +55,6 @@ static double find_tolerance(const alp_light_options *o)
                : 0.0;
 }
 
-bool alpi_light_is_adaptive(const alp_bake_options *o)
-{
-    return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
-           o->sampling.accuracy != ALP_ADAPTIVE_OFF;
-}
-
 double alpi_light_direct_error(const alp_bake_options *o)
 {
     return alpi_light_is_adaptive(o) ? fmax((double)o->light.error, 0.0) : 0.0;

@@ -171,6 +171,7 @@ static void estimates_follow_the_options(void **state)
     options[PATHS].light.error = 0.0f;
     options[PATHS].light.samples = 64;
     options[ONLY].only = "*block*";
+    options[OCCLUDERS].maps = ALP_MAP_AO; // light has no chosen occluders
     options[OCCLUDERS].occluders = "*block*";
     options[LIMITED].sampling.time_limit = 1e-3;
     for (int i = 0; i < OPTIONS; i++) {
