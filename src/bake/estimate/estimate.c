@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a bake will take, told before it: texels by areas, rays and seconds by a few points that are
 // lit as the texels will be.
+#include "bake/bake_memory.h"
 #include "bake/check.h"
 #include "bake/estimate/pilot.h"
+#include "bake/files/outputs.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
 #include "bake/light/light_plan.h"
+#include "bake/bake_stages.h"
 
 #include "atlas/factors.h"
 #include "base/memory.h"
@@ -260,7 +263,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
         return ALP_OK;
     }
     ALP_TRY(alpi_bake_check_output(job, 1));
-    ALP_TRY(alpi_bake_choose(job));
+    ALP_TRY(alpi_bake_choose_surfaces(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
     const alp_atlas_info atlas = guess_atlas(job, &g);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Light as it goes into an asset: in the units asked for, over a scale, encoded.
-#include "bake/job.h"
-#include "bake/settings.h"
+// The light of an asset: converts it to the units asked for, divides it by a scale, encodes it.
+#include "bake/files/light_units.h"
 
+#include "bake/settings.h"
 #include "base/half.h"
 #include "base/memory.h"
 #include "formats/formats.h"
@@ -52,7 +52,7 @@ uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_sce
 
 // --- values --------------------------------------------------------------------------------------
 
-/// A page in its units, A = 1 where it is covered.
+/// Converts a page to its units. A = 1 where a texel covers the pixel.
 static alp_result fill_page(const alpi_bake_job *job, uint32_t page, float *values)
 {
     const alp_lightmap *l = job->lightmap;
@@ -84,7 +84,8 @@ static float *pixel_of(const alpi_bake_job *job, float *const *values, uint32_t 
            4 * ((size_t)t->pixels[texel][1] * job->lightmap->width + t->pixels[texel][0]);
 }
 
-/// The brightest texel of each material, so that 8 bits reach from there downwards; 1 where dark.
+/// Scales each material by its brightest texel, so that 8 bits reach from there downwards; by 1
+/// where all is dark.
 static void find_scales(const alpi_bake_job *job, float *const *values, float *scales)
 {
     for (uint32_t i = 0; i < job->lightmap->texels.count; i++) {
@@ -97,7 +98,7 @@ static void find_scales(const alpi_bake_job *job, float *const *values, float *s
     }
 }
 
-/// The least power of two, 1 or more, over which all values are finite half floats.
+/// Finds the least power of two, 1 or more, that makes all values finite half floats.
 static float find_half_scale(const alpi_bake_job *job, float *const *values)
 {
     float most = 0.0f, scale = 1.0f;
@@ -131,8 +132,8 @@ static void choose_scales(alpi_bake_job *job, float *const *values)
 
 // --- encoding ------------------------------------------------------------------------------------
 
-/// 8-bit RGB of values in [0, 1]. Glossed over: two materials that meet inside a chart have scales
-/// of their own, and a filter that reads across their border mixes them, as it mixes their colours.
+/// Encodes values in [0, 1] as 8-bit RGB. Two materials that meet inside a chart have scales of
+/// their own. A filter that reads across their border mixes the scales, as it mixes the colours.
 static alp_result encode_bytes(const alpi_bake_job *job, const float *page, uint32_t number)
 {
     const bool srgb = job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE;
@@ -193,8 +194,8 @@ static alp_result make_pages(alpi_bake_job *job, float **values)
     return ALP_OK;
 }
 
-/// What a viewer will not show as it was baked.
-static void tell_glass(const alpi_bake_job *job)
+/// Notes materials that a viewer will not show as they were baked.
+static void note_glass(const alpi_bake_job *job)
 {
     for (uint32_t m = 0; m < job->scene->material_count; m++) {
         if (job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE &&
@@ -215,7 +216,7 @@ alp_result alpi_bake_make_light_asset(alpi_bake_job *job)
     }
     alpi_light_asset *asset = &job->light_asset;
     const uint32_t pages = job->lightmap->page_count;
-    tell_glass(job);
+    note_glass(job);
     ALPI_TRY_NEW(job->context, asset->files, pages);
     ALPI_TRY_NEW(job->context, asset->file_sizes, pages);
     ALPI_TRY_NEW(job->context, asset->scales, (size_t)job->scene->material_count + 1);

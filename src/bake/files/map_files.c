@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What kind of file the maps of the maps folder are.
-#include "bake/job.h"
+// Encodes the maps of the maps folder in the format asked for.
+#include "bake/files/map_files.h"
 
 #include "base/half.h"
 #include "base/memory.h"
@@ -28,7 +28,7 @@ uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t pag
                                                        : 0;
 }
 
-/// The least power of two, 1 or more, over which the colours are finite half floats.
+/// Finds the least power of two, 1 or more, that makes all colours finite half floats.
 static float find_scale(const alp_image *image)
 {
     const float *pixels = image->pixels;
@@ -51,7 +51,7 @@ static alp_result encode_halves(const alpi_bake_job *job, const alp_image *image
                : alpi_exr_encode_half(image, scale, true, &file->bytes, &file->size);
 }
 
-/// Coverage stays as it is.
+/// Divides the colours by the scale. Coverage stays as it is.
 static alp_result encode_scaled(const alpi_bake_job *job, const alp_image *image, float scale,
                                 alpi_map_file *file)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The scene with its light as a viewer's own file, .json or .babylon, in the place of an asset.
-#include "bake/job.h"
-#include "bake/settings.h"
+// Writes the scene with its light as a viewer's own file, .json or .babylon, in place of an asset.
+#include "bake/files/viewer_file.h"
 
+#include "bake/settings.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/formats.h"
@@ -17,7 +17,7 @@ static char *page_path(alp_context *context, const alp_bake_options *options, ui
                      : alpi_format(context, "%.*s.%u.hdr", stem, options->output, page);
 }
 
-/// Pictures beside the file.
+/// Number of pictures beside the file.
 static uint32_t beside_count(const alp_bake_options *options, uint32_t pages)
 {
     return options->lightmap_as == ALP_LIGHTMAP_AS_BABYLON ? pages : 0;
@@ -62,7 +62,7 @@ static alp_result add_page(const alpi_bake_job *job, const alpi_light_pages *lig
     return result;
 }
 
-/// The pictures, and the file that names them last.
+/// Adds the pictures first, then the file that names them.
 static alp_result add_all(const alpi_bake_job *job, char **paths, const char **names,
                           alpi_file_set *files)
 {

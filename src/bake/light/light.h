@@ -9,6 +9,11 @@
 #include "transport/directional.h"
 #include "transport/paths/reference.h"
 
+/// The stage of light: gathers irradiance at the texels, if a map of light is asked for, and fills
+/// the report.
+/// @return ALP_OK; LIMIT: the time was over before any texel had light; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_bake_light(alpi_bake_job *job);
+
 /// The watch of the light: a progress callback and its user data. Time that is left is told by how
 /// long the part that runs takes, and what comes after it in times of that part.
 typedef struct alpi_light_clock {

@@ -245,7 +245,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.scene = job->scene;
     options.tracer = t->tracer;
     options.lighting = t->lighting;
-    options.blocks.near = job->validity.near;
+    options.blocks.near = job->gathering.validity.near;
     options.blocks.fine = alpi_light_has_fine_blocks(&o->light);
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
@@ -290,7 +290,7 @@ static alp_result light_texels(alpi_bake_job *job, const alpi_light_task *t, alp
     alpi_direct_output output = {.values = r->direct, .directional = r->directional};
     const double began = alpi_seconds();
     const alpi_direct_map_options options = {.lattice = t->lattice,
-                                             .near = job->validity.near,
+                                             .near = job->gathering.validity.near,
                                              .error = alpi_light_direct_error(&job->options)};
     ALP_TRY(alpi_direct_map(r, &options, t->order, t->count, &t->progress, &output,
                             &r->direct_gathered));

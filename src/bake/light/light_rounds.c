@@ -73,7 +73,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
     uint8_t *states = all ? r->states : r->worst.marks;
     alpi_bounced_options options = {
         .gather = gather,
-        .near = job->validity.near,
+        .near = job->gathering.validity.near,
         .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
         .wide = alpi_light_has_wide_lattice(&job->options.light),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is told before the work: rays and memory, also of outputs that take more of it than what
 // they are made from, viewers' own files and layers.
-#include "bake/job.h"
+#include "bake/bake_memory.h"
 #include "test_scenes.h"
 
 #include <math.h>
