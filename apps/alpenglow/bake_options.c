@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The options of alpenglow bake.
+// The options of alpenglow bake. The library refuses options that make no sense together
+// (src/bake/check.c). This file refuses one itself only where the message has to name an option of
+// the command, or where the option exists in the command alone.
 #include "bake_options.h"
 
 #include "lighting.h"
@@ -325,14 +327,6 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
         return usage_error(COMMAND_BAKE, "--layers: --gather paths finds all light together");
     }
-    if (o->layers && values[OPTION_ONLY].given) {
-        return usage_error(COMMAND_BAKE, "--layers: are told apart where all surfaces are baked; "
-                                         "leave out --only");
-    }
-    if (o->layers && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
-        return usage_error(COMMAND_BAKE, "--layers: are gathered to their end; leave out %s",
-                           values[OPTION_TIME_LIMIT].given ? "--time-limit" : "--keep-partial");
-    }
     if (o->layers && o->denoise) {
         return usage_error(COMMAND_BAKE, "--layers: do not add up to what --denoise makes");
     }
@@ -374,16 +368,9 @@ static int read_light(const command_line *a, alp_light_options *o)
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
     o->denoise = values[OPTION_DENOISE].choice == 1;
-    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
-        return usage_error(COMMAND_BAKE, "--denoise on: is of bounced light that rays gather");
-    }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
                            values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
-    }
-    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
-        return usage_error(COMMAND_BAKE, "--direct %s: with --bounces 0 all light is direct",
-                           values[OPTION_DIRECT].text);
     }
     if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
         return usage_error(COMMAND_BAKE, "--direct %s: --gather paths finds all light together",
