@@ -113,7 +113,7 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
                          .context = scene->context,
                          .options = alp_bake_options_default(),
                          .lightmap = &lightmap,
-                         .validity = question->map->validity};
+                         .gathering.validity = question->map->validity};
     job.options.light = *light;
     job.options.light.lighting = *question->light;
     job.options.occlusion.seed = question->seed;

@@ -64,7 +64,7 @@ SUB_ROOMS = {
         "seams": ["texels", "."],
         "vertex": ["."],
     },
-    "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["light", "."]},
+    "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["files", "light", "."]},
 }
 
 # public header: the lowest room that may include it, which stands for it in the law

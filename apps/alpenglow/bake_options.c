@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The options of alpenglow bake.
+// The options of alpenglow bake. The library refuses options that make no sense together
+// (src/bake/check.c). This file refuses one itself only where the message has to name an option of
+// the command, or where the option exists in the command alone.
 #include "bake_options.h"
 
 #include "lighting.h"
@@ -26,7 +28,7 @@ static int check_output_name(const char *path, alp_lightmap_as as)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb, .gltf, .dae or .obj", path);
 }
 
-/// Refuses options that do not apply to values at vertices, or only to them.
+/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
 static int check_vertex_options(const option_value *values)
 {
     static const struct {
@@ -107,22 +109,18 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     }
     name = find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
     if (name != NULL && !occlusion) {
-        return usage_error(COMMAND_BAKE,
-                           "%s: applies to occlusion only; for light give "
-                           "--samples",
+        return usage_error(COMMAND_BAKE, "%s: applies to occlusion only; for light give --samples",
                            name);
     }
     name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
     if (name != NULL && light) {
-        return usage_error(COMMAND_BAKE,
-                           "--maps light: is baked for the whole scene; leave out "
-                           "%s",
+        return usage_error(COMMAND_BAKE, "--maps light: is baked for the whole scene; leave out %s",
                            name);
     }
     return EXIT_DONE;
 }
 
-/// The bits of alp_map of --maps, whose choices are numbered in their order.
+/// The bits of what --maps lists, whose choices are numbered in their order.
 static unsigned listed_maps(unsigned choices)
 {
     static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
@@ -134,7 +132,7 @@ static unsigned listed_maps(unsigned choices)
     return bits;
 }
 
-/// --lightmap-as with --units and --lightmap-format, and their needs.
+/// How light goes into the asset, and what that needs.
 static int read_lightmap(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
@@ -156,9 +154,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
     if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
         return usage_error(COMMAND_BAKE,
-                           "--lightmap-format: applies to --lightmap-as extras; %s"
-                           " %s",
-                           as->text,
+                           "--lightmap-format: applies to --lightmap-as extras; %s %s", as->text,
                            viewer ? "has a format of its own" : "stores a PNG in the asset");
     }
     if (units->given && viewer) {
@@ -172,15 +168,14 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
                            as->text);
     }
     if (o->ao_into == ALP_AO_INTO_ORM) {
-        return usage_error(COMMAND_BAKE, "--ao-into orm: not with --lightmap-as, because "
-                                         "occlusion shares the coordinates of the light; leave "
-                                         "one of them out");
+        return usage_error(COMMAND_BAKE,
+                           "--ao-into orm: not with --lightmap-as, because occlusion shares the "
+                           "coordinates of the light; leave one of them out");
     }
     const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
     if (units->given && o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
         return usage_error(COMMAND_BAKE,
-                           "--units %s: --lightmap-as emissive stores radiance; "
-                           "leave out --units",
+                           "--units %s: --lightmap-as emissive stores radiance; leave out --units",
                            units->text);
     }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
@@ -195,29 +190,29 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// --maps-as: the format of --maps-dir.
+/// What the files of --maps-dir are.
 static int read_maps_format(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_MAPS_AS];
     o->maps_format = (alp_maps_format)as->choice;
     if (as->given && o->maps_folder == NULL) {
-        return usage_error(COMMAND_BAKE, "--maps-as: is the format of --maps-dir; give "
-                                         "--maps-dir DIR too");
+        return usage_error(COMMAND_BAKE,
+                           "--maps-as: is the format of --maps-dir; give --maps-dir DIR too");
     }
     const char *name = (o->maps & ALP_MAP_BENT) != 0        ? "bent"
                        : (o->maps & ALP_MAP_SH) != 0        ? "sh"
                        : (o->maps & ALP_MAP_DIRECTION) != 0 ? "direction"
                                                             : NULL;
     if (o->maps_format == ALP_MAPS_HDR && name != NULL) {
-        return usage_error(COMMAND_BAKE,
-                           "--maps-as hdr: cannot store the negative values of --maps %s; use "
-                           "exr16 or ktx2",
-                           name);
+        return usage_error(
+            COMMAND_BAKE,
+            "--maps-as hdr: cannot store the negative values of --maps %s; use exr16 or ktx2",
+            name);
     }
     return EXIT_DONE;
 }
 
-/// --maps and --ao-bleed, and options that exclude them.
+/// --maps and --ao-bleed, and what cannot stand beside them.
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
     const bool bleed = values[OPTION_AO_BLEED].given;
@@ -230,15 +225,13 @@ static int read_maps(const option_value *values, alp_bake_options *o)
                            sh ? "sh" : "direction", sh ? "sh" : "direction");
     }
     if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
-        return usage_error(COMMAND_BAKE,
-                           "--maps %s: --gather paths keeps no directions of light; use --gather"
-                           " rays or hemicube",
-                           sh ? "sh" : "direction");
+        return usage_error(
+            COMMAND_BAKE,
+            "--maps %s: --gather paths keeps no directions of light; use --gather rays or hemicube",
+            sh ? "sh" : "direction");
     }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
-        return usage_error(COMMAND_BAKE,
-                           "--maps %s: not with --atlas vertex, which bakes ao "
-                           "only",
+        return usage_error(COMMAND_BAKE, "--maps %s: not with --atlas vertex, which bakes ao only",
                            bent ? "bent" : "light");
     }
     const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
@@ -258,15 +251,15 @@ static int read_maps(const option_value *values, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "--existing-ao: needs --maps ao");
     }
     if (bleed && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
-        return usage_error(COMMAND_BAKE,
-                           "--ao-bleed: has no partial results; leave out --time-limit and "
-                           "--keep-partial");
+        return usage_error(
+            COMMAND_BAKE,
+            "--ao-bleed: has no partial results; leave out --time-limit and --keep-partial");
     }
     return check_light(values, light, ao || bent || bleed);
 }
 
-/// --quality, --error and the limits. With a wanted error, --ao-samples is a limit with a high
-/// default.
+/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
+/// unless it is given.
 static int read_sampling(const command_line *a, alp_bake_options *o)
 {
     enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
@@ -310,7 +303,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// --only, --occluders and --ao-self.
+/// Which surfaces are baked and which occlude them.
 static int read_choice(const option_value *values, alp_bake_options *o)
 {
     o->only = values[OPTION_ONLY].text;
@@ -321,10 +314,10 @@ static int read_choice(const option_value *values, alp_bake_options *o)
                                          "no other occluders; leave one of them out");
     }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (o->ao_self || o->only != NULL)) {
-        return usage_error(COMMAND_BAKE,
-                           "%s: not with --atlas vertex, which bakes all surfaces together; use "
-                           "--atlas charts",
-                           o->ao_self ? "--ao-self" : "--only");
+        return usage_error(
+            COMMAND_BAKE,
+            "%s: not with --atlas vertex, which bakes all surfaces together; use --atlas charts",
+            o->ao_self ? "--ao-self" : "--only");
     }
     return EXIT_DONE;
 }
@@ -332,20 +325,12 @@ static int read_choice(const option_value *values, alp_bake_options *o)
 static int check_layers(const option_value *values, const alp_light_options *o)
 {
     if (o->layers && o->gather == ALP_GATHER_PATHS && o->bounces > 0) {
-        return usage_error(COMMAND_BAKE, "--layers: --gather paths cannot separate lights; use "
-                                         "rays or hemicube");
-    }
-    if (o->layers && values[OPTION_ONLY].given) {
-        return usage_error(COMMAND_BAKE, "--layers: need a bake of all surfaces; leave out "
-                                         "--only");
-    }
-    if (o->layers && (values[OPTION_TIME_LIMIT].given || values[OPTION_KEEP_PARTIAL].given)) {
-        return usage_error(COMMAND_BAKE, "--layers: have no partial results; leave out %s",
-                           values[OPTION_TIME_LIMIT].given ? "--time-limit" : "--keep-partial");
+        return usage_error(COMMAND_BAKE,
+                           "--layers: --gather paths cannot separate lights; use rays or hemicube");
     }
     if (o->layers && o->denoise) {
-        return usage_error(COMMAND_BAKE, "--layers: do not add up to a denoised map; leave out "
-                                         "--denoise");
+        return usage_error(COMMAND_BAKE,
+                           "--layers: do not add up to a denoised map; leave out --denoise");
     }
     if (o->layers && !values[OPTION_MAPS_FOLDER].given) {
         return usage_error(COMMAND_BAKE, "--layers: are written as files; give --maps-dir DIR");
@@ -353,7 +338,7 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     return EXIT_DONE;
 }
 
-/// --emitters, and options that exclude counted ones.
+/// What counts emissive surfaces, and what they cannot be told apart for.
 static int check_emitters(const option_value *values, const alp_light_options *o)
 {
     if (values[OPTION_EMITTERS].given && (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0)) {
@@ -361,15 +346,15 @@ static int check_emitters(const option_value *values, const alp_light_options *o
                            o->bounces == 0 ? " and bounces" : "");
     }
     if (o->emitters == ALP_EMITTERS_COUNTED && (o->layers || values[OPTION_ONLY].given)) {
-        return usage_error(COMMAND_BAKE,
-                           "--emitters counted: counts all emitters together, for all surfaces; "
-                           "leave out %s",
-                           o->layers ? "--layers" : "--only");
+        return usage_error(
+            COMMAND_BAKE,
+            "--emitters counted: counts all emitters together, for all surfaces; leave out %s",
+            o->layers ? "--layers" : "--only");
     }
     return EXIT_DONE;
 }
 
-/// --gather, --direct, --bounces, --samples and --denoise.
+/// How irradiance is gathered, and which.
 static int read_light(const command_line *a, alp_light_options *o)
 {
     enum { DIRECT_ON, DIRECT_OFF, DIRECT_ONLY, DIRECT_APART }; // the choices of --direct
@@ -385,23 +370,15 @@ static int read_light(const command_line *a, alp_light_options *o)
                 : direct == DIRECT_APART ? ALP_DIRECT_APART
                                          : ALP_DIRECT_ON;
     o->denoise = values[OPTION_DENOISE].choice == 1;
-    if (o->denoise && (o->gather != ALP_GATHER_RAYS || o->bounces == 0)) {
-        return usage_error(COMMAND_BAKE, "--denoise on: applies to bounced light of --gather "
-                                         "rays only");
-    }
     if (direct == DIRECT_ONLY && (values[OPTION_BOUNCES].given || values[OPTION_GATHER].given)) {
         return usage_error(COMMAND_BAKE, "--direct only: has no bounces; leave out %s",
                            values[OPTION_BOUNCES].given ? "--bounces" : "--gather");
     }
-    if (o->direct != ALP_DIRECT_ON && o->bounces == 0) {
-        return usage_error(COMMAND_BAKE, "--direct %s: with --bounces 0 all light is direct",
-                           values[OPTION_DIRECT].text);
-    }
     if (o->direct != ALP_DIRECT_ON && o->gather == ALP_GATHER_PATHS) {
-        return usage_error(COMMAND_BAKE,
-                           "--direct %s: --gather paths cannot separate direct "
-                           "light; use rays or hemicube",
-                           values[OPTION_DIRECT].text);
+        return usage_error(
+            COMMAND_BAKE,
+            "--direct %s: --gather paths cannot separate direct light; use rays or hemicube",
+            values[OPTION_DIRECT].text);
     }
     if (values[OPTION_HEMICUBE].given && o->gather != ALP_GATHER_HEMICUBE) {
         return usage_error(COMMAND_BAKE, "--hemicube: needs --gather hemicube");
@@ -411,8 +388,7 @@ static int read_light(const command_line *a, alp_light_options *o)
     }
     if (o->gather == ALP_GATHER_HEMICUBE && values[OPTION_SAMPLES].given) {
         return usage_error(COMMAND_BAKE,
-                           "--samples: not with --gather hemicube; set its pixels by --hemicube "
-                           "N");
+                           "--samples: not with --gather hemicube; set its pixels by --hemicube N");
     }
     const int code = check_emitters(values, o);
     return code == EXIT_DONE ? check_layers(values, o) : code;
@@ -458,8 +434,9 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
         code = read_choice(values, o);
     }
     if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
-        return usage_error(COMMAND_BAKE, "no output; give -o OUT.glb, -o OUT.gltf, -o OUT.dae, "
-                                         "-o OUT.obj or --maps-dir DIR");
+        return usage_error(
+            COMMAND_BAKE,
+            "no output; give -o OUT.glb, -o OUT.gltf, -o OUT.dae, -o OUT.obj or --maps-dir DIR");
     }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;

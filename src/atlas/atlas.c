@@ -47,7 +47,7 @@ static alp_result check_gaps(alp_context *context, const alp_atlas_options *o)
     return ALP_OK;
 }
 
-static alp_result check_options(const alp_scene *scene, const alp_atlas_options *o)
+alp_result alpi_atlas_check(const alp_scene *scene, const alp_atlas_options *o)
 {
     alp_context *context = scene->context;
     const bool known = o->mode == ALP_ATLAS_AUTO || o->mode == ALP_ATLAS_KEEP ||
@@ -281,7 +281,7 @@ alp_result alpi_atlas_create(const alp_scene *scene, const alp_atlas_options *op
 {
     *atlas = NULL;
     alp_atlas_options chosen = options != NULL ? *options : alp_atlas_options_default();
-    ALP_TRY(check_options(scene, &chosen));
+    ALP_TRY(alpi_atlas_check(scene, &chosen));
     if (choice == NULL) {
         return create_from_view(scene, scene, &chosen, false, atlas);
     }

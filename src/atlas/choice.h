@@ -15,6 +15,10 @@ typedef struct alpi_atlas_choice {
     bool world_axes;           // BLEND: what is written has no objects
 } alpi_atlas_choice;
 
+/// Refuses options that are out of range or make no sense together.
+/// @return ALP_OK; INVALID_ARGUMENT
+alp_result alpi_atlas_check(const alp_scene *scene, const alp_atlas_options *options);
+
 /// alp_atlas_create for some of the surfaces. What `choice` points to is read by this call only.
 /// @param choice NULL = all surfaces, no instances
 alp_result alpi_atlas_create(const alp_scene *scene, const alp_atlas_options *options,

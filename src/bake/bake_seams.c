@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Seams of the finished maps: how far look-ups differ across them, and their stitching.
-#include "bake/job.h"
+// The stage that stitches: measures how far look-ups differ across the seams of the maps, and moves
+// the values beside the seams.
+#include "bake/bake_stages.h"
 
 #include "base/tasks.h"
 #include "maps/seams/stitch.h"
 
 #include <math.h>
 
-/// Tells the stages of what is used here as one.
+/// Reports all progress as that of one stage.
 static bool tell_seams(void *user, const alp_progress *progress)
 {
     const alpi_watch *watch = user;
@@ -95,7 +96,7 @@ static alp_result stitch_occlusion(alpi_bake_job *job, const alpi_seams *seams)
     return result;
 }
 
-/// Its rays are as many as those of occlusion; an error of its own it has none.
+/// Coloured obscurance has no error of its own; it sends as many rays as occlusion.
 static alp_result stitch_obscurance(alpi_bake_job *job, const alpi_seams *seams)
 {
     const alp_lightmap *l = job->lightmap;
@@ -110,15 +111,15 @@ static alp_result stitch_obscurance(alpi_bake_job *job, const alpi_seams *seams)
     return result;
 }
 
-/// The parts of a sum at a place, made to add up to what it was stitched to: all were moved alike,
-/// but where one came to an end of its range. The whole becomes their sum in their order.
+/// Makes the parts of a sum add up to the stitched whole. All parts moved alike, unless one came to
+/// an end of its range. The whole becomes their sum in their order.
 static void add_up(float *const *parts, size_t count, float *whole)
 {
     float sum = 0.0f, exact = 0.0f;
     for (size_t i = 0; i < count; i++) {
         sum += *parts[i];
     }
-    if (!(sum > 0.0f)) { // nothing is left of any
+    if (!(sum > 0.0f)) { // all parts ended at zero
         sum = *parts[0] = *whole;
     }
     const float share = sum > 0.0f ? *whole / sum : 0.0f;
@@ -129,7 +130,7 @@ static void add_up(float *const *parts, size_t count, float *whole)
     *whole = exact;
 }
 
-/// Irradiance at a place is again the sum of its layers; direct and bounced light add up to it.
+/// Makes irradiance at a place the sum of its layers again, and of direct and bounced light.
 static void add_up_light(const alp_lightmap *l, size_t page, size_t at)
 {
     float *parts[ALPI_LAYER_LIMIT];
@@ -171,7 +172,7 @@ static alp_result stitch_each(alpi_bake_job *job, const alpi_stitch *stitch)
     return ALP_OK;
 }
 
-/// One set of weights for all maps of light: then they are moved alike.
+/// Stitches all maps of light by one set of weights, so that they move alike.
 static alp_result stitch_light(alpi_bake_job *job, const alpi_seams *seams)
 {
     const alp_lightmap *l = job->lightmap;
@@ -188,7 +189,7 @@ static alp_result stitch_light(alpi_bake_job *job, const alpi_seams *seams)
 
 // -------------------------------------------------------------------------------------------------
 
-static alp_result look(alpi_bake_job *job, const alpi_seams *seams)
+static alp_result measure_and_stitch(alpi_bake_job *job, const alpi_seams *seams)
 {
     ALP_TRY(measure_all(job, seams, false));
     if (!job->options.stitch) {
@@ -201,23 +202,25 @@ static alp_result look(alpi_bake_job *job, const alpi_seams *seams)
     return measure_all(job, seams, true);
 }
 
-static alp_result look_for_seams(alpi_bake_job *job)
+static alp_result find_seams(alpi_bake_job *job)
 {
     alpi_seams seams;
     ALP_TRY(alpi_seams_create(job->lightmap, &seams));
     job->report.seams.count = seams.count;
     job->report.seams.length = seams.length;
-    const alp_result result = look(job, &seams);
+    const alp_result result = measure_and_stitch(job, &seams);
     alpi_seams_destroy(&seams);
     return result;
 }
 
-alp_result alpi_bake_seams(alpi_bake_job *job)
+alp_result alpi_bake_stitch(alpi_bake_job *job)
 {
+    const double started = alpi_seconds();
     alpi_watch own = alpi_set_watch(job->context, (alpi_watch){0});
     alpi_set_watch(job->context,
                    (alpi_watch){.callback = tell_seams, .user = &own, .last = own.last});
-    const alp_result result = look_for_seams(job);
+    const alp_result result = find_seams(job);
     alpi_set_watch(job->context, own);
+    job->report.seconds_seams = alpi_seconds() - started;
     return result;
 }

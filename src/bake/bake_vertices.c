@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The job without an atlas: vertices → acceleration structure → occlusion → values → the asset; and
-// a word to the user where triangles are too large for what lies on them.
+// A bake without an atlas: vertices → tracer → occlusion → fit → values → asset. It warns where
+// triangles are too large for the occlusion on them.
+#include "bake/bake_stages.h"
+
+#include "bake/files/extras.h"
+#include "bake/files/outputs.h"
 #include "bake/objects.h"
 
 #include "base/memory.h"
@@ -13,46 +17,11 @@
 #include <unistd.h>
 
 enum { NAMED_LIMIT = 8, POINTS_LEAST = 8 };
-static const double COARSE = 0.05; // root mean square error that is worth a warning
+static const double COARSE = 0.05; // root mean square error above which a warning follows
 
-alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    bool at_vertices = o->atlas.mode == ALP_ATLAS_VERTEX;
-    if ((int)o->vertex_attribute < ALP_VERTEX_COLOR || o->vertex_attribute > ALP_VERTEX_OCCLUSION) {
-        return alpi_fail(job->context, code, "bake: unknown choice %d for the vertex attribute",
-                         (int)o->vertex_attribute);
-    }
-    if (!at_vertices && o->vertex_attribute != ALP_VERTEX_COLOR) {
-        return alpi_fail(job->context, code, "bake: a vertex attribute needs ALP_ATLAS_VERTEX");
-    }
-    if (at_vertices && o->maps_folder != NULL) {
-        return alpi_fail(job->context, code,
-                         "%s: a bake at vertices has no maps; give an output only", o->maps_folder);
-    }
-    if (at_vertices && (o->only != NULL || o->ao_self)) {
-        return alpi_fail(job->context, code,
-                         "bake: at vertices all surfaces are baked together; leave out only and "
-                         "ao_self");
-    }
-    const alp_sampling_options *sampling = &o->sampling;
-    if (at_vertices && (sampling->accuracy > 0.0f || sampling->error != 0.0f ||
-                        sampling->time_limit != 0.0 || sampling->keep_partial)) {
-        return alpi_fail(job->context, code,
-                         "bake: at vertices every receiver gets all rays; leave out accuracy, "
-                         "error, time_limit and keep_partial");
-    }
-    if (at_vertices && o->existing_ao != ALP_EXISTING_AO_REPLACE) {
-        return alpi_fail(job->context, code,
-                         "bake: a bake at vertices keeps the materials' occlusion maps; set "
-                         "existing_ao to REPLACE");
-    }
-    return ALP_OK;
-}
-
-/// Bytes of ours at the peak, the scene and the tracer apart: of a triangle shares, ends and areas;
-/// of a vertex its receiver, three values, the table that finds equal ones, and the fit.
+/// Refuses a scene whose peak, without the scene and the tracer, is above the limit. A triangle
+/// takes shares, ends and areas; a vertex its receiver, three values, the table of equal ones, and
+/// the fit.
 static alp_result check_memory(const alpi_bake_job *job)
 {
     enum { OF_TRIANGLE = 36, OF_VERTEX = 120 };
@@ -72,16 +41,70 @@ static alp_result check_memory(const alpi_bake_job *job)
                            scene->name, scene->vertex_count, needed / 0x1p20, limit / 0x1p20);
 }
 
+/// The state of a bake at vertices.
+typedef struct vertex_bake {
+    alpi_vertex_map map;
+    alpi_tracer *tracer, *owned;
+    float *values; // [map.count]
+} vertex_bake;
+
+/// Finds the vertices that are receivers.
+static alp_result map_vertices(alpi_bake_job *job, vertex_bake *v)
+{
+    const double started = alpi_seconds();
+    ALP_TRY(alpi_bake_begin_stage(job, "vertices"));
+    ALP_TRY(alpi_vertex_map_create(job->scene, &v->map));
+    job->report.atlas = (alp_atlas_info){.mode = ALP_ATLAS_VERTEX};
+    job->report.vertices = v->map.count;
+    job->report.seconds_atlas = alpi_seconds() - started;
+    ALPI_TRY_NEW(job->context, v->values, v->map.count);
+    return ALP_OK;
+}
+
+static alp_result build_tracer(alpi_bake_job *job, vertex_bake *v)
+{
+    const double started = alpi_seconds();
+    ALP_TRY(alpi_bake_begin_stage(job, "build"));
+    ALP_TRY(alpi_bake_tracer(job, job->options.progress, job->options.progress_user, &v->tracer,
+                             &v->owned));
+    job->report.seconds_build = alpi_seconds() - started;
+    return ALP_OK;
+}
+
+static alp_occlusion_options occlusion_options(const alpi_bake_job *job)
+{
+    alp_occlusion_options options = job->options.occlusion;
+    options.progress = job->options.progress;
+    options.progress_user = job->options.progress_user;
+    return options;
+}
+
+static alp_result trace_occlusion(alpi_bake_job *job, vertex_bake *v)
+{
+    const alp_occlusion_options options = occlusion_options(job);
+    alpi_occlusion_setup setup;
+    ALP_TRY(alpi_occlusion_prepare(job->scene, v->tracer, &options, &setup));
+    job->report.ao_distance = setup.distance;
+    const alpi_receivers receivers = alpi_vertex_map_receivers(&v->map);
+    const alp_result result =
+        alpi_occlusion_gather(&setup, &receivers, NULL, v->map.count, v->values);
+    job->report.rays = (uint64_t)v->map.count * setup.samples;
+    job->report.ao_samples = setup.samples;
+    alpi_occlusion_release(&setup);
+    return result;
+}
+
 // --- triangles that are too large ----------------------------------------------------------------
 
-/// Mean square error that is worth a warning. Noise of the values is no fault of the triangles: its
-/// variance is at most 1/4 over the rays, times 3/2 by the fit, times 1/2 by interpolating.
+/// The mean square error above which a warning follows. The noise of the values is no fault of the
+/// triangles: its variance is at most 1/4 over the rays, times 3/2 by the fit, times 1/2 by
+/// interpolation.
 static double coarse_limit(const alpi_bake_job *job)
 {
     return COARSE * COARSE + 0.1875 / (double)job->options.occlusion.samples;
 }
 
-/// Where errors shrink with the edge, half of what is worth a warning is reached at this one.
+/// The edge at which the error is half of COARSE, if errors shrink with the edge.
 static double advised_edge(const alpi_vertex_detail *detail)
 {
     return detail->edge * fmin(0.5 * COARSE / sqrt(detail->square), 0.5);
@@ -91,12 +114,12 @@ static void warn_of_surface(const alpi_bake_job *job, const char *name,
                             const alpi_vertex_detail *detail)
 {
     alpi_warn(job->context, "coarse-vertices", name,
-              "triangles are too large for their occlusion: between the vertices it errs by %.2f"
-              " (root mean square); subdivide to edges of about %.2g m, or use --atlas charts",
+              "triangles are too large for their occlusion: between the vertices it errs by %.2f "
+              "(root mean square); subdivide to edges of about %.2g m, or use --atlas charts",
               sqrt(detail->square), advised_edge(detail));
 }
 
-/// Warns of the worst surfaces first and counts the rest; `details` is used up.
+/// Warns of the worst surfaces first and counts the rest. Overwrites `details`.
 static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details)
 {
     uint32_t count = job->scene->surface_count;
@@ -140,17 +163,17 @@ static void warn_of_coarse(const alpi_bake_job *job, alpi_vertex_detail *details
     }
 }
 
-static alp_result check_detail(alpi_bake_job *job, const alpi_vertex_map *map,
-                               const alpi_tracer *tracer, const alp_occlusion_options *options,
-                               const float *values)
+static alp_result measure_detail(alpi_bake_job *job, const vertex_bake *v)
 {
+    const alp_occlusion_options options = occlusion_options(job);
     alpi_vertex_detail *details =
         ALPI_NEW(job->context, alpi_vertex_detail, job->scene->surface_count);
     if (details == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     uint64_t rays = 0;
-    alp_result result = alpi_vertex_map_measure(map, tracer, options, values, details, &rays);
+    const alp_result result =
+        alpi_vertex_map_measure(&v->map, v->tracer, &options, v->values, details, &rays);
     if (result == ALP_OK) {
         job->report.rays += rays;
         warn_of_coarse(job, details);
@@ -171,77 +194,31 @@ static double area_mean(const alpi_vertex_map *map, const float *means)
     return area > 0.0 ? sum / area : 0.0;
 }
 
-/// Values of receivers to values of the scene's vertices; those of no triangle are open.
-static alp_result store(alpi_bake_job *job, const alpi_vertex_map *map, const float *values)
+/// Turns means around the vertices into values at them.
+static alp_result fit_values(alpi_bake_job *job, vertex_bake *v)
 {
-    uint32_t count = job->scene->vertex_count;
+    job->report.ao_mean = area_mean(&v->map, v->values);
+    return alpi_vertex_map_fit(&v->map, v->values);
+}
+
+/// Stores the values of receivers at the scene's vertices. Vertices without a triangle are open.
+static alp_result store(alpi_bake_job *job, const vertex_bake *v)
+{
+    const uint32_t count = job->scene->vertex_count, *receivers = v->map.vertex_receivers;
     float *all = ALPI_NEW(job->context, float, count);
     if (all == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    for (uint32_t v = 0; v < count; v++) {
-        all[v] = map->vertex_receivers[v] == ALPI_NONE ? 1.0f : values[map->vertex_receivers[v]];
+    for (uint32_t i = 0; i < count; i++) {
+        all[i] = receivers[i] == ALPI_NONE ? 1.0f : v->values[receivers[i]];
     }
     return alpi_lightmap_create_vertices(job->scene, all, &job->lightmap);
 }
 
-static alp_result gather_with(alpi_bake_job *job, const alpi_vertex_map *map,
-                              const alpi_tracer *tracer, float *values)
-{
-    double started = alpi_seconds();
-    alp_occlusion_options options = job->options.occlusion;
-    options.progress = job->options.progress;
-    options.progress_user = job->options.progress_user;
-    alpi_occlusion_setup setup;
-    ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
-    job->report.ao_distance = setup.distance;
-    const alpi_receivers receivers = alpi_vertex_map_receivers(map);
-    alp_result result = alpi_occlusion_gather(&setup, &receivers, NULL, map->count, values);
-    job->report.rays = (uint64_t)map->count * setup.samples;
-    job->report.ao_samples = setup.samples;
-    alpi_occlusion_release(&setup);
-    ALP_TRY(result);
-    job->report.ao_mean = area_mean(map, values);
-    ALP_TRY(alpi_vertex_map_fit(map, values));
-    ALP_TRY(check_detail(job, map, tracer, &options, values));
-    job->report.seconds_bake = alpi_seconds() - started;
-    alpi_bake_warn_of_darkness(job);
-    return store(job, map, values);
-}
-
-static alp_result gather(alpi_bake_job *job, const alpi_vertex_map *map, float *values)
-{
-    double started = alpi_seconds();
-    ALP_TRY(alpi_bake_begin_stage(job, "build"));
-    alpi_tracer *tracer = NULL, *owned = NULL;
-    ALP_TRY(
-        alpi_bake_tracer(job, job->options.progress, job->options.progress_user, &tracer, &owned));
-    job->report.seconds_build = alpi_seconds() - started;
-    alp_result result = gather_with(job, map, tracer, values);
-    alpi_tracer_destroy(owned);
-    return result;
-}
-
-static alp_result find_values(alpi_bake_job *job)
-{
-    double started = alpi_seconds();
-    ALP_TRY(alpi_bake_begin_stage(job, "vertices"));
-    alpi_vertex_map map;
-    ALP_TRY(alpi_vertex_map_create(job->scene, &map));
-    job->report.atlas = (alp_atlas_info){.mode = ALP_ATLAS_VERTEX};
-    job->report.vertices = map.count;
-    job->report.seconds_atlas = alpi_seconds() - started;
-    float *values = ALPI_NEW(job->context, float, map.count);
-    alp_result result = values == NULL ? ALP_ERROR_OUT_OF_MEMORY : gather(job, &map, values);
-    alpi_release(job->context, values);
-    alpi_vertex_map_destroy(&map);
-    return result;
-}
-
 // --- the asset -----------------------------------------------------------------------------------
 
-/// Viewers apply a material's own occlusion map besides.
-static void tell_of_maps(const alpi_bake_job *job)
+/// Notes materials with an occlusion map of their own, which viewers apply besides.
+static void note_maps(const alpi_bake_job *job)
 {
     const alp_scene *scene = job->scene;
     uint32_t count = 0;
@@ -263,7 +240,7 @@ static alp_result write_asset(const alpi_bake_job *job)
     if (extras == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    tell_of_maps(job);
+    note_maps(job);
     alpi_mesh_patch patch = {
         .vertex_values = job->lightmap->vertex_values,
         .vertex_attribute = job->options.vertex_attribute == ALP_VERTEX_COLOR
@@ -277,18 +254,48 @@ static alp_result write_asset(const alpi_bake_job *job)
     return result;
 }
 
-alp_result alpi_bake_vertices(alpi_bake_job *job)
+static alp_result write_stage(alpi_bake_job *job)
 {
-    double started = alpi_seconds();
-    ALP_TRY(alpi_bake_check_outputs(job, 0));
-    ALP_TRY(check_memory(job));
-    ALP_TRY(find_values(job));
-    double write_started = alpi_seconds();
+    const double started = alpi_seconds();
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     if (job->options.output != NULL) {
         ALP_TRY(write_asset(job));
     }
-    job->report.seconds_write = alpi_seconds() - write_started;
-    job->report.seconds_total = alpi_seconds() - started;
+    job->report.seconds_write = alpi_seconds() - started;
     return ALP_OK;
+}
+
+// --- all of it -----------------------------------------------------------------------------------
+
+static alp_result gather(alpi_bake_job *job, vertex_bake *v)
+{
+    const double started = alpi_seconds();
+    ALP_TRY(trace_occlusion(job, v));
+    ALP_TRY(fit_values(job, v));
+    ALP_TRY(measure_detail(job, v));
+    alpi_bake_warn_of_darkness(job);
+    job->report.seconds_bake = alpi_seconds() - started;
+    return store(job, v);
+}
+
+static alp_result find_values(alpi_bake_job *job)
+{
+    vertex_bake v = {0};
+    alp_result result = map_vertices(job, &v);
+    result = result == ALP_OK ? build_tracer(job, &v) : result;
+    result = result == ALP_OK ? gather(job, &v) : result;
+    alpi_release(job->context, v.values);
+    alpi_tracer_destroy(v.owned);
+    if (v.map.context != NULL) {
+        alpi_vertex_map_destroy(&v.map);
+    }
+    return result;
+}
+
+alp_result alpi_bake_vertices(alpi_bake_job *job)
+{
+    ALP_TRY(alpi_bake_check_outputs(job, 0));
+    ALP_TRY(check_memory(job));
+    ALP_TRY(find_values(job));
+    return write_stage(job);
 }

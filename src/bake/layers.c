@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which layers of light there are and what they are called, what each gets, and where it goes.
+// Layers of light: their names, the light that each gathers, and their pages.
 #include "bake/layers.h"
 
 #include "base/memory.h"
@@ -9,34 +9,13 @@
 #include <ctype.h>
 #include <string.h>
 
-/// Names are cut at this many bytes: file names have 255, other parts of them included.
+/// Names are cut at this many bytes. A file name has at most 255 with its other parts.
 enum { NAME_LIMIT = 64 };
-
-alp_result alpi_bake_check_layers(const alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    if (!o->light.layers) {
-        return ALP_OK;
-    }
-    if ((o->maps & ALP_MAP_LIGHT) == 0) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: layers need ALP_MAP_LIGHT");
-    }
-    if (o->light.denoise) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: layers do not add up to a denoised map; leave one of the two out");
-    }
-    if (o->light.gather == ALP_GATHER_PATHS && o->light.bounces > 0) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: paths cannot separate layers; gather by rays or hemicubes");
-    }
-    return ALP_OK;
-}
 
 // --- names ---------------------------------------------------------------------------------------
 
-/// As it may stand in the name of a file, on any system, and never be taken for a number or an
-/// ending: without dots, separators, and what shells of other systems refuse.
+/// Makes a name fit for files on any system. Dots, separators and characters that other shells
+/// refuse become "_", so that no name reads as a number or an ending.
 static char *make_safe(alp_context *context, const char *name, const char *otherwise)
 {
     char text[NAME_LIMIT + 1];
@@ -67,8 +46,8 @@ static bool is_alike(const char *a, const char *b)
     return *a == *b;
 }
 
-/// Whether a file of this name would be another one: a further page, another map, or a layer, also
-/// where capitals count for nothing.
+/// Whether another file has this name: a further page, a map, or a layer. Upper and lower case
+/// count as equal, as on some systems.
 static bool is_taken(const alpi_layer_plan *plan, const char *name)
 {
     static const char *const maps[] = {"error", "direct", "bounced", "sh", "direction"};
@@ -127,7 +106,8 @@ static alp_result name_part(const alpi_bake_job *job, const alpi_lighting *light
     return add_layer(context, plan, "sky", "");
 }
 
-/// A layer for each part of direct light; of too many, the last of them for all that are left.
+/// Plans a layer for each part of direct light. If they are too many, the last layer takes the
+/// rest.
 static alp_result plan_parts(alpi_bake_job *job, const alpi_lighting *lighting,
                              const alpi_direct_part *parts, uint32_t count)
 {
@@ -250,7 +230,7 @@ alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *sol
         return ALP_OK;
     }
     alpi_gather_scene from = *options->gather->from;
-    from.sky = false; // what it gives is known, by the same rays
+    from.sky = false; // its light is known, by the same rays
     alpi_gather_job gather = *options->gather;
     gather.from = &from;
     gather.skies = NULL;

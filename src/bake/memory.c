@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a bake will need, known as soon as the atlas is: better a message now than a killed process
 // after an hour.
+#include "bake/bake_memory.h"
+#include "bake/files/light_units.h"
+#include "bake/files/map_files.h"
+#include "bake/files/pack_orm.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
 

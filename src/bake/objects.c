@@ -3,78 +3,13 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "scene/select.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-static const double SAME_SIZE = 1e-3; // sizes this near are the same but for rounding
-
-// --- which surfaces ------------------------------------------------------------------------------
-
-/// Mean length of a surface over that of another with the same triangles; 1 where that is unknown.
-static double relative_size(const alp_scene *scene, uint32_t surface, uint32_t other)
-{
-    double areas[2] = {0.0, 0.0};
-    const uint32_t both[2] = {surface, other};
-    for (int i = 0; i < 2; i++) {
-        const alpi_surface *s = &scene->surfaces[both[i]];
-        for (uint32_t t = s->first_triangle; t < s->first_triangle + s->triangle_count; t++) {
-            vec3 c[3];
-            alpi_triangle_corners(scene, t, c);
-            areas[i] += scene->triangle_usable[t] ? vec3_triangle_area(c[0], c[1], c[2]) : 0.0;
-        }
-    }
-    return areas[0] > 0.0 && areas[1] > 0.0 ? sqrt(areas[0] / areas[1]) : 1.0;
-}
-
-/// A distance limit is in metres of the world, and instances of other sizes share one map.
-static void note_sizes(const alpi_bake_job *job)
-{
-    const alp_scene *scene = job->scene;
-    uint32_t count = 0, first = 0;
-    double factor = 1.0;
-    for (uint32_t s = 0; s < scene->surface_count; s++) {
-        const uint32_t original = job->originals[s];
-        const double size = original != s ? relative_size(scene, s, original) : 1.0;
-        if (fabs(size - 1.0) > SAME_SIZE && count++ == 0) {
-            first = s;
-            factor = size;
-        }
-    }
-    if (count > 0 && !isinf(job->options.occlusion.distance)) {
-        alpi_note(
-            job->context, "instance-size", scene->surfaces[first].name,
-            "%.3g times as large as the baked instance of its mesh (%s), whose map and distance "
-            "limit it uses; %u surface%s of this kind",
-            factor, scene->surfaces[job->originals[first]].name, count, count == 1 ? "" : "s");
-    }
-}
-
-alp_result alpi_bake_choose(alpi_bake_job *job)
-{
-    const alp_bake_options *o = &job->options;
-    if (o->ao_self && o->occluders != NULL) {
-        return alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "bake: ao_self bakes each object alone, without other occluders; leave "
-                         "out ao_self or occluders");
-    }
-    ALP_TRY(alpi_scene_select(job->scene, o->only, &job->only));
-    ALP_TRY(alpi_scene_select(job->scene, o->occluders, &job->occluders));
-    if (o->ao_self) {
-        ALP_TRY(alpi_scene_instances(job->scene, job->only, &job->originals));
-        note_sizes(job);
-    }
-    for (uint32_t s = 0; s < job->scene->surface_count; s++) {
-        job->report.surfaces_baked += job->only == NULL || job->only[s];
-    }
-    return ALP_OK;
-}
 
 // --- objects -------------------------------------------------------------------------------------
 
-/// Surfaces whose texels are there: chosen, and no instance of another.
+/// Whether a surface has texels: it is chosen, and no instance of another.
 static bool has_texels(const alpi_bake_job *job, uint32_t surface)
 {
     return (job->only == NULL || job->only[surface]) &&
@@ -117,8 +52,8 @@ static float diagonal(const alp_scene *scene, const uint32_t *surfaces, uint32_t
     return found ? vec3_length(vec3_sub(vec3_load(high), vec3_load(low))) : 0.0f;
 }
 
-/// One object for each node, or instance of its mesh, that has texels; `owner` gets the object of
-/// each surface.
+/// Lists one object for each node, or instance of its mesh, that has texels. `owner` gets the
+/// object of each surface.
 static alp_result list_objects(const alpi_bake_job *job, alpi_objects *objects, uint32_t *owner,
                                node_surface *list)
 {
@@ -153,14 +88,14 @@ static alp_result list_objects(const alpi_bake_job *job, alpi_objects *objects, 
     return ALP_OK;
 }
 
-/// Asks the user whether to go on, once in a while.
+/// Asks the user now and then whether to go on.
 static alp_result tick(const alpi_bake_job *job, uint32_t i)
 {
     const uint32_t per_tick = 1u << 16;
     return i % per_tick == per_tick - 1 ? alpi_tick(job->context, "build", 0, 1) : ALP_OK;
 }
 
-/// Deals the texels out to the objects; each keeps the order. Objects without any are dropped.
+/// Gives each texel to its object, in the order of the texels. Drops objects without any.
 static alp_result deal_texels(const alpi_bake_job *job, const uint32_t *order,
                               const uint32_t *owner, alpi_objects *objects)
 {
@@ -278,31 +213,4 @@ alp_result alpi_object_tracer(const alpi_bake_job *job, alpi_objects *objects,
     }
     *tracer = *owned;
     return result;
-}
-
-// --- progress ------------------------------------------------------------------------------------
-
-bool alpi_tell_part(void *user, const alp_progress *progress)
-{
-    alpi_part_progress *part = user;
-    const double now = alpi_seconds();
-    if (part->callback == NULL || now - part->last < 0.05) {
-        return true;
-    }
-    part->last = now;
-    double share = 0.0;
-    if (progress->total > 0 && strcmp(progress->stage, part->stage) == 0) {
-        share = fmin((double)progress->done / (double)progress->total, 1.0);
-    }
-    const double done = fmax(part->begin + share * (part->end - part->begin), part->done);
-    part->done = done; // what is to be done may grow
-    const double seconds = now - part->started;
-    const alp_progress told = {
-        .stage = part->stage,
-        .done = (uint64_t)(done * (double)part->rays),
-        .total = part->rays,
-        .rays_per_second = seconds > 0.0 ? done * (double)part->rays / seconds : 0.0,
-        .seconds_left = done > 0.0 ? seconds * (1.0 - done) / done : -1.0,
-    };
-    return part->callback(part->user, &told);
 }

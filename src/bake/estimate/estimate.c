@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a bake will take, from areas and options alone: no ray is traced for it.
+// The work of a bake, from areas and options alone: no ray is traced.
+#include "bake/bake_memory.h"
+#include "bake/bake_stages.h"
+#include "bake/check.h"
+#include "bake/files/outputs.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
+#include "bake/settings.h"
 
 #include "atlas/factors.h"
 #include "base/memory.h"
@@ -154,11 +159,14 @@ static alp_result check_densities(const alpi_bake_job *job)
 static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
 {
     const alp_bake_options *o = &job->options;
-    const bool occlusion = alpi_bake_wants_occlusion(job), light = (o->maps & ALP_MAP_LIGHT) != 0;
+    const bool occlusion = alpi_bake_wants_occlusion(o), light = (o->maps & ALP_MAP_LIGHT) != 0;
     uint32_t lights = 0;
-    ALP_TRY(alpi_bake_check_output(job, 1)); // no estimate for a bake that is refused
-    ALP_TRY(alpi_occlusion_check(job->scene, &o->occlusion));
-    ALP_TRY(alpi_bake_choose(job));
+    ALP_TRY(alpi_bake_check(job));
+    if (o->atlas.mode == ALP_ATLAS_VERTEX) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_bake_check_output(job, 1));
+    ALP_TRY(alpi_bake_choose_surfaces(job));
     ALP_TRY(check_densities(job));
     ALP_TRY(alpi_bake_find_layers(job, &lights));
     ALP_TRY(light ? count_lights(job, &lights) : ALP_OK);
@@ -183,7 +191,7 @@ alp_result alp_bake_estimate(const alp_scene *scene, const alp_bake_options *opt
     alpi_bake_job job = {.scene = scene,
                          .context = scene->context,
                          .options = options ? *options : alp_bake_options_default()};
-    if (scene->usable_count == 0 || job.options.atlas.mode == ALP_ATLAS_VERTEX) {
+    if (scene->usable_count == 0) {
         return ALP_OK;
     }
     const alp_result result = estimate(&job, work);

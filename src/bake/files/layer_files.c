@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Layers of light as files of the maps folder: irradiance.NAME.exr, irradiance.NAME.1.exr …, or
-// as the format of the maps has it.
-#include "bake/layers.h"
+// Files of the layers of light: irradiance.NAME.exr, irradiance.NAME.1.exr …. The ending follows
+// the format of the maps.
+#include "bake/files/layer_files.h"
 
+#include "bake/files/map_files.h"
+#include "base/file.h"
 #include "base/memory.h"
 
 static bool is_written(const alpi_bake_job *job)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Light as it goes into an asset: in the units asked for, over a scale, encoded.
-#include "bake/job.h"
+// The light of an asset: converts it to the units asked for, divides it by a scale, encodes it.
+#include "bake/files/light_units.h"
 
+#include "bake/settings.h"
 #include "base/half.h"
 #include "base/memory.h"
 #include "formats/formats.h"
@@ -14,20 +15,12 @@ static const float PI = 3.14159265f;
 
 // --- the choice ----------------------------------------------------------------------------------
 
-static alp_light_units units_of(const alp_bake_options *o)
-{
-    if (o->light_units != ALP_LIGHT_UNITS_AUTO) {
-        return o->light_units;
-    }
-    return o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE ? ALP_LIGHT_RADIANCE : ALP_LIGHT_IRRADIANCE;
-}
-
-const char *alpi_bake_light_units(const alp_bake_options *options)
+const char *alpi_bake_light_units_name(const alp_bake_options *options)
 {
     static const char *const names[] = {[ALP_LIGHT_IRRADIANCE] = "irradiance",
                                         [ALP_LIGHT_IRRADIANCE_OVER_PI] = "irradiance/pi",
                                         [ALP_LIGHT_RADIANCE] = "radiance"};
-    return names[units_of(options)];
+    return names[alpi_bake_light_units(options)];
 }
 
 const char *alpi_bake_light_ending(const alp_bake_options *options)
@@ -36,52 +29,6 @@ const char *alpi_bake_light_ending(const alp_bake_options *options)
         [ALP_LIGHTMAP_KTX2] = ".ktx2", [ALP_LIGHTMAP_EXR] = ".exr", [ALP_LIGHTMAP_HDR] = ".hdr"};
     return options->lightmap_as == ALP_LIGHTMAP_AS_EXTRAS ? endings[options->lightmap_format]
                                                           : ".png";
-}
-
-static const char *find_fault(const alp_bake_options *o)
-{
-    const alp_lightmap_as as = o->lightmap_as;
-    if ((int)as < ALP_LIGHTMAP_AS_NONE || as > ALP_LIGHTMAP_AS_BABYLON ||
-        (int)o->light_units < ALP_LIGHT_UNITS_AUTO || o->light_units > ALP_LIGHT_RADIANCE ||
-        (int)o->lightmap_format < ALP_LIGHTMAP_KTX2 || o->lightmap_format > ALP_LIGHTMAP_HDR) {
-        return "unknown form, units or format of light in an asset";
-    }
-    if (as == ALP_LIGHTMAP_AS_NONE) {
-        return o->light_units == ALP_LIGHT_UNITS_AUTO && o->lightmap_format == ALP_LIGHTMAP_KTX2
-                   ? NULL
-                   : "units and format apply to light in an asset; set lightmap_as";
-    }
-    if ((o->maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
-        return "light in an asset needs ALP_MAP_LIGHT and an output";
-    }
-    if (o->ao_into == ALP_AO_INTO_ORM) {
-        return "light has its own coordinates, so occlusion beside it cannot be packed into "
-               "images; set ao_into to SEPARATE";
-    }
-    if (as != ALP_LIGHTMAP_AS_EXTRAS && o->lightmap_format != ALP_LIGHTMAP_KTX2) {
-        return "lightmap_format applies to ALP_LIGHTMAP_AS_EXTRAS; an image in glTF is a PNG";
-    }
-    if (alpi_bake_is_viewer_file(o) && o->light_units != ALP_LIGHT_UNITS_AUTO) {
-        return "the viewer needs fixed units; set light_units to AUTO";
-    }
-    if (as == ALP_LIGHTMAP_AS_EMISSIVE && units_of(o) != ALP_LIGHT_RADIANCE) {
-        return "ALP_LIGHTMAP_AS_EMISSIVE stores radiance; set light_units to AUTO";
-    }
-    if (as == ALP_LIGHTMAP_AS_EMISSIVE && o->light.direct == ALP_DIRECT_OFF) {
-        return "materials of ALP_LIGHTMAP_AS_EMISSIVE are black and reflect no direct light; "
-               "bake direct light too";
-    }
-    if (as == ALP_LIGHTMAP_AS_MOZ && units_of(o) == ALP_LIGHT_RADIANCE) {
-        return "readers of MOZ_lightmap multiply by the albedo; set light_units to irradiance";
-    }
-    return NULL;
-}
-
-alp_result alpi_bake_check_light_asset(const alpi_bake_job *job)
-{
-    const char *fault = find_fault(&job->options);
-    return fault == NULL ? ALP_OK
-                         : alpi_fail(job->context, ALP_ERROR_INVALID_ARGUMENT, "bake: %s", fault);
 }
 
 uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
@@ -105,11 +52,11 @@ uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_sce
 
 // --- values --------------------------------------------------------------------------------------
 
-/// A page in its units, A = 1 where it is covered.
+/// Converts a page to its units. A = 1 where a texel covers the pixel.
 static alp_result fill_page(const alpi_bake_job *job, uint32_t page, float *values)
 {
     const alp_lightmap *l = job->lightmap;
-    const alp_light_units units = units_of(&job->options);
+    const alp_light_units units = alpi_bake_light_units(&job->options);
     if (units == ALP_LIGHT_RADIANCE) {
         return alpi_lightmap_outgoing(l, page, values);
     }
@@ -137,7 +84,8 @@ static float *pixel_of(const alpi_bake_job *job, float *const *values, uint32_t 
            4 * ((size_t)t->pixels[texel][1] * job->lightmap->width + t->pixels[texel][0]);
 }
 
-/// The brightest texel of each material, so that 8 bits reach from there downwards; 1 where dark.
+/// Scales each material by its brightest texel, so that 8 bits reach from there downwards; by 1
+/// where all is dark.
 static void find_scales(const alpi_bake_job *job, float *const *values, float *scales)
 {
     for (uint32_t i = 0; i < job->lightmap->texels.count; i++) {
@@ -150,7 +98,7 @@ static void find_scales(const alpi_bake_job *job, float *const *values, float *s
     }
 }
 
-/// The least power of two, 1 or more, over which all values are finite half floats.
+/// Finds the least power of two, 1 or more, that makes all values finite half floats.
 static float find_half_scale(const alpi_bake_job *job, float *const *values)
 {
     float most = 0.0f, scale = 1.0f;
@@ -184,8 +132,8 @@ static void choose_scales(alpi_bake_job *job, float *const *values)
 
 // --- encoding ------------------------------------------------------------------------------------
 
-/// 8-bit RGB of values in [0, 1]. Glossed over: two materials that meet inside a chart have scales
-/// of their own, and a filter that reads across their border mixes them, as it mixes their colours.
+/// Encodes values in [0, 1] as 8-bit RGB. Two materials that meet inside a chart have scales of
+/// their own. A filter that reads across their border mixes the scales, as it mixes the colours.
 static alp_result encode_bytes(const alpi_bake_job *job, const float *page, uint32_t number)
 {
     const bool srgb = job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE;
@@ -246,16 +194,16 @@ static alp_result make_pages(alpi_bake_job *job, float **values)
     return ALP_OK;
 }
 
-/// What a viewer will not show as it was baked.
-static void tell_glass(const alpi_bake_job *job)
+/// Notes materials that a viewer will not show as they were baked.
+static void note_glass(const alpi_bake_job *job)
 {
     for (uint32_t m = 0; m < job->scene->material_count; m++) {
         if (job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE &&
             job->scene->materials[m].transmission > 0.0f) {
-            alpi_note(job->context, "light-glass", job->scene->name,
-                      "material %u (%s) transmits light and stays unchanged: a black one would "
-                      "be opaque",
-                      m, job->scene->materials[m].name);
+            alpi_note(
+                job->context, "light-glass", job->scene->name,
+                "material %u (%s) transmits light and stays unchanged: a black one would be opaque",
+                m, job->scene->materials[m].name);
         }
     }
 }
@@ -268,7 +216,7 @@ alp_result alpi_bake_make_light_asset(alpi_bake_job *job)
     }
     alpi_light_asset *asset = &job->light_asset;
     const uint32_t pages = job->lightmap->page_count;
-    tell_glass(job);
+    note_glass(job);
     ALPI_TRY_NEW(job->context, asset->files, pages);
     ALPI_TRY_NEW(job->context, asset->file_sizes, pages);
     ALPI_TRY_NEW(job->context, asset->scales, (size_t)job->scene->material_count + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What kind of file the maps of the maps folder are.
-#include "bake/job.h"
+// Encodes the maps of the maps folder in the format asked for.
+#include "bake/files/map_files.h"
 
 #include "base/half.h"
 #include "base/memory.h"
@@ -8,26 +8,6 @@
 
 #include <math.h>
 #include <string.h>
-
-alp_result alpi_bake_check_maps_format(const alpi_bake_job *job)
-{
-    enum { SIGNED = ALP_MAP_BENT | ALP_MAP_SH | ALP_MAP_DIRECTION };
-    const alp_bake_options *o = &job->options;
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if ((int)o->maps_format < ALP_MAPS_EXR || o->maps_format > ALP_MAPS_KTX2) {
-        return alpi_fail(job->context, code, "bake: unknown format %d of maps",
-                         (int)o->maps_format);
-    }
-    if (o->maps_format != ALP_MAPS_EXR && o->maps_folder == NULL) {
-        return alpi_fail(job->context, code, "bake: maps_format applies to maps_folder; give one");
-    }
-    if (o->maps_format == ALP_MAPS_HDR && (o->maps & (unsigned)SIGNED) != 0) {
-        return alpi_fail(job->context, code,
-                         "bake: bent normals, directions and harmonics have negative values, "
-                         "which .hdr cannot hold; use EXR or KTX2");
-    }
-    return ALP_OK;
-}
 
 const char *alpi_bake_map_ending(const alp_bake_options *options)
 {
@@ -48,7 +28,7 @@ uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t pag
                                                        : 0;
 }
 
-/// The least power of two, 1 or more, over which the colours are finite half floats.
+/// Finds the least power of two, 1 or more, that makes all colours finite half floats.
 static float find_scale(const alp_image *image)
 {
     const float *pixels = image->pixels;
@@ -71,7 +51,7 @@ static alp_result encode_halves(const alpi_bake_job *job, const alp_image *image
                : alpi_exr_encode_half(image, scale, true, &file->bytes, &file->size);
 }
 
-/// Coverage stays as it is.
+/// Divides the colours by the scale. Coverage stays as it is.
 static alp_result encode_scaled(const alpi_bake_job *job, const alp_image *image, float scale,
                                 alpi_map_file *file)
 {
@@ -106,8 +86,8 @@ alp_result alpi_bake_encode_map(const alpi_bake_job *job, const alp_image *image
         return encode_halves(job, image, scale, file);
     }
     alpi_note(job->context, "maps-scaled", job->scene->name,
-              "%s, page %u: values exceed 65504, the limit of half floats; they are stored "
-              "divided by %.0f, which the file states as alpenglowScale",
+              "%s, page %u: values exceed 65504, the limit of half floats; they are stored divided "
+              "by %.0f, which the file states as alpenglowScale",
               name, page, (double)scale);
     return encode_scaled(job, image, scale, file);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// --ao-into orm: occlusion goes into the red channel of the image that a material reads roughness
-// (green) and metalness (blue) from already, as glTF 2.0 packs them (section 3.9.3). That is
-// possible where every texel of the image belongs to one place of the scene at most.
-#include "bake/job.h"
+// --ao-into orm: packs occlusion into the red channel of an image that a material reads already.
+// The image holds roughness (green) and metalness (blue), as glTF 2.0 packs them (section 3.9.3).
+// It can hold occlusion if each of its texels belongs to one place of the scene at most.
+#include "bake/files/pack_orm.h"
 
 #include "base/memory.h"
 #include "formats/formats.h"
@@ -28,8 +28,8 @@ static const alpi_texture *target_texture(const alpi_bake_job *job, uint32_t mat
     return texture->image != ALPI_NONE ? texture : NULL;
 }
 
-/// Lists for every surface the texture that it reads `image` with, NULL = it does not; false where
-/// no surface with triangles does.
+/// Lists for every surface the texture by which it reads `image`; NULL = it does not.
+/// @return false: no surface with triangles reads the image
 static bool find_readers(const alpi_bake_job *job, uint32_t image, const alpi_texture **textures)
 {
     const alp_scene *scene = job->scene;
@@ -66,7 +66,8 @@ static alp_result check_storage(const alpi_bake_job *job, uint32_t image, alpi_i
     return ALP_OK;
 }
 
-/// Why an image cannot hold the occlusion of the surfaces that read it; NULL in *reason = it can.
+/// Finds the reason why an image cannot hold the occlusion of the surfaces that read it; NULL = it
+/// can.
 static alp_result check_image(const alpi_bake_job *job, uint32_t image,
                               const alpi_texture *const *textures, alpi_image_source *source,
                               char **reason)
@@ -95,8 +96,8 @@ static alp_result check_image(const alpi_bake_job *job, uint32_t image,
 
 // --- the plan ------------------------------------------------------------------------------------
 
-/// Gives an image to the materials that read it; tells those that do not get it why.
-static void settle_materials(alpi_bake_job *job, uint32_t image, const alpi_image_source *source,
+/// Gives an image to the materials that read it, or warns with the reason why not.
+static void assign_materials(alpi_bake_job *job, uint32_t image, const alpi_image_source *source,
                              const char *reason)
 {
     alpi_packing *packing = &job->packing;
@@ -146,7 +147,7 @@ static alp_result plan_image(alpi_bake_job *job, uint32_t image, const alpi_text
     alp_result result =
         check_image(job, image, (const alpi_texture *const *)textures, &source, &reason);
     if (result == ALP_OK) {
-        settle_materials(job, image, &source, reason);
+        assign_materials(job, image, &source, reason);
     }
     alpi_release(job->context, reason);
     return result;
@@ -226,8 +227,8 @@ static bool same_coordinates(const alpi_texture *a, const alpi_texture *b)
     return same;
 }
 
-/// The accessibility that a material's own map has at a cell: the very texel where it is the red
-/// channel of this image, so that nothing is filtered, else by a look-up; 1 where it has none.
+/// The accessibility in a material's own map at a cell; 1 where the material has no map. If the map
+/// is the red channel of this image, the same texel is read without a filter.
 static float old_occlusion(void *user, const alpi_uv_cell *cell, uint32_t x, uint32_t y)
 {
     const alp_scene *scene = *(const alp_scene **)user;
@@ -246,7 +247,7 @@ static float old_occlusion(void *user, const alpi_uv_cell *cell, uint32_t x, uin
     return 1.0f + m->occlusion_strength * (rgba[0] - 1.0f);
 }
 
-/// The image with a new red channel. Grey becomes colour: its red, green and blue were one.
+/// Makes a copy of the image with a new red channel. A grey image becomes a coloured one.
 static alp_result replace_red(const alp_image *old, const float *page, alp_image **image)
 {
     uint32_t channels = old->info.channels, old_channels = channels;
@@ -294,7 +295,7 @@ static alp_result pack_image(const alpi_bake_job *job, const alpi_texture **text
     find_readers(job, target->image, textures);
     alp_result result = alpi_uv_layout_create(job->scene, (const alpi_texture *const *)textures,
                                               info->width, info->height, &layout, &reason);
-    alpi_release(job->context, reason); // it could be made before
+    alpi_release(job->context, reason); // none: the layout could be made before
     float *page = result == ALP_OK
                       ? ALPI_NEW(job->context, float, 4 * (size_t)info->width * info->height)
                       : NULL;

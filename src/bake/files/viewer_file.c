@@ -1,33 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The scene with its light as a viewer's own file, .json or .babylon, in the place of an asset.
-#include "bake/job.h"
+// Writes the scene with its light as a viewer's own file, .json or .babylon, in place of an asset.
+#include "bake/files/viewer_file.h"
 
+#include "bake/settings.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/formats.h"
 
 #include <string.h>
 
-bool alpi_bake_is_viewer_file(const alp_bake_options *options)
-{
-    return options->lightmap_as == ALP_LIGHTMAP_AS_THREE ||
-           options->lightmap_as == ALP_LIGHTMAP_AS_BABYLON;
-}
-
-static const char *wanted_ending(const alp_bake_options *options)
-{
-    return options->lightmap_as == ALP_LIGHTMAP_AS_THREE ? ".json" : ".babylon";
-}
-
 /// "dir/a.babylon" → "dir/a.hdr", "dir/a.1.hdr" …
 static char *page_path(alp_context *context, const alp_bake_options *options, uint32_t page)
 {
-    const int stem = (int)(strlen(options->output) - strlen(wanted_ending(options)));
+    const int stem = (int)(strlen(options->output) - strlen(alpi_bake_viewer_ending(options)));
     return page == 0 ? alpi_format(context, "%.*s.hdr", stem, options->output)
                      : alpi_format(context, "%.*s.%u.hdr", stem, options->output, page);
 }
 
-/// Pictures beside the file.
+/// Number of pictures beside the file.
 static uint32_t beside_count(const alp_bake_options *options, uint32_t pages)
 {
     return options->lightmap_as == ALP_LIGHTMAP_AS_BABYLON ? pages : 0;
@@ -36,17 +26,6 @@ static uint32_t beside_count(const alp_bake_options *options, uint32_t pages)
 alp_result alpi_bake_check_viewer_file(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
-    if (!alpi_path_has_ending(o->output, wanted_ending(o))) {
-        return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: this form of light needs an output that ends in %s", o->output,
-                         wanted_ending(o));
-    }
-    if (o->atlas.mode == ALP_ATLAS_BLEND) {
-        return alpi_fail(job->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: this form of light has one coordinate set, and --atlas blend has "
-                         "three; write .glb or .gltf, or use --atlas charts",
-                         o->output);
-    }
     ALP_TRY(alpi_file_check_writable(job->context, o->output, o->overwrite));
     for (uint32_t p = 0; p < beside_count(o, pages); p++) {
         char *path = page_path(job->context, o, p);
@@ -83,7 +62,7 @@ static alp_result add_page(const alpi_bake_job *job, const alpi_light_pages *lig
     return result;
 }
 
-/// The pictures, and the file that names them last.
+/// Adds the pictures first, then the file that names them.
 static alp_result add_all(const alpi_bake_job *job, char **paths, const char **names,
                           alpi_file_set *files)
 {

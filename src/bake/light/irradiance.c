@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Irradiance at the texels of a bake: direct light alone, or all of it, by radiosity or by the
 // reference.
+#include "bake/gathering.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
 #include "bake/light/light_error.h"
@@ -14,11 +15,6 @@
 #include <math.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
-
-bool alpi_bake_wants_occlusion(const alpi_bake_job *job)
-{
-    return (job->options.maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) != 0;
-}
 
 static bool is_by_hemicubes(const alpi_bake_job *job)
 {
@@ -137,39 +133,48 @@ static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
     return result;
 }
 
-alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
-                                const alpi_receivers *receivers, const uint32_t *order,
-                                uint32_t count, const alpi_lattice *lattice,
-                                const alpi_task_progress *progress)
+/// Gathers the light of lamps and sky, until the clock says no.
+static alp_result gather_by_clock(alpi_bake_job *job, const alpi_lighting *lighting,
+                                  alpi_light_clock *clock)
 {
-    if ((job->options.maps & ALP_MAP_LIGHT) == 0) {
+    const alpi_gathering *g = &job->gathering;
+    const alpi_object *object = &g->objects.items[0];
+    const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    const alpi_receivers receivers = alpi_texels_receivers(&job->lightmap->texels);
+    ALP_TRY(alpi_examine_light(g->tracer, filter, job->scene, lighting, alpi_light_clock_goes_on,
+                               clock));
+    alpi_light_task task = {
+        .lighting = lighting,
+        .tracer = g->tracer,
+        .receivers = &receivers,
+        .order = object->valid,
+        .count = object->valid_count,
+        .lattice = &g->lattice,
+        .directional = job->directional,
+        .progress = {.callback = alpi_light_clock_goes_on, .user = clock, .stage = clock->stage},
+        .clock = clock};
+    return gather(job, &task);
+}
+
+alp_result alpi_bake_light(alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if (!alpi_bake_wants_light(o)) {
         return ALP_OK;
     }
-    alpi_scratch_destroy(&job->scratch); // of the rays of occlusion, which are done
-    alpi_lighting *lighting = NULL;
-    ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
-    alpi_task_progress told = *progress;
-    told.stage = "light";
-    alpi_light_clock clock = alpi_light_clock_start(job, &told);
-    told.callback = alpi_light_clock_goes_on;
-    told.user = &clock;
-    const alpi_watch former =
-        alpi_set_watch(job->context, (alpi_watch){.callback = told.callback, .user = &clock});
-    const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
-    alp_result result =
-        alpi_examine_light(tracer, filter, job->scene, lighting, told.callback, told.user);
-    alpi_light_task task = {.lighting = lighting,
-                            .tracer = tracer,
-                            .receivers = receivers,
-                            .order = order,
-                            .count = count,
-                            .lattice = lattice,
-                            .directional = job->directional,
-                            .progress = told,
-                            .clock = &clock};
-    if (result == ALP_OK) {
-        result = gather(job, &task);
+    const alpi_task_progress progress = {
+        .callback = o->progress, .user = o->progress_user, .stage = "light"};
+    ALP_TRY(alpi_gathering_open_object(job, &job->gathering.objects.items[0], &progress));
+    alpi_scratch_destroy(&job->gathering.scratch);
+    if ((o->maps & ALPI_MAPS_BY_DIRECTION) != 0) {
+        ALPI_TRY_NEW(job->context, job->directional, job->lightmap->texels.count);
     }
+    alpi_lighting *lighting = NULL;
+    ALP_TRY(alpi_lighting_create(job->scene, &o->light.lighting, &lighting));
+    alpi_light_clock clock = alpi_light_clock_start(job, &progress);
+    const alpi_watch former = alpi_set_watch(
+        job->context, (alpi_watch){.callback = alpi_light_clock_goes_on, .user = &clock});
+    const alp_result result = gather_by_clock(job, lighting, &clock);
     alpi_set_watch(job->context, former);
     alpi_lighting_destroy(job->context, lighting);
     if (result == ALP_ERROR_CANCELLED && !clock.refused && alpi_light_clock_is_late(&clock)) {

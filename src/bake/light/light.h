@@ -4,9 +4,15 @@
 #define ALPI_BAKE_LIGHT_H
 
 #include "bake/job.h"
+#include "bake/settings.h"
 #include "maps/radiosity/radiosity.h"
 #include "transport/directional.h"
 #include "transport/paths/reference.h"
+
+/// The stage of light: gathers irradiance at the texels, if a map of light is asked for, and fills
+/// the report.
+/// @return ALP_OK; LIMIT: the time was over before any texel had light; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_bake_light(alpi_bake_job *job);
 
 /// The watch of the light: a progress callback and its user data. Time that is left is told by how
 /// long the part that runs takes, and what comes after it in times of that part.
@@ -51,9 +57,7 @@ typedef struct alpi_light_task {
 /// Direct light and what surfaces make of it, by rays or hemicubes.
 alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
-/// Whether light is gathered in rounds: for an error, a time, or someone who may end it.
-bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Rays that a block gathers by, on a map of so many texels.
+/// Rays of a block, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Samples of each light at a texel in the first round.
 uint32_t alpi_light_first_direct(const alpi_bake_job *job);
@@ -81,8 +85,6 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
 alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task,
                            const alpi_radiosity *solution, uint32_t rays, double *noise);
 
-/// Whether texels are interpolated, in rounds of all.
-bool alpi_light_is_adaptive(const alp_bake_options *options);
 /// Error of the solution, over the mean of the light: what rays meet has noise, alike for all of
 /// them, that no number of rays tells. Root mean square over texels, as measured.
 /// @param mean of all light; bounced: root mean square of bounced light, a soft sky's apart

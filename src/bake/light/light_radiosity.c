@@ -53,12 +53,6 @@ static double find_tolerance(const alp_light_options *o)
                : 0.0;
 }
 
-bool alpi_light_is_adaptive(const alp_bake_options *o)
-{
-    return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
-           o->sampling.accuracy != ALP_ADAPTIVE_OFF;
-}
-
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels)
 {
     enum { TEXELS_PER_BLOCK = 5, FEWEST_RAYS = 16, MOST_RAYS = 1024 };
@@ -144,7 +138,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.scene = job->scene;
     options.tracer = t->tracer;
     options.lighting = t->lighting;
-    options.blocks.near = job->validity.near;
+    options.blocks.near = job->gathering.validity.near;
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
     options.counted = g->counts ? &g->texels : NULL;

@@ -32,12 +32,6 @@ enum {
 // Of the time that is left, what a round may take: how long it takes is a guess.
 static const double TIME_SHARE = 0.9;
 
-bool alpi_light_has_rounds(const alp_bake_options *o)
-{
-    const bool may_end = o->sampling.time_limit > 0.0 || o->sampling.keep_partial;
-    return (o->light.error > 0.0f || may_end) && o->light.gather == ALP_GATHER_RAYS;
-}
-
 /// Without rounds, as many as make direct light's error the smaller one of the two by a half:
 /// measured on the Cornell box, 64 beside 128 rays, and 128 beside 512. Beside fewer rays fewer pay
 /// there, and not where light comes through windows.
@@ -76,13 +70,13 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
     uint8_t *states = all ? r->states : r->worst.marks;
     alpi_bounced_options options = {
         .gather = gather,
-        .near = job->validity.near,
+        .near = job->gathering.validity.near,
         .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
         .beside = beside,
         .joined = r->fixed == NULL,
-        .levels = alpi_bake_wants_occlusion(job) ? NULL : t->lattice->values,
+        .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : t->lattice->values,
     };
     options.order = senders(r, &options.count);
     if (!all) { // none but those of the list has a state

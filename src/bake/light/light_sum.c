@@ -123,7 +123,7 @@ alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
                           const alpi_radiosity *solution, const float (*skies)[3], double share)
 {
     const uint32_t texels = task->receivers->count;
-    if (alpi_bake_lights_apart(job)) {
+    if (alpi_bake_lights_apart(&job->options)) {
         ALPI_TRY_NEW(job->context, job->direct, texels);
         ALPI_TRY_NEW(job->context, job->bounced, texels);
     }

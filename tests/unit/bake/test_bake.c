@@ -3,7 +3,7 @@
 // ends of every range, and what was written reads back.
 #include "test_scenes.h"
 
-#include "bake/job.h"
+#include "bake/bake_memory.h"
 #include "maps/lightmap.h"
 #include "scene/scene.h"
 

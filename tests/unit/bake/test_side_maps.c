@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bent normals and coloured obscurance as a bake writes them and hands them out.
-#include "bake/job.h"
+#include "bake/bake_memory.h"
 #include "test_scenes.h"
 
 #include <math.h>

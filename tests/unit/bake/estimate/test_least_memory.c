@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The least memory of a bake of light: a bake that is refused says what would do, that does, the
 // same bits come of it, and it is little.
-#include "bake/job.h"
+#include "bake/bake_memory.h"
 #include "test_scenes.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Memory of a bake of light: known beforehand, and kept below a limit.
-#include "bake/job.h"
+#include "bake/bake_memory.h"
 #include "test_scenes.h"
 
 #include <stdlib.h>
