@@ -342,7 +342,7 @@ static void other_scenes(void **state)
     alp_context *context = test_context(1);
     alp_scene *scene = NULL;
     ASSERT_OK(context, alp_scene_load(context, "builtin:cornell", &scene));
-    const alpi_gltf_images images = {.occlusion = 1};
+    const alpi_output_images images = {.occlusion = 1};
     assert_int_equal(alpi_collada_check_outputs(scene, &images, "out.dae", false),
                      ALP_ERROR_UNSUPPORTED);
     alp_scene_destroy(scene);
