@@ -35,19 +35,21 @@ ROOMS = {
 
 # room: its sub-rooms and the sub-rooms of the same room whose headers each may include. "." stands
 # for the headers that lie in the room itself. Sources that lie in the room itself may include all of
-# its headers: they put the sub-rooms together.
+# its headers: they put the sub-rooms together. Where "." stands last, its headers collect those of
+# the sub-rooms for other rooms.
 SUB_ROOMS = {
     "formats": {
-        ".": [],
         "text": [],
         "polygon": [],
-        "images": ["."],
-        "gltf": ["text", "."],
-        "gltf/write": ["gltf", "text", "."],
-        "collada": ["polygon", "."],
-        "collada/write": ["collada", "gltf/write", "text", "."],
-        "obj": ["gltf/write", "polygon", "text", "."],
-        "viewers": ["text", "."],
+        "files": [],
+        "images": [],
+        "gltf": ["images", "files", "text"],
+        "gltf/write": ["gltf", "images", "files", "text"],
+        "collada": ["images", "files", "polygon"],
+        "collada/write": ["collada", "files", "text"],
+        "obj": ["images", "files", "polygon", "text"],
+        "viewers": ["images", "text"],
+        ".": ["viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
     },
     "scene": {".": [], "sky": ["."], "lights": ["sky", "."], "builtin": ["."]},
     "transport": {

@@ -18,7 +18,7 @@ alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patc
     return alpi_file_set_end(&files, alpi_scene_add_patched(scene, patch, path, &files));
 }
 
-alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+alp_result alpi_scene_check_outputs(const alp_scene *scene, const alpi_output_images *images,
                                     const char *path, bool overwrite)
 {
     return alpi_path_has_ending(path, ".obj")

@@ -98,7 +98,7 @@ alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages)
         return alpi_bake_check_viewer_file(job, pages);
     }
     const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
-    const alpi_gltf_images images = {
+    const alpi_output_images images = {
         .occlusion = (o->maps & ALP_MAP_AO) != 0 ? pages : 0,
         .packed = job->packing.count,
         .light = lit ? pages : 0,

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada/collada_ids.h"
-#include "formats/outside.h"
+#include "formats/files/outside.h"
 
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>

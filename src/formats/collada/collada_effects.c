@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "formats/collada/collada_marks.h"
 #include "formats/collada/collada_numbers.h"
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/collada/collada_scene.h"
 
 #include <math.h>
 #include <stdio.h>

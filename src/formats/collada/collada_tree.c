@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada/collada_ids.h"
-#include "formats/outside.h"
+#include "formats/files/outside.h"
 
 #include <stdarg.h>
 #include <stdio.h>

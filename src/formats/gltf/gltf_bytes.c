@@ -5,8 +5,8 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "formats/files/outside.h"
 #include "formats/gltf/gltf_tree.h"
-#include "formats/outside.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,9 +4,10 @@
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
-#include "formats/formats.h"
 #include "formats/gltf/gltf_bytes.h"
+#include "formats/gltf/gltf_scene.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,10 +2,11 @@
 // Maps of light that materials name for viewers, MOZ_lightmap and the file of extras.lightmap: read
 // where somebody asks for them, for nothing else here is lit by them.
 #include "base/memory.h"
-#include "formats/formats.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_read.h"
+#include "formats/gltf/gltf_scene.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 #include <string.h>

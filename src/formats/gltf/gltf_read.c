@@ -5,7 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/gltf/gltf_scene.h"
 #include "formats/gltf/gltf_tree.h"
 
 static uint64_t hash_document(const alpi_gltf_document *document)

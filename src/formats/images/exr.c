@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OpenEXR images, by OpenEXRCore over memory: reads one part of scanlines or tiles, half or float;
 // writes scanlines of floats or halves, ZIP.
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include "base/half.h"
 #include "base/memory.h"

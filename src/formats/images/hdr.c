@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Radiance pictures (.hdr, RGBE): flat, old and new run lengths, all eight orientations.
 // Greg Ward: Real Pixels. Graphics Gems II, 1991; layout after the Radiance file formats manual.
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"

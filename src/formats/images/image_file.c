@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Image files: the kind is known by the first bytes on reading, by the ending on writing.
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include "base/file.h"
 #include "base/memory.h"

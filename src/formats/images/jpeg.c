@@ -3,7 +3,7 @@
 // libjpeg reports errors by longjmp, so everything that must be released lives in a struct outside
 // the function that it jumps to.
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include <setjmp.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KTX2 textures: RGBA16F, two dimensions, one level, Zstandard.
 // After: Khronos KTX File Format Specification 2.0; Khronos Data Format Specification 1.3.
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include "base/half.h"
 #include "base/memory.h"

@@ -4,7 +4,7 @@
 // lives in a struct outside the function that it jumps to.
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include <png.h>
 

@@ -2,7 +2,7 @@
 // WebP in memory → 8-bit images of three or four channels, by libwebp. The size is known and held
 // against the limit before a pixel is decoded.
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include <webp/decode.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 

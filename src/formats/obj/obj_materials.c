@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "formats/outside.h"
+#include "formats/files/outside.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "formats/formats.h"
+#include "formats/obj/obj_scene.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "formats/obj/obj_scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -333,11 +334,11 @@ static alp_result check_patch(const alp_scene *scene, const alpi_mesh_patch *pat
 }
 
 static alp_result add_text(const alpi_obj_writer *w, const char *ending, const alpi_bytes *text,
-                           alpi_gltf_files *files)
+                           alpi_output_files *files)
 {
-    return alpi_gltf_files_add(files,
-                               (alpi_gltf_file){alpi_format(w->context, "%s%s", w->stem, ending),
-                                                text->bytes, text->size, NULL});
+    return alpi_output_files_add(
+        files, (alpi_output_file){alpi_format(w->context, "%s%s", w->stem, ending), text->bytes,
+                                  text->size, NULL});
 }
 
 static bool sets_are_equal(const alp_scene *scene, uint32_t set)
@@ -346,7 +347,7 @@ static bool sets_are_equal(const alp_scene *scene, uint32_t set)
            memcmp(scene->uvs[0], scene->uvs[set], scene->vertex_count * sizeof *scene->uvs[0]) == 0;
 }
 
-static alp_result run(alpi_obj_writer *w, const char *path, alpi_gltf_files *files)
+static alp_result run(alpi_obj_writer *w, const char *path, alpi_output_files *files)
 {
     const uint32_t pages = w->patch->page_count;
     w->stem = stem_of(w->context, path);
@@ -367,8 +368,8 @@ static alp_result run(alpi_obj_writer *w, const char *path, alpi_gltf_files *fil
     ALP_TRY(write_surfaces(w));
     ALP_TRY(alpi_obj_add_images(w, files));
     ALP_TRY(add_text(w, ".mtl", &w->mtl, files));
-    return alpi_gltf_files_add(files, (alpi_gltf_file){alpi_copy_string(w->context, path),
-                                                       w->obj.bytes, w->obj.size, NULL});
+    return alpi_output_files_add(files, (alpi_output_file){alpi_copy_string(w->context, path),
+                                                           w->obj.bytes, w->obj.size, NULL});
 }
 
 alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
@@ -382,15 +383,15 @@ alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *p
                          .mtl = alpi_bytes_create(context),
                          .uses = alpi_obj_names_create(context),
                          .names = alpi_obj_names_create(context)};
-    alpi_gltf_files files = {.context = context};
+    alpi_output_files files = {.context = context};
     ALP_TRY(check_patch(scene, patch));
     ALP_TRY(check_name(context, path));
     ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
     alp_result result = run(&w, path, &files);
     if (result == ALP_OK) {
-        result = alpi_gltf_files_add_to(&files, set);
+        result = alpi_output_files_add_to(&files, set);
     }
-    alpi_gltf_files_destroy(&files);
+    alpi_output_files_destroy(&files);
     alpi_bytes_destroy(&w.obj);
     alpi_bytes_destroy(&w.mtl);
     alpi_obj_names_destroy(&w.uses);
@@ -413,7 +414,7 @@ static alp_result check_file(alp_context *context, char *path, bool overwrite)
     return result;
 }
 
-static alp_result check_files(const alp_scene *scene, const alpi_gltf_images *images,
+static alp_result check_files(const alp_scene *scene, const alpi_output_images *images,
                               const char *stem, bool overwrite)
 {
     alp_context *context = scene->context;
@@ -436,7 +437,7 @@ static alp_result check_files(const alp_scene *scene, const alpi_gltf_images *im
     return ALP_OK;
 }
 
-alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_output_images *images,
                                   const char *path, bool overwrite)
 {
     alp_context *context = scene->context;

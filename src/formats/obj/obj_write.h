@@ -3,8 +3,11 @@
 #ifndef ALPI_FORMATS_OBJ_WRITE_H
 #define ALPI_FORMATS_OBJ_WRITE_H
 
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/files/output_files.h"
 #include "formats/obj/obj_names.h"
+#include "formats/text/text_edits.h"
+#include "scene/mesh_patch.h"
+#include "scene/scene.h"
 
 /// A material as it is written: of the scene, with a page or without.
 typedef struct alpi_obj_use {
@@ -38,6 +41,6 @@ char *alpi_obj_image_path(alp_context *context, const char *stem, const char *ki
 alp_result alpi_obj_write_material(alpi_obj_writer *writer, alpi_obj_use use, uint32_t *number);
 
 /// Adds the pictures that the MTL names.
-alp_result alpi_obj_add_images(alpi_obj_writer *writer, alpi_gltf_files *files);
+alp_result alpi_obj_add_images(alpi_obj_writer *writer, alpi_output_files *files);
 
 #endif

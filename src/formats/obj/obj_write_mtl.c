@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -211,19 +212,19 @@ alp_result alpi_obj_write_material(alpi_obj_writer *w, alpi_obj_use use, uint32_
 
 // --- pictures ------------------------------------------------------------------------------------
 
-alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_gltf_files *files)
+alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_output_files *files)
 {
     const alpi_mesh_patch *patch = w->patch;
     for (uint32_t p = 0; p < patch->page_count; p++) {
         if (w->page_used[p]) {
-            ALP_TRY(alpi_gltf_files_add(
-                files, (alpi_gltf_file){alpi_obj_image_path(w->context, w->stem, "ao", p, ".png"),
-                                        patch->page_pngs[p], patch->page_png_sizes[p], NULL}));
+            ALP_TRY(alpi_output_files_add(
+                files, (alpi_output_file){alpi_obj_image_path(w->context, w->stem, "ao", p, ".png"),
+                                          patch->page_pngs[p], patch->page_png_sizes[p], NULL}));
         }
         if (w->light_used[p]) {
-            ALP_TRY(alpi_gltf_files_add(
+            ALP_TRY(alpi_output_files_add(
                 files,
-                (alpi_gltf_file){
+                (alpi_output_file){
                     alpi_obj_image_path(w->context, w->stem, "light", p, patch->light->ending),
                     patch->light->pages[p], patch->light->page_sizes[p], NULL}));
         }
@@ -233,10 +234,10 @@ alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_gltf_files *files)
             uint8_t *png = NULL;
             size_t size = 0;
             ALP_TRY(alpi_png_encode(w->scene->images[i], &png, &size));
-            ALP_TRY(alpi_gltf_files_add(
+            ALP_TRY(alpi_output_files_add(
                 files,
-                (alpi_gltf_file){alpi_obj_image_path(w->context, w->stem, "image", i, ".png"), png,
-                                 size, png}));
+                (alpi_output_file){alpi_obj_image_path(w->context, w->stem, "image", i, ".png"),
+                                   png, size, png}));
         }
     }
     return ALP_OK;

@@ -4,6 +4,7 @@
 #include "formats/viewers/lightmap_parts.h"
 
 #include "base/memory.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 

@@ -3,6 +3,7 @@
 #include "formats/viewers/lightmap_parts.h"
 
 #include "base/memory.h"
+#include "formats/images/images.h"
 
 #include <stdlib.h>
 

@@ -4,8 +4,8 @@
 #ifndef ALPI_FORMATS_LIGHTMAP_PARTS_H
 #define ALPI_FORMATS_LIGHTMAP_PARTS_H
 
-#include "formats/formats.h"
 #include "formats/text/text_edits.h"
+#include "formats/viewers/viewers.h"
 
 /// What is drawn at once.
 typedef struct alpi_lightmap_part {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // three.js Object JSON, format 4: geometries, materials, textures, images and the tree of objects,
 // as ObjectLoader reads them. Names in place of UUIDs: the same scene gives the same bytes.
-#include "formats/look.h"
+#include "base/look.h"
 #include "formats/viewers/lightmap_parts.h"
 
 #include "base/half.h"
 #include "base/memory.h"
+#include "formats/images/images.h"
 
 #include <stdio.h>
 

@@ -16,8 +16,8 @@
 
 #include "formats/collada/collada_marks.h"
 #include "formats/collada/collada_read.h"
-#include "formats/formats.h"
 #include "formats/text/text_edits.h"
+#include "scene/mesh_patch.h"
 
 /// Marks what several share, in place of whose it is.
 #define ALPI_COLLADA_SHARED UINT32_MAX

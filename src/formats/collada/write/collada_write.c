@@ -5,9 +5,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/collada/write/collada_write.h"
+#include "formats/files/outside.h"
 
-#include <stdio.h>
 #include <string.h>
 
 // --- names ---------------------------------------------------------------------------------------
@@ -18,22 +18,6 @@ static char *image_path(alp_context *context, const char *path, const char *kind
     const int length = (int)(strlen(path) - strlen(".dae"));
     return page == 0 ? alpi_format(context, "%.*s.%s.png", length, path, kind)
                      : alpi_format(context, "%.*s.%s.%u.png", length, path, kind, page);
-}
-
-/// A file name as a URI: percent escapes for all but the unreserved signs (RFC 3986, section 2.3).
-static char *make_uri(alp_context *context, const char *name)
-{
-    alpi_bytes uri = alpi_bytes_create(context);
-    alpi_bytes_add(&uri, "", 0);
-    for (; *name != '\0'; name++) {
-        const unsigned char c = (unsigned char)*name;
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                           (c >= '0' && c <= '9') || strchr("-._~", c) != NULL;
-        alpi_bytes_print(&uri, plain ? "%c" : "%%%02X", c);
-    }
-    char *copy = uri.failed ? NULL : alpi_copy_string(context, (const char *)uri.bytes);
-    alpi_bytes_destroy(&uri);
-    return copy;
 }
 
 /// Files of one kind of map.
@@ -53,7 +37,7 @@ static alp_result name_files(alp_context *context, const char *path, const char 
         if (files->paths[i] == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
         }
-        files->uris[i] = make_uri(context, alpi_path_name(files->paths[i]));
+        files->uris[i] = alpi_uri_encode(context, alpi_path_name(files->paths[i]));
         if (files->uris[i] == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
         }
@@ -212,14 +196,14 @@ typedef struct writing {
     const alpi_mesh_patch *patch;
     const char *path;
     image_files occlusion, light;
-    alpi_gltf_files files;
+    alpi_output_files files;
     alpi_file_set *set;
 } writing;
 
 static alp_result add_file(writing *w, const char *path, const void *bytes, size_t size)
 {
-    return alpi_gltf_files_add(
-        &w->files, (alpi_gltf_file){alpi_copy_string(w->context, path), bytes, size, NULL});
+    return alpi_output_files_add(
+        &w->files, (alpi_output_file){alpi_copy_string(w->context, path), bytes, size, NULL});
 }
 
 static alp_result add_maps(writing *w, const alpi_collada_patcher *p)
@@ -257,7 +241,7 @@ static alp_result add_image_copy(writing *w, const alpi_collada_document *d, con
     alp_result result = alpi_collada_file_read(d, uri, &bytes, &size);
     if (result == ALP_OK) {
         char *path = alpi_format(w->context, "%s%s", folder, name);
-        result = alpi_gltf_files_add_copy(&w->files, path, bytes, size);
+        result = alpi_output_files_add_copy(&w->files, path, bytes, size);
     } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
         alpi_note(w->context, "missing-file", name,
                   "the document refers to it, but it cannot be read: it is missing from the copy"
@@ -277,7 +261,7 @@ static alp_result add_image_copies(writing *w, const alpi_collada_patcher *p)
     if (folder == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    const bool moved = d->archive != NULL || !alpi_gltf_same_folder(folder, d->folder);
+    const bool moved = d->archive != NULL || !alpi_same_folder(folder, d->folder);
     alp_result result = ALP_OK;
     for (uint32_t i = 0; moved && result == ALP_OK && i < d->element_count; i++) {
         if (!alpi_xml_is(d->elements[i], "image") || p->removed[i]) {
@@ -300,8 +284,8 @@ static alp_result write_files(writing *w, const alpi_collada_patcher *p, const a
     ALP_TRY(add_maps(w, p));
     ALP_TRY(add_image_copies(w, p));
     ALP_TRY(add_file(w, w->path, text->bytes, text->size));
-    ALP_TRY(alpi_gltf_files_make_folders(&w->files));
-    return alpi_gltf_files_add_to(&w->files, w->set);
+    ALP_TRY(alpi_output_files_make_folders(&w->files));
+    return alpi_output_files_add_to(&w->files, w->set);
 }
 
 static alp_result patch_and_write(writing *w, const alp_scene *scene)
@@ -348,7 +332,7 @@ static alp_result check_request(const alp_scene *scene, const char *path)
     return ALP_OK;
 }
 
-alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+alp_result alpi_collada_check_outputs(const alp_scene *scene, const alpi_output_images *images,
                                       const char *path, bool overwrite)
 {
     static const char *const kinds[] = {"ao", "light"};
@@ -401,7 +385,7 @@ alp_result alpi_collada_add_patched(const alp_scene *scene, const alpi_mesh_patc
     if (result == ALP_OK) {
         result = patch_and_write(&w, scene);
     }
-    alpi_gltf_files_destroy(&w.files);
+    alpi_output_files_destroy(&w.files);
     image_files_destroy(context, &w.occlusion);
     image_files_destroy(context, &w.light);
     return result;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Where the binary data of a written glTF lives. What was there stays a prefix of its buffer; new
 // data comes behind it, or becomes a buffer of its own.
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_container.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A scene that came from no file as a GLB in memory: one node, mesh and primitive a surface, in
 // world space, and materials, images, cameras and lights as glTF 2.0 names them.
-#include "formats/formats.h"
-#include "formats/look.h"
+#include "base/look.h"
 #include "formats/text/text_edits.h"
 
 #include "base/memory.h"
+#include "formats/gltf/write/gltf_write.h"
+#include "formats/images/images.h"
 
 #include <float.h>
 #include <math.h>

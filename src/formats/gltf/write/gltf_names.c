@@ -2,34 +2,15 @@
 // Names of the files that a written .gltf refers to: OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png,
 // OUT.orm.png, OUT.orm.1.png, OUT.light.png (or .ktx2 …), OUT.light.1.png.
 // A file baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_names.h"
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "formats/files/outside.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_tree.h"
 
 #include <string.h>
-
-/// Percent escapes for all but the unreserved characters (RFC 3986, section 2.3).
-static char *escape_uri(alp_context *context, const char *name)
-{
-    alpi_bytes uri = alpi_bytes_create(context);
-    alpi_bytes_add(&uri, "", 0);
-    for (; *name != '\0'; name++) {
-        unsigned char c = (unsigned char)*name;
-        bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                     strchr("-._~", c) != NULL;
-        if (plain) {
-            alpi_bytes_add(&uri, name, 1);
-        } else {
-            alpi_bytes_print(&uri, "%%%02X", (unsigned)c);
-        }
-    }
-    char *copy = uri.failed ? NULL : alpi_copy_string(context, (const char *)uri.bytes);
-    alpi_bytes_destroy(&uri);
-    return copy;
-}
 
 /// Whether a buffer or image of the document is the file `name` in the document's folder.
 static alp_result is_referenced(const alpi_gltf_document *document, const char *kind,
@@ -63,7 +44,7 @@ static uint32_t image_count(const alpi_gltf_names *names)
 }
 
 /// "STEM.KIND.png" and "STEM.KIND.N.png"
-static char *image_path(alp_context *context, const char *stem, const alpi_gltf_images *images,
+static char *image_path(alp_context *context, const char *stem, const alpi_output_images *images,
                         uint32_t index)
 {
     const uint32_t packed = images->occlusion, light = packed + images->packed;
@@ -78,12 +59,13 @@ static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *
 {
     bool good = (names->bin = alpi_format(context, "%s.bin", stem)) != NULL &&
                 (names->data = alpi_format(context, "%s.ao.bin", stem)) != NULL &&
-                (names->bin_uri = escape_uri(context, alpi_path_name(names->bin))) != NULL &&
-                (names->data_uri = escape_uri(context, alpi_path_name(names->data))) != NULL;
+                (names->bin_uri = alpi_uri_encode(context, alpi_path_name(names->bin))) != NULL &&
+                (names->data_uri = alpi_uri_encode(context, alpi_path_name(names->data))) != NULL;
     for (uint32_t i = 0; good && i < image_count(names); i++) {
         names->pages[i] = image_path(context, stem, &names->images, i);
         good = names->pages[i] != NULL &&
-               (names->page_uris[i] = escape_uri(context, alpi_path_name(names->pages[i]))) != NULL;
+               (names->page_uris[i] = alpi_uri_encode(context, alpi_path_name(names->pages[i]))) !=
+                   NULL;
     }
     return good;
 }
@@ -123,7 +105,7 @@ static alp_result try_names(alp_context *context, const alpi_gltf_document *docu
 }
 
 alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document *document,
-                                  const char *path, const alpi_gltf_images *images,
+                                  const char *path, const alpi_output_images *images,
                                   alpi_gltf_names *names)
 {
     bool clash = true;
@@ -140,16 +122,16 @@ alp_result alpi_gltf_names_create(alp_context *context, const alpi_gltf_document
     return ALP_OK;
 }
 
-alpi_gltf_images alpi_gltf_patch_images(const alpi_mesh_patch *patch, bool to_glb)
+alpi_output_images alpi_gltf_patch_images(const alpi_mesh_patch *patch, bool to_glb)
 {
     const alpi_light_patch *light = patch->light;
     const bool beside = light != NULL && light->form == ALPI_LIGHT_FORM_EXTRAS;
-    return (alpi_gltf_images){.occlusion =
-                                  to_glb || patch->page_pngs == NULL ? 0 : patch->page_count,
-                              .packed = to_glb ? 0 : patch->packed_count,
-                              .light = light == NULL || (to_glb && !beside) ? 0 : patch->page_count,
-                              .light_ending = light != NULL ? light->ending : NULL,
-                              .light_is_beside = beside};
+    return (alpi_output_images){
+        .occlusion = to_glb || patch->page_pngs == NULL ? 0 : patch->page_count,
+        .packed = to_glb ? 0 : patch->packed_count,
+        .light = light == NULL || (to_glb && !beside) ? 0 : patch->page_count,
+        .light_ending = light != NULL ? light->ending : NULL,
+        .light_is_beside = beside};
 }
 
 void alpi_gltf_names_destroy(alp_context *context, alpi_gltf_names *names)

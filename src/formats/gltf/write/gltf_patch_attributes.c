@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Attributes of a primitive whose vertices are split: their values at the new ones, raw.
-#include "formats/gltf/write/gltf_rewrite.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_mesh.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <stdio.h>
 #include <string.h>

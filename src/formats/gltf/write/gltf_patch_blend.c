@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Three coordinate sets that a shader blends: their attributes, and what materials say of them.
-#include "formats/gltf/write/gltf_patch.h"
-
+#include "formats/gltf/write/gltf_patch_sets.h"
 #include <string.h>
 
 static const char OCCLUSION[] = "occlusionTexture";
-static const char *const LIGHTS[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
-                                     [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
-                                     [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
-
-const char *alpi_patcher_light_name(const alpi_gltf_patcher *p)
-{
-    return LIGHTS[p->patch->light->form];
-}
-
 /// The names in a list of "maps", less those of the maps that are replaced.
 static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gltf_maps replaced,
                         alpi_bytes *kept)
@@ -25,7 +15,7 @@ static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gl
     while (alpi_json_next(&cursor)) {
         const bool gone =
             (replaced.occluded && alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
-            (replaced.lit && alpi_json_key_is(text, cursor.value, LIGHTS[p->patch->light->form]));
+            (replaced.lit && alpi_json_key_is(text, cursor.value, alpi_patcher_light_name(p)));
         if (!gone) {
             alpi_bytes_print(kept, "%s", count++ > 0 ? "," : "");
             alpi_bytes_add(kept, text + cursor.value.begin, cursor.value.end - cursor.value.begin);
@@ -101,7 +91,7 @@ void alpi_patcher_print_blend(const alpi_gltf_patcher *p, size_t material,
         alpi_bytes_print(text, "\"%s\"%s", OCCLUSION, maps.lit ? "," : "");
     }
     if (maps.lit) {
-        alpi_bytes_quote(text, LIGHTS[p->patch->light->form]);
+        alpi_bytes_quote(text, alpi_patcher_light_name(p));
     }
     alpi_bytes_print(text, "]");
     print_earlier(p, material, maps, text);

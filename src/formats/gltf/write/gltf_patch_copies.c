@@ -2,10 +2,11 @@
 // Copies of materials, one for each further page. They say what they are copies of, and a later
 // bake takes the original in their place, as long as they differ in nothing but maps that it
 // replaces: so they do not become copies of copies, and what somebody changed in one stays.
-#include "formats/gltf/write/gltf_patch.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_patch_material.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // extensionsUsed and extensionsRequired: what materials have come to use, and what nothing uses any
 // more since meshes were written uncompressed or instances became nodes.
-#include "formats/gltf/write/gltf_patch.h"
 
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_patch_material.h"
 
 #include <string.h>
 

@@ -2,11 +2,12 @@
 // Nodes that show their mesh in instances (EXT_mesh_gpu_instancing). To the plan each instance is a
 // node. Where they come to show different meshes, because each has a map of its own, they become
 // nodes: children of the one that held them.
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_patch_instances.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_read.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
 
 #include <stdio.h>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Materials that show baked light: as emission, by MOZ_lightmap, or by a file that their extras
 // name.
-#include "formats/gltf/write/gltf_patch.h"
 
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_material.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <stdio.h>
 #include <string.h>

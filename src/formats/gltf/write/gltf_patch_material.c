@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Materials: each (old material, page, coordinate set) in use needs one. The first of an old
 // material is that material itself, unless something that gets no map uses it too.
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_patch_material.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -95,50 +97,12 @@ static alp_result find_other_users(const alpi_gltf_patcher *p, bool *marks)
 
 // --- images and textures -------------------------------------------------------------------------
 
-size_t alpi_patcher_add_image(alpi_gltf_patcher *p, const char *name, uint32_t uri,
-                              const uint8_t *png, size_t size)
-{
-    alpi_bytes image = alpi_bytes_create(p->context);
-    alpi_bytes_print(&image, "{\"name\":\"%s\",", name);
-    if (p->page_uris != NULL) {
-        alpi_bytes_print(&image, "\"uri\":");
-        alpi_bytes_quote(&image, p->page_uris[uri]);
-        alpi_bytes_print(&image, "," ALPI_GLTF_MAP_EXTRAS "}");
-    } else {
-        size_t view = alpi_patcher_add_view(p, png, size, 0, 0);
-        alpi_bytes_print(&image,
-                         "\"bufferView\":%zu,\"mimeType\":\"image/png\"," ALPI_GLTF_MAP_EXTRAS "}",
-                         view);
-    }
-    p->data.failed |= image.failed;
-    size_t index = alpi_patcher_append(p, ALPI_GLTF_IMAGES, image.bytes, image.size);
-    alpi_bytes_destroy(&image);
-    return index;
-}
-
 static size_t add_page_image(alpi_gltf_patcher *p, uint32_t page)
 {
     char name[32];
     snprintf(name, sizeof name, "occlusion %u", page);
     return alpi_patcher_add_image(p, name, page, p->patch->page_pngs[page],
                                   p->patch->page_png_sizes[page]);
-}
-
-/// Not mipmapped: charts are padded by few texels.
-size_t alpi_patcher_add_texture(alpi_gltf_patcher *p, size_t image)
-{
-    alpi_gltf_list *samplers = &p->lists[ALPI_GLTF_SAMPLERS];
-    static const char sampler[] =
-        "{\"magFilter\":9729,\"minFilter\":9729,"                    // linear
-        "\"wrapS\":33071,\"wrapT\":33071," ALPI_GLTF_MAP_EXTRAS "}"; // clamp to edge
-    if (samplers->added == 0) {
-        alpi_patcher_append(p, ALPI_GLTF_SAMPLERS, sampler, sizeof sampler - 1);
-    }
-    char texture[128];
-    int length = snprintf(texture, sizeof texture,
-                          "{\"sampler\":%zu,\"source\":%zu," ALPI_GLTF_MAP_EXTRAS "}",
-                          samplers->count, image);
-    return alpi_patcher_append(p, ALPI_GLTF_TEXTURES, texture, (size_t)length);
 }
 
 /// The texture of a page, made at its first use.

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Edits of meshes: a coordinate set or values for each primitive, vertices split where charts meet
 // or values differ, one primitive a page, and copies of meshes that several nodes use.
-#include "formats/gltf/write/gltf_rewrite.h"
+#include "formats/gltf/write/gltf_patch_mesh.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_instances.h"
+#include "formats/gltf/write/gltf_patch_plan.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
+#include "formats/gltf/write/gltf_patch_vertex.h"
 
 #include <math.h>
 #include <stdio.h>

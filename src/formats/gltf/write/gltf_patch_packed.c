@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Materials whose occlusion goes into the red channel of an image that they have already: they read
 // a new version of that image. The old one stays for whoever else uses it.
-#include "formats/gltf/write/gltf_patch.h"
 
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_material.h"
 
 #include <stdio.h>
 

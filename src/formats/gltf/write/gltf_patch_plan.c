@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Which primitives get a map: their coordinate set, their pages, and whether their mesh can be
 // edited where it stands or must be copied for the node.
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_patch_plan.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_patch_instances.h"
+#include "formats/gltf/write/gltf_patch_material.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <stdio.h>
 #include <stdlib.h>

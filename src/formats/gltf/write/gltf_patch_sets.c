@@ -2,7 +2,7 @@
 // Sets of coordinates: which a primitive has, which of them an earlier bake made and nothing reads
 // any more but maps that are replaced now, and which the new ones become. Ours bear a mark, so that
 // nobody else's is ever taken: neither those of the artist nor those of versions without marks.
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_compression.h"
@@ -29,6 +29,14 @@ void alpi_patcher_set_name(uint32_t set, char name[ALPI_GLTF_ATTRIBUTE_SIZE])
 {
     snprintf(name, ALPI_GLTF_ATTRIBUTE_SIZE, "%s%u", set < SET_LIMIT ? texcoord : own_name,
              set % SET_LIMIT);
+}
+
+const char *alpi_patcher_light_name(const alpi_gltf_patcher *p)
+{
+    static const char *const names[] = {[ALPI_LIGHT_FORM_EMISSIVE] = "emissiveTexture",
+                                        [ALPI_LIGHT_FORM_MOZ] = "MOZ_lightmap",
+                                        [ALPI_LIGHT_FORM_EXTRAS] = "lightmap"};
+    return names[p->patch->light->form];
 }
 
 /// The bit of an attribute's name; 0 where it is no set, or beyond the limit.

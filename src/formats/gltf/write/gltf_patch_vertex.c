@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Values at vertices as an attribute: COLOR_0, which viewers multiply into the base colour, or
 // _OCCLUSION, which is ours (glTF 2.0, section 3.7.2.1: names of other attributes begin with _).
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_patch_vertex.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_plan.h"
 
 #include <math.h>
 #include <string.h>

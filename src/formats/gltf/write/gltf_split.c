@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Splits vertices where their triangles want different bake coordinates: one vertex per distinct
 // pair (old vertex, bits of the coordinate).
-#include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_split.h"
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

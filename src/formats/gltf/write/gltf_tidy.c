@@ -7,6 +7,7 @@
 #include "formats/gltf/write/gltf_tidy.h"
 
 #include "base/memory.h"
+#include "formats/gltf/write/gltf_patch_sets.h"
 
 #include <string.h>
 

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Between the two files that take out what an earlier bake left: elements, and their bytes.
+// Elements of earlier bakes that nothing reads any more, and their removal.
 #ifndef ALPI_FORMATS_GLTF_TIDY_H
 #define ALPI_FORMATS_GLTF_TIDY_H
 
 #include "formats/gltf/write/gltf_references.h"
+
+/// Places to search for leftovers of an earlier bake, besides the written text.
+typedef struct alpi_gltf_leftovers {
+    bool first_stays; // the first buffer, whatever reads it
+    alpi_bytes *bin;  // its bytes, which are cut too; NULL: they stay
+    alpi_bytes *data; // new data, if it is a file that the last buffer names; or NULL
+    const alpi_gltf_document *document; // as it was read
+    bool *images_gone;                  // [image_count] of the document: those that go are noted
+    bool *buffers_gone;                 // [buffer_count]
+    size_t image_count, buffer_count;
+} alpi_gltf_leftovers;
+/// Whether a document bears marks of a bake.
+bool alpi_gltf_was_baked(const alpi_gltf_document *document);
+/// Removes leftovers that nothing reads any more from a written text.
+alp_result alpi_gltf_tidy(alp_context *context, const alpi_gltf_leftovers *from, alpi_bytes *text);
+
+// --- between the two files that do so: elements (gltf_tidy.c), and their bytes (gltf_tidy_bytes.c)
 
 typedef struct alpi_gltf_tidying {
     alp_context *context;

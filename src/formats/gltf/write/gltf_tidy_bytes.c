@@ -2,9 +2,9 @@
 // Bytes of views that go, cut out of the buffer that a .glb holds. Cuts are multiples of four
 // bytes, so that everything behind them stays aligned; bytes that anything else reads are never
 // cut.
-#include "formats/gltf/write/gltf_tidy.h"
 
 #include "base/memory.h"
+#include "formats/gltf/write/gltf_tidy.h"
 
 #include <stdlib.h>
 

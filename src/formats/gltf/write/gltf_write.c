@@ -1,83 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Writes a patched document: collects the bytes of every file first, then adds them to the files
 // that are put in their places together, the asset itself last.
-#include "formats/formats.h"
+#include "formats/gltf/write/gltf_write.h"
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "formats/files/outside.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_tree.h"
-#include "formats/gltf/write/gltf_patch.h"
-#include "formats/outside.h"
+#include "formats/gltf/write/gltf_container.h"
+#include "formats/gltf/write/gltf_tidy.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
-
-// --- a list of files -----------------------------------------------------------------------------
-
-alp_result alpi_gltf_files_add(alpi_gltf_files *files, alpi_gltf_file file)
-{
-    void *items = files->items;
-    if (file.path == NULL || alpi_grow(files->context, &items, &files->capacity, files->count + 1,
-                                       sizeof *files->items) != ALP_OK) {
-        alpi_release(files->context, file.path);
-        alpi_release(files->context, file.owned);
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    files->items = items;
-    files->items[files->count++] = file;
-    return ALP_OK;
-}
-
-void alpi_gltf_files_destroy(alpi_gltf_files *files)
-{
-    for (size_t i = 0; i < files->count; i++) {
-        alpi_release(files->context, files->items[i].path);
-        alpi_release(files->context, files->items[i].owned);
-    }
-    alpi_release(files->context, files->items);
-    *files = (alpi_gltf_files){.context = files->context};
-}
-
-alp_result alpi_gltf_files_add_to(const alpi_gltf_files *files, alpi_file_set *set)
-{
-    for (size_t i = 0; i < files->count; i++) {
-        const alpi_gltf_file *file = &files->items[i];
-        ALP_TRY(alpi_file_set_add(set, file->path, file->bytes, file->size));
-    }
-    return ALP_OK;
-}
 
 // --- files that the asset refers to --------------------------------------------------------------
 
-bool alpi_gltf_same_folder(const char *a, const char *b)
-{
-    struct stat first, second;
-    return stat(a[0] != '\0' ? a : ".", &first) == 0 &&
-           stat(b[0] != '\0' ? b : ".", &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
-/// Whether a file holds exactly these bytes; one that cannot be read does not.
-static alp_result compare_file(alp_context *context, const char *path, const uint8_t *bytes,
-                               size_t size, bool *same)
-{
-    uint8_t *there = NULL;
-    size_t there_size = 0;
-    *same = false;
-    if (access(path, F_OK) != 0) {
-        return ALP_OK;
-    }
-    const alp_result result = alpi_file_read(context, path, size, &there, &there_size);
-    *same = result == ALP_OK && there_size == size && memcmp(there, bytes, size) == 0;
-    alpi_release(context, there);
-    return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
-}
-
 /// Whether a file lies outside of the asset's folder: a copy would lie outside of the new one.
-static bool is_outside(const alpi_gltf_files *files, const alpi_gltf_document *document,
+static bool is_outside(const alpi_output_files *files, const alpi_gltf_document *document,
                        const char *source, const char *uri)
 {
     const size_t length = strlen(document->folder);
@@ -94,25 +35,8 @@ static bool is_outside(const alpi_gltf_files *files, const alpi_gltf_document *d
     return true;
 }
 
-alp_result alpi_gltf_files_add_copy(alpi_gltf_files *files, char *path, uint8_t *bytes, size_t size)
-{
-    bool repeated = false;
-    const alp_result result = path == NULL
-                                  ? ALP_ERROR_OUT_OF_MEMORY
-                                  : compare_file(files->context, path, bytes, size, &repeated);
-    for (size_t i = 0; result == ALP_OK && i < files->count; i++) {
-        repeated |= strcmp(files->items[i].path, path) == 0; // two images, one file
-    }
-    if (repeated || result != ALP_OK) {
-        alpi_release(files->context, path);
-        alpi_release(files->context, bytes);
-        return result;
-    }
-    return alpi_gltf_files_add(files, (alpi_gltf_file){path, bytes, size, bytes});
-}
-
 /// Adds the copy of one referenced file; a file that is there already with these bytes is kept.
-static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *document,
+static alp_result add_copy(alpi_output_files *files, const alpi_gltf_document *document,
                            const char *source, const char *folder)
 {
     uint8_t *bytes = NULL;
@@ -127,11 +51,11 @@ static alp_result add_copy(alpi_gltf_files *files, const alpi_gltf_document *doc
         return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
     }
     char *path = alpi_format(files->context, "%s%s", folder, source + strlen(document->folder));
-    return alpi_gltf_files_add_copy(files, path, bytes, size);
+    return alpi_output_files_add_copy(files, path, bytes, size);
 }
 
 /// @param fallbacks copy buffers only that are fallbacks: the others went into the asset
-static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *document,
+static alp_result add_copies(alpi_output_files *files, const alpi_gltf_document *document,
                              const char *kind, const bool *skipped, bool fallbacks,
                              const char *folder)
 {
@@ -156,7 +80,7 @@ static alp_result add_copies(alpi_gltf_files *files, const alpi_gltf_document *d
 }
 
 /// Buffers and images that the written asset still refers to go where it looks for them.
-static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_document *document,
+static alp_result add_references(alpi_output_files *files, const alpi_gltf_document *document,
                                  const char *path, bool merged, const bool *image_embedded,
                                  const bool *buffers_gone)
 {
@@ -165,7 +89,7 @@ static alp_result add_references(alpi_gltf_files *files, const alpi_gltf_documen
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
-    if (!alpi_gltf_same_folder(folder, document->folder)) {
+    if (!alpi_same_folder(folder, document->folder)) {
         result = add_copies(files, document, "buffers", buffers_gone, merged, folder);
         if (result == ALP_OK) {
             result = add_copies(files, document, "images", image_embedded, false, folder);
@@ -235,15 +159,15 @@ typedef struct writing {
     bool to_glb;
     alpi_gltf_names names;
     alpi_gltf_patcher patcher;
-    alpi_gltf_files files;
+    alpi_output_files files;
     alpi_bytes bin, text, asset;
     bool *buffers_gone; // [buffers of the document]
 } writing;
 
 static alp_result add_side_file(writing *w, const char *path, const void *bytes, size_t size)
 {
-    return alpi_gltf_files_add(
-        &w->files, (alpi_gltf_file){alpi_copy_string(w->files.context, path), bytes, size, NULL});
+    return alpi_output_files_add(
+        &w->files, (alpi_output_file){alpi_copy_string(w->files.context, path), bytes, size, NULL});
 }
 
 static bool first_is_bin(const alpi_gltf_document *document)
@@ -281,7 +205,7 @@ static alp_result add_side_files(writing *w)
 /// Light that is not inside the asset.
 static alp_result add_light_files(writing *w)
 {
-    const alpi_gltf_images *images = &w->names.images;
+    const alpi_output_images *images = &w->names.images;
     for (uint32_t i = 0; i < images->light; i++) {
         if (w->patcher.light_textures[i] != ALPI_GLTF_NONE) {
             ALP_TRY(add_side_file(w, w->names.pages[images->occlusion + images->packed + i],
@@ -327,7 +251,7 @@ static alp_result take_bin(writing *w)
 
 static alp_result patch_text(writing *w, alpi_gltf_home home)
 {
-    const alpi_gltf_images *images = &w->names.images;
+    const alpi_output_images *images = &w->names.images;
     w->patcher.page_uris = w->to_glb ? NULL : w->names.page_uris;
     w->patcher.light_uris = images->light > 0 && images->light_is_beside
                                 ? w->names.page_uris + images->occlusion + images->packed
@@ -355,23 +279,9 @@ static alp_result collect_files(writing *w, alpi_gltf_home home)
     return add_side_file(w, w->path, w->asset.bytes, w->asset.size);
 }
 
-alp_result alpi_gltf_files_make_folders(const alpi_gltf_files *files)
-{
-    for (size_t i = 0; i < files->count; i++) {
-        char *folder = alpi_path_folder(files->context, files->items[i].path);
-        alp_result result = folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-        if (result == ALP_OK && folder[0] != '\0') {
-            result = alpi_folder_create(files->context, folder);
-        }
-        alpi_release(files->context, folder);
-        ALP_TRY(result);
-    }
-    return ALP_OK;
-}
-
 static alp_result run_writing(writing *w, const alp_scene *scene, alpi_file_set *set)
 {
-    const alpi_gltf_images images = alpi_gltf_patch_images(w->patch, w->to_glb);
+    const alpi_output_images images = alpi_gltf_patch_images(w->patch, w->to_glb);
     if (!w->to_glb || images.light > 0) {
         ALP_TRY(alpi_gltf_names_create(scene->context, w->document, w->path, &images, &w->names));
     }
@@ -382,10 +292,10 @@ static alp_result run_writing(writing *w, const alp_scene *scene, alpi_file_set 
         result = collect_files(w, home);
     }
     if (result == ALP_OK) {
-        result = alpi_gltf_files_make_folders(&w->files);
+        result = alpi_output_files_make_folders(&w->files);
     }
     if (result == ALP_OK) {
-        result = alpi_gltf_files_add_to(&w->files, set);
+        result = alpi_output_files_add_to(&w->files, set);
     }
     alpi_patcher_destroy(&w->patcher);
     return result;
@@ -414,7 +324,7 @@ static alp_result write_document(const alp_scene *scene, const alpi_gltf_documen
     ALP_TRY(choose_container(context, path, &w.to_glb));
     ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
     alp_result result = run_writing(&w, scene, set);
-    alpi_gltf_files_destroy(&w.files);
+    alpi_output_files_destroy(&w.files);
     alpi_gltf_names_destroy(context, &w.names);
     alpi_bytes_destroy(&w.bin);
     alpi_bytes_destroy(&w.text);
@@ -446,7 +356,7 @@ alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *
 static alp_result check_references(const alpi_gltf_document *document, const char *path,
                                    bool merged, bool overwrite)
 {
-    alpi_gltf_files files = {.context = document->context, .silent = true};
+    alpi_output_files files = {.context = document->context, .silent = true};
     alp_result result = ALP_OK;
     if (!merged) { // merging embeds all
         result = add_references(&files, document, path, merged, NULL, NULL);
@@ -456,18 +366,18 @@ static alp_result check_references(const alpi_gltf_document *document, const cha
             result = alpi_file_check_writable(files.context, files.items[i].path, overwrite);
         }
     }
-    alpi_gltf_files_destroy(&files);
+    alpi_output_files_destroy(&files);
     return result;
 }
 
 alp_result alpi_gltf_check_output(const alp_scene *scene, uint32_t page_count, const char *path,
                                   bool overwrite)
 {
-    const alpi_gltf_images images = {.occlusion = page_count};
+    const alpi_output_images images = {.occlusion = page_count};
     return alpi_gltf_check_outputs(scene, &images, path, overwrite);
 }
 
-alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_images *images,
+alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_output_images *images,
                                    const char *path, bool overwrite)
 {
     alp_context *context = scene->context;
@@ -478,7 +388,7 @@ alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_gltf_image
     if (document != NULL) {
         ALP_TRY(check_references(document, path, to_glb && !document->is_glb, overwrite));
     }
-    alpi_gltf_images beside = *images;
+    alpi_output_images beside = *images;
     if (to_glb) { // holds all but light that it only names
         beside.occlusion = beside.packed = 0;
         beside.light = images->light_is_beside ? images->light : 0;

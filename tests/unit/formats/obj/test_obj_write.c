@@ -89,7 +89,7 @@ static const char *out_path(const bake *b)
 
 static alp_scene *write_and_read(bake *b)
 {
-    const alpi_gltf_images images = {.occlusion = b->patch.page_count};
+    const alpi_output_images images = {.occlusion = b->patch.page_count};
     alp_scene *scene = NULL;
     ASSERT_OK(b->context, alpi_scene_check_outputs(b->scene, &images, out_path(b), false));
     ASSERT_OK(b->context, alpi_scene_write_patched(b->scene, &b->patch, out_path(b), false));
@@ -348,7 +348,7 @@ TEST(names)
 TEST(files_in_the_way)
 {
     static const char *const files[] = {"out.obj", "out.mtl", "out.ao.png"};
-    const alpi_gltf_images images = {.occlusion = 1};
+    const alpi_output_images images = {.occlusion = 1};
     for (int i = 0; i < 3; i++) {
         bake b;
         start(&b, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

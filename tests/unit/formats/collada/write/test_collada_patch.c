@@ -321,7 +321,7 @@ TEST_WITH_CONTEXT(images_go_along, 1)
 TEST_WITH_CONTEXT(other_scenes, 1)
 {
     alp_scene *scene = test_load(context, "builtin:cornell");
-    const alpi_gltf_images images = {.occlusion = 1};
+    const alpi_output_images images = {.occlusion = 1};
     assert_int_equal(alpi_collada_check_outputs(scene, &images, "out.dae", false),
                      ALP_ERROR_UNSUPPORTED);
     alp_scene_destroy(scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a file lies that an asset names.
-#include "formats/outside.h"
+#include "formats/files/outside.h"
 
+#include "base/bytes.h"
 #include "base/memory.h"
 
 #include <string.h>
@@ -33,6 +33,25 @@ bool alpi_uri_decode(char *text)
     }
     *out = '\0';
     return true;
+}
+
+char *alpi_uri_encode(alp_context *context, const char *name)
+{
+    alpi_bytes uri = alpi_bytes_create(context);
+    alpi_bytes_add(&uri, "", 0);
+    for (; *name != '\0'; name++) {
+        unsigned char c = (unsigned char)*name;
+        bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                     strchr("-._~", c) != NULL;
+        if (plain) {
+            alpi_bytes_add(&uri, name, 1);
+        } else {
+            alpi_bytes_print(&uri, "%%%02X", (unsigned)c);
+        }
+    }
+    char *copy = uri.failed ? NULL : alpi_copy_string(context, (const char *)uri.bytes);
+    alpi_bytes_destroy(&uri);
+    return copy;
 }
 
 bool alpi_path_stays_below(const char *path)

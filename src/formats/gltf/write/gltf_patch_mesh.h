@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A primitive while it is rewritten: what the edits of its text and of its attributes share.
-#ifndef ALPI_FORMATS_GLTF_REWRITE_H
-#define ALPI_FORMATS_GLTF_REWRITE_H
+// Edits of meshes, and a primitive while it is rewritten: its text and its attributes.
+#ifndef ALPI_FORMATS_GLTF_PATCH_MESH_H
+#define ALPI_FORMATS_GLTF_PATCH_MESH_H
 
 #include "formats/gltf/gltf_tree.h"
 #include "formats/gltf/write/gltf_patch.h"
+#include "formats/gltf/write/gltf_split.h"
+
+/// Edits the meshes of the plan and the nodes that use copies.
+alp_result alpi_patcher_meshes(alpi_gltf_patcher *patcher);
 
 /// An attribute whose accessor changes.
 typedef struct alpi_gltf_attribute_edit {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a file lies that an asset names: below the asset's folder, unless the context lets assets
-// name any. Links are followed: who made the folder put them there, the asset's text did not.
+// Paths of files that an asset names: below the asset's folder, unless the context allows others.
+// Links are followed: the maker of the folder put them there, the asset's text did not.
 #ifndef ALPI_FORMATS_OUTSIDE_H
 #define ALPI_FORMATS_OUTSIDE_H
 
@@ -11,6 +11,9 @@
 
 /// Decodes %XX in place; a sign that is no escape stays. False for an escaped zero byte.
 bool alpi_uri_decode(char *text);
+/// A file name with percent escapes for all but the unreserved characters (RFC 3986, section 2.3).
+/// Released by the caller; NULL: no memory.
+char *alpi_uri_encode(alp_context *context, const char *name);
 
 /// Whether a relative path never climbs: no empty name, no "/…", no ".." part (either slash).
 bool alpi_path_stays_below(const char *path);

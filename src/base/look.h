@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Where a node stands whose −Z axis looks somewhere, as cameras and lights of viewers do.
-#ifndef ALPI_FORMATS_LOOK_H
-#define ALPI_FORMATS_LOOK_H
+// The matrix of a node that looks along its −Z axis, as cameras and lights of viewers do.
+#ifndef ALPI_BASE_LOOK_H
+#define ALPI_BASE_LOOK_H
 
 #include "base/vec.h"
 
-/// Column-major matrix whose −Z axis is `forward`; where `up` says nothing an axis near it stands
-/// in.
+/// Column-major matrix whose −Z axis is `forward`. Another axis replaces an `up` that is parallel.
 static inline void alpi_look_matrix(vec3 position, vec3 forward, vec3 up, float m[16])
 {
     vec3 z = vec3_normalize_or(vec3_scale(forward, -1.0f), (vec3){0.0f, 0.0f, 1.0f});

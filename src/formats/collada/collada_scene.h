@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// COLLADA → scene.
+#ifndef ALPI_FORMATS_COLLADA_SCENE_H
+#define ALPI_FORMATS_COLLADA_SCENE_H
+
+#include "scene/scene.h"
+
+/// Reads a .dae or .zae into a scene and keeps the document with it (ALPI_ATTACHMENT_COLLADA).
+alp_result alpi_collada_read_scene(alp_context *context, const char *path, alp_scene **scene);
+
+#endif
