@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is told before the work: memory, also of outputs that take more of it than what
 // they are made from, viewers' own files and layers.
+#include "bake/bake_memory.h"
 #include "bake/job.h"
 #include "test_scenes.h"
 
