@@ -213,7 +213,7 @@ TEST(a_texture_is_as_its_sum)
 
 /// A picture 64 wide of which one texel shines, on 2 of 200 triangles: looks at 16 places miss it,
 /// and the 190 that are far from it are no lights.
-TEST(a_spark_is_found_and_darkness_left_out)
+TEST_SLOW(a_spark_is_found_and_darkness_left_out)
 {
     enum { PIECES = 200, SIDE = 64 };
     static vec3 strip[PIECES][3];

@@ -325,7 +325,7 @@ TEST_SLOW_WITH_CONTEXT(work_is_linear, 1)
     free(items);
 }
 
-TEST_WITH_CONTEXT(sides_at_their_ends, 1)
+TEST_SLOW_WITH_CONTEXT(sides_at_their_ends, 1)
 {
     alpi_pack_item item = {.width = 1, .height = 1};
     alpi_pack_rules rules = {.size = 1, .padding = 64};

@@ -233,7 +233,7 @@ static void expect_ramp(const baked *b, double *mean, double *root, double *scal
 
 /// Each form of map is read in its three sets with their weights: the mean and the mean square of a
 /// ramp are those of the atlas.
-TEST_WITH_CONTEXT(each_form_is_blended, 2)
+TEST_SLOW_WITH_CONTEXT(each_form_is_blended, 2)
 {
     static const alp_lightmap_as forms[] = {ALP_LIGHTMAP_AS_NONE, ALP_LIGHTMAP_AS_EMISSIVE,
                                             ALP_LIGHTMAP_AS_MOZ, ALP_LIGHTMAP_AS_EXTRAS};
