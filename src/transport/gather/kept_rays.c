@@ -5,7 +5,6 @@
 #include "base/tasks.h"
 
 #include <assert.h>
-#include <string.h>
 
 enum { TRACED_PER_RANGE = 1024, ADDED_PER_RANGE = 4096 }; // rays
 enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
