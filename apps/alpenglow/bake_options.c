@@ -28,7 +28,7 @@ static int check_output_name(const char *path, alp_lightmap_as as)
     return usage_error(COMMAND_BAKE, "-o %s: the name must end in .glb, .gltf, .dae or .obj", path);
 }
 
-/// What has no meaning with values at vertices, or only with them, is refused and never ignored.
+/// Refuses options that do not apply to values at vertices, or only to them.
 static int check_vertex_options(const option_value *values)
 {
     static const struct {
@@ -120,7 +120,7 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     return EXIT_DONE;
 }
 
-/// The bits of what --maps lists, whose choices are numbered in their order.
+/// The bits of alp_map of --maps, whose choices are numbered in their order.
 static unsigned listed_maps(unsigned choices)
 {
     static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
@@ -132,7 +132,7 @@ static unsigned listed_maps(unsigned choices)
     return bits;
 }
 
-/// How light goes into the asset, and what that needs.
+/// --lightmap-as with --units and --lightmap-format, and their needs.
 static int read_lightmap(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
@@ -190,7 +190,7 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// What the files of --maps-dir are.
+/// --maps-as: the format of --maps-dir.
 static int read_maps_format(const option_value *values, alp_bake_options *o)
 {
     const option_value *as = &values[OPTION_MAPS_AS];
@@ -212,7 +212,7 @@ static int read_maps_format(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// --maps and --ao-bleed, and what cannot stand beside them.
+/// --maps and --ao-bleed, and options that exclude them.
 static int read_maps(const option_value *values, alp_bake_options *o)
 {
     const bool bleed = values[OPTION_AO_BLEED].given;
@@ -258,8 +258,8 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     return check_light(values, light, ao || bent || bleed);
 }
 
-/// --quality, --error and the limits. A wanted error makes --ao-samples a limit, which is far off
-/// unless it is given.
+/// --quality, --error and the limits. With a wanted error, --ao-samples is a limit with a high
+/// default.
 static int read_sampling(const command_line *a, alp_bake_options *o)
 {
     enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
@@ -303,7 +303,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// Which surfaces are baked and which occlude them.
+/// --only, --occluders and --ao-self.
 static int read_choice(const option_value *values, alp_bake_options *o)
 {
     o->only = values[OPTION_ONLY].text;
@@ -338,7 +338,7 @@ static int check_layers(const option_value *values, const alp_light_options *o)
     return EXIT_DONE;
 }
 
-/// What counts emissive surfaces, and what they cannot be told apart for.
+/// --emitters, and options that exclude counted ones.
 static int check_emitters(const option_value *values, const alp_light_options *o)
 {
     if (values[OPTION_EMITTERS].given && (o->gather != ALP_GATHER_HEMICUBE || o->bounces == 0)) {
@@ -354,7 +354,7 @@ static int check_emitters(const option_value *values, const alp_light_options *o
     return EXIT_DONE;
 }
 
-/// How irradiance is gathered, and which.
+/// --gather, --direct, --bounces, --samples and --denoise.
 static int read_light(const command_line *a, alp_light_options *o)
 {
     enum { DIRECT_ON, DIRECT_OFF, DIRECT_ONLY, DIRECT_APART }; // the choices of --direct
