@@ -50,9 +50,10 @@ static const option rows[] = {
      .maximum = 1e15,
      .unit = "bytes; K, M and G stand for 1024, 1024^2 and 1024^3",
      .help =
-         "Refuse a bake whose maps need more than this, before its rays are sent. The scene and "
-         "the ray tracer's structure are not counted. Without it: nine tenths of the machine's. "
-         "Light keeps the rays of its passes in what is left, else it traces them again."},
+         "Fail if the bake would hold more than this; the message names the stage. Maps that "
+         "cannot fit fail before any ray is traced. The scene and the ray tracer's structure are "
+         "not counted. Without it: nine tenths of the machine's memory. Light keeps its rays "
+         "between passes in what is left, else it traces them again."},
     {.id = OPTION_ADAPTIVE,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

@@ -215,9 +215,12 @@ typedef struct alp_sampling_options {
     /// Seconds after which sampling ends with what it has; 0 = none. Light keeps its whole rounds;
     /// with ALP_MAP_LIGHT occlusion ends after half of them.
     double time_limit;
-    /// Bytes of ours, the scene's apart; 0 = nine tenths of the machine's. Light keeps the rays of
-    /// its blocks in what the rest leaves, and traces them again each pass where that is too
-    /// little.
+    /// Bytes that our own allocations may hold during the bake; 0 (default) = nine tenths of the
+    /// machine's memory. What the context held before, such as the scene, is not counted, nor is
+    /// memory of Embree, jansson, libpng, libjpeg and OpenEXR. A bake that would hold more fails
+    /// with LIMIT, and the message names the stage; one whose maps cannot fit fails before its rays
+    /// are traced. Light keeps the rays of its blocks in what is left, else it traces them again in
+    /// each pass: the bits are the same.
     uint64_t memory_limit;
     /// A cancelled bake ends with what it has instead of with nothing; light has nothing before its
     /// first round ends, and is not denoised any more (a warning "not-denoised").
@@ -367,7 +370,7 @@ typedef struct alp_bake_work {
     /// rounds follow depends on the scene.
     uint64_t rays;
     bool rays_at_least; ///< an error is to be reached, so that `rays` are the least
-    uint64_t bytes;     ///< of our own allocations, the scene and the tracer's structure apart
+    uint64_t bytes;     ///< of the large arrays of the bake, without the scene and kept rays
 } alp_bake_work;
 
 /// Estimates the work of a bake from areas and options alone, within milliseconds; rays within a
@@ -391,8 +394,8 @@ typedef struct alp_lightmap alp_lightmap;
 /// @return ALP_OK; INVALID_ARGUMENT (a pattern without a match: the message has the names);
 ///         INVALID_DATA (nothing to bake, or a second UV set that cannot
 ///         be kept); UNSUPPORTED (an output that is none of .glb, .gltf, .dae, .obj,
-///         or that has no place for what is baked); LIMIT; IO;
-///         OUT_OF_MEMORY; CANCELLED
+///         or that has no place for what is baked); LIMIT (memory_limit, or a time_limit before
+///         the first round ended); IO; OUT_OF_MEMORY (the allocator failed); CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

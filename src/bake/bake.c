@@ -67,22 +67,15 @@ static alp_result check_options(const alpi_bake_job *job)
     return ALP_OK;
 }
 
-alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
+alp_result alpi_bake_begin_stage(alpi_bake_job *job, const char *stage)
 {
+    job->stage = stage;
     alp_progress progress = {stage, 0, 1, 0.0, -1.0};
     if (job->options.progress != NULL &&
         !job->options.progress(job->options.progress_user, &progress)) {
         return alpi_fail(job->context, ALP_ERROR_CANCELLED, "cancelled");
     }
     return ALP_OK;
-}
-
-/// Pieces of texels beyond one of each, if they are known.
-static uint64_t count_more_pieces(const alp_atlas *atlas)
-{
-    const alpi_texels *t = atlas->texels;
-    const uint64_t pieces = t != NULL ? t->piece_first[t->count] : 0;
-    return t != NULL && pieces > t->count ? pieces - t->count : 0;
 }
 
 static alp_result make_atlas(alpi_bake_job *job)
@@ -95,7 +88,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     alp_atlas *atlas = NULL;
     const alpi_atlas_choice choice = {job->only, job->originals, alpi_bake_exports(job)};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
-    alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
+    alp_result result = alpi_bake_check_memory(job, &atlas->info);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
         return result;
@@ -148,13 +141,15 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     }
     alpi_bake_job job = {.scene = scene,
                          .context = scene->context,
-                         .options = options ? *options : alp_bake_options_default()};
+                         .options = options ? *options : alp_bake_options_default(),
+                         .stage = "atlas"};
+    alpi_bake_begin_budget(&job);
     alpi_watch former =
         alpi_set_watch(job.context, (alpi_watch){.callback = job.options.progress,
                                                  .user = job.options.progress_user});
     const char *folder = job.options.maps_folder;
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
-    alp_result result = run(&job);
+    alp_result result = alpi_bake_end_budget(&job, run(&job));
     alpi_set_watch(job.context, former);
     alpi_release(job.context, job.only);
     alpi_release(job.context, job.occluders);

@@ -151,6 +151,7 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
 {
     alpi_texels *texels = &job->lightmap->texels;
     alpi_validity *validity = &job->validity;
+    job->stage = "validity";
     const alpi_receivers receivers = alpi_texels_receivers(texels);
     const alpi_task_progress progress = {
         .callback = options.progress, .user = options.progress_user, .stage = "validity"};
@@ -175,6 +176,7 @@ static alp_result gather_valid(alpi_bake_job *job, const alpi_object *object,
     if (result == ALP_OK) {
         const bool wanted = alpi_bake_wants_occlusion(job);
         if (wanted) {
+            job->stage = "occlusion";
             result = alpi_occlusion_map(setup, &receivers, order, count, &options, lattice,
                                         job->lightmap->errors, report);
         }
@@ -344,6 +346,7 @@ static alp_result gather(alpi_bake_job *job, alpi_lattice *lattice)
 static alp_result store(alpi_bake_job *job, alpi_lattice *lattice)
 {
     alp_lightmap *l = job->lightmap;
+    job->stage = "dilation";
     for (uint32_t i = 0; i < l->texels.count; i++) {
         l->states[i] = lattice->states[i];
     }

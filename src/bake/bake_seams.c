@@ -217,6 +217,7 @@ alp_result alpi_bake_seams(alpi_bake_job *job)
     alpi_watch own = alpi_set_watch(job->context, (alpi_watch){0});
     alpi_set_watch(job->context,
                    (alpi_watch){.callback = tell_seams, .user = &own, .last = own.last});
+    job->stage = "seams";
     const alp_result result = look_for_seams(job);
     alpi_set_watch(job->context, own);
     return result;

@@ -10,7 +10,6 @@
 #include "transport/occlusion/occlusion.h"
 
 #include <math.h>
-#include <unistd.h>
 
 enum { NAMED_LIMIT = 8, POINTS_LEAST = 8 };
 static const double COARSE = 0.05; // root mean square error that is worth a warning
@@ -50,27 +49,6 @@ alp_result alpi_bake_check_vertex_options(const alpi_bake_job *job)
                          "bake: a bake at vertices leaves the materials' occlusion maps alone");
     }
     return ALP_OK;
-}
-
-/// Bytes of ours at the peak, the scene and the tracer apart: of a triangle shares, ends and areas;
-/// of a vertex its receiver, three values, the table that finds equal ones, and the fit.
-static alp_result check_memory(const alpi_bake_job *job)
-{
-    enum { OF_TRIANGLE = 36, OF_VERTEX = 120 };
-    const alp_scene *scene = job->scene;
-    double needed =
-        (double)OF_TRIANGLE * scene->triangle_count + (double)OF_VERTEX * scene->vertex_count;
-    double limit = (double)job->options.sampling.memory_limit;
-    if (job->options.sampling.memory_limit == 0) {
-        long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-        limit = pages > 0 && size > 0 ? 0.9 * (double)pages * (double)size : HUGE_VAL;
-    }
-    return needed <= limit
-               ? ALP_OK
-               : alpi_fail(job->context, ALP_ERROR_LIMIT,
-                           "%s: %u vertices need %.3g MiB of %.3g MiB allowed; split the scene or "
-                           "allow more",
-                           scene->name, scene->vertex_count, needed / 0x1p20, limit / 0x1p20);
 }
 
 // --- triangles that are too large ----------------------------------------------------------------
@@ -195,6 +173,7 @@ static alp_result gather_with(alpi_bake_job *job, const alpi_vertex_map *map,
     options.progress = job->options.progress;
     options.progress_user = job->options.progress_user;
     alpi_occlusion_setup setup;
+    job->stage = "occlusion";
     ALP_TRY(alpi_occlusion_prepare(job->scene, tracer, &options, &setup));
     job->report.ao_distance = setup.distance;
     const alpi_receivers receivers = alpi_vertex_map_receivers(map);
@@ -284,7 +263,6 @@ alp_result alpi_bake_vertices(alpi_bake_job *job)
 {
     double started = alpi_seconds();
     ALP_TRY(alpi_bake_check_outputs(job, 0));
-    ALP_TRY(check_memory(job));
     ALP_TRY(find_values(job));
     double write_started = alpi_seconds();
     ALP_TRY(alpi_bake_begin_stage(job, "write"));

@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "base/file_set.h"
+#include "base/memory.h"
 #include "maps/lightmap.h"
 #include "maps/radiosity/light_layers.h"
 #include "maps/texels/validity.h"
@@ -57,7 +58,9 @@ typedef struct alpi_bake_job {
     alpi_scratch scratch;                            // while sampling
     alpi_validity validity;                          // while sampling
     double sampling_began;                           // alpi_seconds()
-    uint64_t kept_limit;                             // bytes that the rays of blocks may take
+    const char *stage;                               // that allocates now
+    uint64_t memory_limit; // bytes that the bake may hold, all that was held before apart; 0: any
+    alpi_budget budget;    // of the context, before the bake
     alpi_packing packing;
     alpi_light_asset light_asset;
     alpi_layer_plan layers;
@@ -69,7 +72,7 @@ typedef struct alpi_bake_job {
 alp_result alpi_bake_choose(alpi_bake_job *job);
 
 /// Tells the user that a stage begins; false from the user cancels.
-alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
+alp_result alpi_bake_begin_stage(alpi_bake_job *job, const char *stage);
 
 /// Occlusion at the texels of the lightmap, stored in it; fills the report.
 alp_result alpi_bake_occlusion(alpi_bake_job *job);
@@ -102,15 +105,22 @@ alp_result alpi_bake_store_side_maps(alpi_bake_job *job);
 /// report.
 alp_result alpi_bake_seams(alpi_bake_job *job);
 
-/// Bytes of ours that a bake with these options on this atlas holds at its peak, the scene and the
-/// tracer apart.
-uint64_t alpi_bake_memory(const alp_atlas_info *atlas, const alp_scene *scene,
-                          const alp_bake_options *options);
-/// LIMIT when that is more than the limit or nine tenths of the machine's memory, even if no rays
-/// are kept; sets job->kept_limit.
-/// @param more_pieces of texels, beyond one of each
-alp_result alpi_bake_check_memory(alpi_bake_job *job, const alp_atlas_info *atlas,
-                                  uint64_t more_pieces);
+/// Keeps the allocations of the bake within options.sampling.memory_limit, or nine tenths of the
+/// machine's memory.
+void alpi_bake_begin_budget(alpi_bake_job *job);
+/// Puts the context's own budget back. @return the result of the bake; LIMIT, with a message that
+/// names the stage, in place of OUT_OF_MEMORY where the budget refused an allocation
+alp_result alpi_bake_end_budget(alpi_bake_job *job, alp_result result);
+/// Bytes that the large arrays of a bake on this atlas take at its peak, and the stage in which
+/// they do. Small arrays and kept rays are left out: the bake needs somewhat more.
+typedef struct alpi_memory_forecast {
+    const char *stage;
+    uint64_t bytes;
+} alpi_memory_forecast;
+alpi_memory_forecast alpi_bake_forecast_memory(const alpi_bake_job *job,
+                                               const alp_atlas_info *atlas);
+/// LIMIT when that is more than the bake may hold: better now than after an hour of rays.
+alp_result alpi_bake_check_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 
 /// Refuses a format that cannot hold the maps.
 alp_result alpi_bake_check_maps_format(const alpi_bake_job *job);
@@ -125,8 +135,6 @@ typedef struct alpi_map_file {
 /// @param name of the map, for that
 alp_result alpi_bake_encode_map(const alpi_bake_job *job, const alp_image *image, const char *name,
                                 uint32_t page, alpi_map_file *file);
-/// Bytes that this takes at its peak, of `page` texels, besides the encoded ones.
-uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t page);
 
 /// Fails before the long work if an output could not be written at its end. Asked for one page
 /// before the atlas is made, and for all of them after.
@@ -143,8 +151,6 @@ alp_result alpi_bake_plan_packing(alpi_bake_job *job);
 /// Makes those images from the finished maps.
 alp_result alpi_bake_pack_images(alpi_bake_job *job);
 void alpi_bake_release_packing(alpi_bake_job *job);
-/// Bytes that making them takes at its peak, besides the encoded ones.
-uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
 /// Whether the occlusion of a triangle is packed into an image.
 bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
 
@@ -153,9 +159,6 @@ alp_result alpi_bake_check_light_asset(const alpi_bake_job *job);
 /// Encodes the pages of light as they go into the asset, if they are to.
 alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
 void alpi_bake_release_light_asset(alpi_bake_job *job);
-/// Bytes that making it takes at its peak, besides the encoded ones.
-uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
-                                      const alp_bake_options *options);
 /// Whether a viewer's own file is written in the place of an asset (viewer_file.c).
 bool alpi_bake_is_viewer_file(const alp_bake_options *options);
 /// Its ending, and that all its files can be written.

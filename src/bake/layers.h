@@ -15,8 +15,6 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job);
 /// The same without a warning of too many. @param lights out: that there are, 0 without layers
 alp_result alpi_bake_find_layers(alpi_bake_job *job, uint32_t *lights);
 void alpi_bake_release_layers(alpi_bake_job *job);
-/// Bytes that they take at their peak.
-uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 
 /// Where a solution keeps them, NULL: they are not asked for.
 /// @param sky whether the sky is gathered with what is bounced

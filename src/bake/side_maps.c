@@ -184,7 +184,7 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job, const alpi_occlusion_setup *
         return ALP_OK;
     }
     alpi_task_progress told = *progress;
-    told.stage = "obscurance";
+    job->stage = told.stage = "obscurance";
     job->report.rays += (uint64_t)order_count * samples;
     ALP_TRY(alpi_scratch_clear(&job->scratch, order, order_count, &told));
     return alpi_obscurance_gather(setup, receivers, order, order_count, samples, &told,

@@ -149,7 +149,7 @@ alp_result alpi_bake_irradiance(alpi_bake_job *job, const alpi_tracer *tracer,
     alpi_lighting *lighting = NULL;
     ALP_TRY(alpi_lighting_create(job->scene, &job->options.light.lighting, &lighting));
     alpi_task_progress told = *progress;
-    told.stage = "light";
+    job->stage = told.stage = "light";
     alpi_light_clock clock = alpi_light_clock_start(job, &told);
     told.callback = alpi_light_clock_goes_on;
     told.user = &clock;

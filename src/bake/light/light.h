@@ -62,8 +62,6 @@ bool alpi_light_has_fine_blocks(const alp_light_options *options);
 bool alpi_light_has_wide_lattice(const alp_light_options *options);
 /// Rays that a block gathers by at most, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
-/// Rays of a block that there is memory for at once where all are kept: a trial's beside the most.
-uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels);
 /// Rays of a block, a power of two in [16, 1024], that take least time together with what is left
 /// to the texels for an error.
 /// @param error over the mean, > 0

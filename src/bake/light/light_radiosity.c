@@ -143,12 +143,6 @@ static bool is_tried(const alp_light_options *o, uint32_t most)
     return o->gather == ALP_GATHER_RAYS && o->error > 0.0f && most >= NO_TRIAL_BELOW;
 }
 
-uint32_t alpi_light_kept_block_rays(const alp_light_options *options, uint64_t texels)
-{
-    const uint32_t most = alpi_light_block_rays(options, texels);
-    return most + (is_tried(options, most) ? TRIAL_RAYS : 0);
-}
-
 /// How blocks gather, and, by hemicubes, how texels do.
 typedef struct light_gatherers {
     double error;         // that is wanted
@@ -253,7 +247,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.direct_samples = alpi_light_first_direct(job);
     options.direct_error = alpi_light_direct_error(&job->options);
     options.directional = t->directional != NULL;
-    options.kept_limit = job->kept_limit;
+    options.kept_limit = UINT64_MAX;
     options.seed = o->occlusion.seed;
     options.layers = alpi_bake_light_layers(job, direct != t->lighting);
     alpi_radiosity solution;
@@ -311,7 +305,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
     options.block_rays = alpi_light_block_rays(&job->options.light,
                                                (uint64_t)options.atlas.size * options.atlas.size);
     options.direct_samples = find_direct_samples(&job->options.light);
-    options.kept_limit = job->kept_limit > 0 ? job->kept_limit : 1;
+    options.kept_limit = UINT64_MAX;
     alpi_solution *around = NULL;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));

@@ -180,11 +180,12 @@ static alp_result reserve_rays(solver *s)
     const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
     const uint64_t each = alpi_kept_rays_size(o->gatherer);
     const uint64_t tried = s->kept.rays * sizeof *s->kept.cells;
-    if (tried > 0 && (each + tried) * room <= o->kept_limit) {
+    if (tried > 0 && (each + tried) * room <= alpi_kept_rays_limit(o->context, o->kept_limit)) {
         return alpi_kept_rays_extend(o->gatherer, &s->kept);
     }
     alpi_kept_rays_destroy(&s->kept);
-    r->kept = alpi_gather_meets_cells(&s->from) && each * room <= o->kept_limit;
+    r->kept = alpi_gather_meets_cells(&s->from) &&
+              each * room <= alpi_kept_rays_limit(o->context, o->kept_limit);
     return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
 }
 

@@ -55,7 +55,8 @@ typedef struct alpi_radiosity_options {
     double direct_error; // relative error of the map that direct light may be interpolated within;
                          // 0: all texels gather theirs
     bool directional;    // direct light is wanted by its direction
-    uint64_t kept_limit; // bytes that kept rays may take; beyond, rays are traced every pass
+    uint64_t kept_limit; // bytes that kept rays may take, within the context's budget; where they
+                         // need more, rays are traced every pass
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
                 // gathers sees: enough for light on fronts
     uint64_t seed;

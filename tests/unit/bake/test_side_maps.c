@@ -107,28 +107,6 @@ static void channels_are_x_y_z(void **state)
     alp_context_destroy(context);
 }
 
-static void memory_is_known_beforehand(void **state)
-{
-    (void)state;
-    const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_BENT, ALP_MAP_AO | ALP_MAP_OBSCURANCE, ALL};
-    for (int i = 0; i < 3; i++) {
-        alp_context *context = test_context(2);
-        alp_scene *scene = test_load(context, "builtin:furnace");
-        alp_bake_options options = small_options(maps[i]);
-        options.atlas.size = 512;
-        options.occlusion.samples = 1;
-        alp_bake_report report;
-        alp_lightmap *lightmap = NULL;
-        ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
-        const double told = (double)alpi_bake_memory(&report.atlas, scene, &options);
-        print_message("memory: peak over told %.3f\n", (double)report.peak_memory_bytes / told);
-        ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
-        alp_lightmap_destroy(lightmap);
-        alp_scene_destroy(scene);
-        alp_context_destroy(context);
-    }
-}
-
 static void side_maps_leave_occlusion_as_it_is(void **state)
 {
     (void)state;
@@ -358,7 +336,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_are_written_and_handed_out),
         cmocka_unit_test(channels_are_x_y_z),
-        TEST_OF_FIGURES(memory_is_known_beforehand),
         cmocka_unit_test(side_maps_leave_occlusion_as_it_is),
         cmocka_unit_test(objects_alone_see_no_other),
         cmocka_unit_test(only_what_is_asked_for_is_written),
