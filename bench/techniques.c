@@ -128,7 +128,6 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
     task.progress = (alpi_task_progress){
         .callback = alpi_light_clock_goes_on, .user = &clock, .stage = silent.stage};
     task.clock = &clock;
-    job.kept_limit = UINT64_MAX;
     for (uint32_t i = 0; i < receivers.count; i++) {
         const uint32_t texel = question->map->lattice.order[i];
         if (!question->map->validity.dropped[texel]) {

@@ -50,10 +50,11 @@ static const option rows[] = {
      .minimum = 1048576.0,
      .maximum = 1e15,
      .unit = "bytes; K, M and G stand for 1024, 1024^2 and 1024^3",
-     .help = "Refuse a bake whose maps need more memory, before any rays are traced. "
-             "The scene and the ray tracer's structure do not count. Default: nine "
-             "tenths of the machine's memory. Light keeps the rays of its passes in "
-             "the rest, or traces them again."},
+     .help = "Fail if the bake would hold more memory; the message names the stage. "
+             "Maps that cannot fit fail before any ray is traced. The scene and the "
+             "ray tracer's structure do not count. Default: nine tenths of the "
+             "machine's memory. Light keeps the rays of its passes in the rest, or "
+             "traces them again."},
     {.id = OPTION_ADAPTIVE,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

@@ -202,9 +202,12 @@ typedef struct alp_sampling_options {
     /// Seconds after which sampling ends with its results so far; 0 = none. Light keeps its whole
     /// rounds. With ALP_MAP_LIGHT, occlusion ends after half of the time.
     double time_limit;
-    /// Limit of our own allocations in bytes, without the scene; 0 = nine tenths of the machine's
-    /// memory. Light keeps the rays of its blocks in the rest. If that is too little, it traces
-    /// them again in each pass.
+    /// Bytes that our own allocations may hold during the bake; 0 (default) = nine tenths of the
+    /// machine's memory. Allocations made before, such as the scene, do not count. Neither does
+    /// memory of Embree, jansson, libpng, libjpeg and OpenEXR. A bake that would hold more fails
+    /// with LIMIT, and the message names the stage. Maps that cannot fit fail before any ray is
+    /// traced. Light keeps the rays of its blocks in the rest, or traces them again in each pass:
+    /// the bits are the same.
     uint64_t memory_limit;
     /// true: a cancelled bake ends with its results so far. Light has none before its first round
     /// ends, and is then not denoised, with a warning (not-denoised). Default false: no result.
@@ -362,7 +365,7 @@ typedef struct alp_bake_work {
     /// how many further rounds follow.
     uint64_t rays;
     bool rays_at_least; ///< an error is to be reached, so that `rays` are the least
-    uint64_t bytes;     ///< our own allocations, without the scene and the tracer's structure
+    uint64_t bytes;     ///< large arrays of the bake, without the scene and kept rays
 } alp_bake_work;
 
 /// Estimates the work of a bake from areas and options, within milliseconds. Rays are mostly within

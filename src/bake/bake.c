@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole bake: run() names its stages in their order.
+#include "bake/bake_memory.h"
 #include "bake/bake_stages.h"
 #include "bake/check.h"
 #include "bake/files/light_units.h"
@@ -79,14 +80,16 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     }
     alpi_bake_job job = {.scene = scene,
                          .context = scene->context,
-                         .options = options ? *options : alp_bake_options_default()};
+                         .options = options ? *options : alp_bake_options_default(),
+                         .stage = "atlas"};
+    alpi_bake_begin_budget(&job);
     alpi_watch former =
         alpi_set_watch(job.context, (alpi_watch){.callback = job.options.progress,
                                                  .user = job.options.progress_user});
     const char *folder = job.options.maps_folder;
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     const double started = alpi_seconds();
-    const alp_result result = run(&job);
+    const alp_result result = alpi_bake_end_budget(&job, run(&job));
     finish_report(&job, started);
     alpi_set_watch(job.context, former);
     release(&job);

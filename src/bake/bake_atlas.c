@@ -8,14 +8,6 @@
 #include "bake/settings.h"
 #include "base/tasks.h"
 
-/// Counts the pieces of texels beyond one of each; 0 where they are unknown.
-static uint64_t count_more_pieces(const alp_atlas *atlas)
-{
-    const alpi_texels *t = atlas->texels;
-    const uint64_t pieces = t != NULL ? t->piece_first[t->count] : 0;
-    return t != NULL && pieces > t->count ? pieces - t->count : 0;
-}
-
 static alp_result make_atlas(alpi_bake_job *job)
 {
     double started = alpi_seconds();
@@ -27,7 +19,7 @@ static alp_result make_atlas(alpi_bake_job *job)
     const alpi_atlas_choice choice = {job->only, job->originals,
                                       alpi_bake_exports(&job->options, job->scene)};
     ALP_TRY(alpi_atlas_create(job->scene, &options, &choice, &atlas));
-    alp_result result = alpi_bake_check_memory(job, &atlas->info, count_more_pieces(atlas));
+    alp_result result = alpi_bake_check_memory(job, &atlas->info);
     if (result != ALP_OK) {
         alp_atlas_destroy(atlas);
         return result;

@@ -219,6 +219,7 @@ alp_result alpi_bake_stitch(alpi_bake_job *job)
     alpi_watch own = alpi_set_watch(job->context, (alpi_watch){0});
     alpi_set_watch(job->context,
                    (alpi_watch){.callback = tell_seams, .user = &own, .last = own.last});
+    job->stage = "seams";
     const alp_result result = find_seams(job);
     alpi_set_watch(job->context, own);
     job->report.seconds_seams = alpi_seconds() - started;

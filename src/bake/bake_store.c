@@ -118,6 +118,7 @@ static alp_result store_side_maps(alpi_bake_job *job)
 
 alp_result alpi_bake_store(alpi_bake_job *job)
 {
+    job->stage = "dilation";
     alp_lightmap *l = job->lightmap;
     const alpi_lattice *lattice = &job->gathering.lattice;
     const bool occlusion = alpi_bake_wants_occlusion(&job->options);

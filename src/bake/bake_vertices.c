@@ -14,32 +14,9 @@
 #include "transport/occlusion/occlusion.h"
 
 #include <math.h>
-#include <unistd.h>
 
 enum { NAMED_LIMIT = 8, POINTS_LEAST = 8 };
 static const double COARSE = 0.05; // root mean square error above which a warning follows
-
-/// Refuses a scene whose peak, without the scene and the tracer, is above the limit. A triangle
-/// takes shares, ends and areas; a vertex its receiver, three values, the table of equal ones, and
-/// the fit.
-static alp_result check_memory(const alpi_bake_job *job)
-{
-    enum { OF_TRIANGLE = 36, OF_VERTEX = 120 };
-    const alp_scene *scene = job->scene;
-    double needed =
-        (double)OF_TRIANGLE * scene->triangle_count + (double)OF_VERTEX * scene->vertex_count;
-    double limit = (double)job->options.sampling.memory_limit;
-    if (job->options.sampling.memory_limit == 0) {
-        long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-        limit = pages > 0 && size > 0 ? 0.9 * (double)pages * (double)size : HUGE_VAL;
-    }
-    return needed <= limit
-               ? ALP_OK
-               : alpi_fail(job->context, ALP_ERROR_LIMIT,
-                           "%s: %u vertices need %.3g MiB of %.3g MiB allowed; split the scene or "
-                           "allow more",
-                           scene->name, scene->vertex_count, needed / 0x1p20, limit / 0x1p20);
-}
 
 /// The state of a bake at vertices.
 typedef struct vertex_bake {
@@ -295,7 +272,6 @@ static alp_result find_values(alpi_bake_job *job)
 alp_result alpi_bake_vertices(alpi_bake_job *job)
 {
     ALP_TRY(alpi_bake_check_outputs(job, 0));
-    ALP_TRY(check_memory(job));
     ALP_TRY(find_values(job));
     return write_stage(job);
 }

@@ -172,6 +172,7 @@ static alp_result run_each(alpi_bake_job *job, const alpi_object_stage *stage, p
 
 alp_result alpi_gathering_run(alpi_bake_job *job, const alpi_object_stage *stage)
 {
+    job->stage = stage->name;
     alpi_objects *objects = &job->gathering.objects;
     if (objects->count == 1) {
         const alpi_task_progress progress = {.callback = job->options.progress,

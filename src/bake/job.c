@@ -3,8 +3,9 @@
 
 #include <math.h>
 
-alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage)
+alp_result alpi_bake_begin_stage(alpi_bake_job *job, const char *stage)
 {
+    job->stage = stage;
     alp_progress progress = {stage, 0, 1, 0.0, -1.0};
     if (job->options.progress != NULL &&
         !job->options.progress(job->options.progress_user, &progress)) {

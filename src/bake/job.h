@@ -3,6 +3,7 @@
 #ifndef ALPI_BAKE_JOB_H
 #define ALPI_BAKE_JOB_H
 
+#include "base/memory.h"
 #include "maps/lightmap.h"
 #include "maps/radiosity/light_layers.h"
 #include "maps/texels/lattice.h"
@@ -93,7 +94,9 @@ typedef struct alpi_bake_job {
     alpi_layer_plan layers;
     // Atlas fills these.
     alp_lightmap *lightmap;
-    uint64_t kept_limit; // bytes that the rays of blocks may take
+    const char *stage;     // that allocates now
+    uint64_t memory_limit; // bytes that the bake may hold beside those held before it; 0: any
+    alpi_budget budget;    // of the context, before the bake
     // The stages that gather fill these, and store moves them to the pages of the lightmap. All are
     // [texels], and NULL unless a map needs them.
     alpi_gathering gathering;
@@ -108,7 +111,7 @@ typedef struct alpi_bake_job {
 
 /// Tells the user that a stage begins.
 /// @return ALP_OK; CANCELLED: the user said no
-alp_result alpi_bake_begin_stage(const alpi_bake_job *job, const char *stage);
+alp_result alpi_bake_begin_stage(alpi_bake_job *job, const char *stage);
 
 /// Warns where nearly nothing is open.
 void alpi_bake_warn_of_darkness(const alpi_bake_job *job);

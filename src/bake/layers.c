@@ -173,22 +173,6 @@ void alpi_bake_release_layers(alpi_bake_job *job)
     *plan = (alpi_layer_plan){0};
 }
 
-uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info *atlas)
-{
-    enum {
-        SIDE_BYTES = 12 + 1, // direct; before the last pass, of a block of 16 texels
-        BYTES = 12,          // bounced
-        SHARED_BYTES = 32,   // fresh values 24, list 4, values of a lattice 4
-        PAGE_BYTES = 16
-    };
-    const uint64_t count = job->layers.light.count;
-    const uint64_t sides = alpi_patches_are_two_sided(job->scene) ? 2 : 1;
-    const uint64_t pixels = (uint64_t)atlas->width * atlas->height * atlas->pages;
-    return count == 0 ? 0
-                      : (count * (BYTES + SIDE_BYTES * sides) + SHARED_BYTES) * atlas->texels +
-                            count * PAGE_BYTES * pixels;
-}
-
 // --- light ---------------------------------------------------------------------------------------
 
 alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)

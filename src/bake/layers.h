@@ -12,8 +12,6 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job);
 /// The same without the warning. @param lights out: number of lights, 0 without layers
 alp_result alpi_bake_find_layers(alpi_bake_job *job, uint32_t *lights);
 void alpi_bake_release_layers(alpi_bake_job *job);
-/// Peak memory of the layers.
-uint64_t alpi_bake_layers_memory(const alpi_bake_job *job, const alp_atlas_info *atlas);
 
 /// The layers as a solution fills them; NULL: they are not asked for.
 /// @param sky whether bounced rays gather the sky too

@@ -34,7 +34,8 @@ struct alp_context {
     struct alpi_loop *loop;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
-    uint32_t hushed; // how often
+    uint32_t hushed;    // how often
+    alpi_budget budget; // `limit` is set between loops, the rest under message_lock
     _Atomic uint64_t memory_now;
     _Atomic uint64_t memory_peak;
 };
@@ -266,10 +267,61 @@ const alp_context_options *alpi_context_options(const alp_context *context)
 
 // --- memory -------------------------------------------------------------------------------------
 
-static void count_memory(alp_context *context, size_t size)
+alpi_budget alpi_set_budget(alp_context *context, alpi_budget budget)
 {
-    uint64_t now =
-        atomic_fetch_add_explicit(&context->memory_now, size, memory_order_relaxed) + size;
+    const alpi_budget former = context->budget;
+    context->budget = budget;
+    return former;
+}
+
+uint64_t alpi_memory_held(const alp_context *context)
+{
+    return atomic_load_explicit(&context->memory_now, memory_order_relaxed);
+}
+
+uint64_t alpi_memory_left(const alp_context *context)
+{
+    const uint64_t held = alpi_memory_held(context), limit = context->budget.limit;
+    return limit == 0 ? UINT64_MAX : limit > held ? limit - held : 0;
+}
+
+/// Fails an allocation. @param held bytes at that time  @param refused by the budget
+static void *fail_allocation(alp_context *context, size_t size, uint64_t held, bool refused)
+{
+    pthread_mutex_lock(&context->message_lock);
+    context->budget.held = refused ? held : 0;
+    context->budget.wanted = refused ? size : 0;
+    pthread_mutex_unlock(&context->message_lock);
+    alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "out of memory: %zu bytes asked%s", size,
+              refused ? ", more than the budget leaves" : "");
+    return NULL;
+}
+
+/// Counts bytes as held, unless the budget leaves no room for them: a refused size is never seen
+/// by another worker. @param held out: bytes held after that, or now if they are refused
+static bool take_memory(alp_context *context, size_t size, uint64_t *held)
+{
+    const uint64_t limit = context->budget.limit;
+    uint64_t now = alpi_memory_held(context);
+    do {
+        *held = now;
+        if (limit > 0 && size > (limit > now ? limit - now : 0)) {
+            return false;
+        }
+    } while (!atomic_compare_exchange_weak_explicit(&context->memory_now, &now, now + size,
+                                                    memory_order_relaxed, memory_order_relaxed));
+    *held = now + size;
+    return true;
+}
+
+static void give_back(alp_context *context, size_t size)
+{
+    atomic_fetch_sub_explicit(&context->memory_now, size, memory_order_relaxed);
+}
+
+/// @param now bytes held once an allocation had succeeded
+static void raise_peak(alp_context *context, uint64_t now)
+{
     uint64_t peak = atomic_load_explicit(&context->memory_peak, memory_order_relaxed);
     while (now > peak &&
            !atomic_compare_exchange_weak_explicit(&context->memory_peak, &peak, now,
@@ -285,14 +337,18 @@ void *alpi_allocate(alp_context *context, size_t count, size_t size)
                   "out of memory: %zu elements of %zu bytes asked", count, size);
         return NULL;
     }
+    uint64_t held;
+    if (!take_memory(context, bytes, &held)) {
+        return fail_allocation(context, bytes, held, true);
+    }
     block_header *block =
         context->options.allocate(context->options.allocator_user, sizeof *block + bytes);
     if (block == NULL) {
-        alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "out of memory: %zu bytes asked", bytes);
-        return NULL;
+        give_back(context, bytes);
+        return fail_allocation(context, bytes, held, false);
     }
     block->size = bytes;
-    count_memory(context, bytes);
+    raise_peak(context, held);
     bool zeroed = context->options.allocate == default_allocate;
     return zeroed ? block + 1 : memset(block + 1, 0, bytes);
 }
@@ -303,27 +359,29 @@ void alpi_release(alp_context *context, void *pointer)
         return;
     }
     block_header *block = (block_header *)pointer - 1;
-    atomic_fetch_sub_explicit(&context->memory_now, block->size, memory_order_relaxed);
+    give_back(context, block->size);
     context->options.release(context->options.allocator_user, block);
 }
 
 /// Of memory that is ours to move: mostly nothing is, where it is made smaller.
 static void *resize(alp_context *context, block_header *block, size_t bytes)
 {
-    const size_t had = block->size;
+    const size_t had = block->size, more = bytes > had ? bytes : 0; // both places, while it moves
+    uint64_t held;
+    if (!take_memory(context, more, &held)) {
+        return fail_allocation(context, bytes, held, true);
+    }
     block_header *moved = realloc(block, sizeof *block + bytes);
     if (moved == NULL) {
-        alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "out of memory: %zu bytes asked", bytes);
-        return NULL;
+        give_back(context, more);
+        return fail_allocation(context, bytes, held, false);
     }
     moved->size = bytes;
     if (bytes > had) {
         memset((char *)(moved + 1) + had, 0, bytes - had);
-        count_memory(context, bytes); // it may have been in two places
-        atomic_fetch_sub_explicit(&context->memory_now, had, memory_order_relaxed);
-    } else {
-        atomic_fetch_sub_explicit(&context->memory_now, had - bytes, memory_order_relaxed);
+        raise_peak(context, held);
     }
+    give_back(context, bytes > had ? had : had - bytes);
     return moved + 1;
 }
 

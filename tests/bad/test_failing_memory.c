@@ -108,6 +108,41 @@ TEST(two_workers)
     }
 }
 
+/// Each limit of a ladder fails somewhere else: the bake says in which stage, gives all memory
+/// back, and leaves the files that were there as they were.
+TEST(budgets)
+{
+    enum { LEAST = 1000, MOST = 4 << 20 };
+    for (int kind = 0; kind < TEST_SMALL_BAKE_KINDS; kind++) {
+        test_small_bake bake = test_small_bake_open(kind);
+        int refused = 0, baked = 0;
+        for (double limit = LEAST; limit < MOST && baked == 0;
+             limit *= TEST_STEP > 1 ? 1.2 : 1.04) {
+            test_memory memory = {.failing = -1};
+            alp_context *context = make_context(&memory, 1 + (uint32_t)refused % 2);
+            bake.memory_limit = (uint64_t)limit;
+            const alp_result result = test_small_bake_run(&bake, context);
+            const test_small_bake_state found = test_small_bake_look(&bake);
+            if (result == ALP_OK) {
+                assert_int_equal(found.new, bake.file_count);
+                baked++;
+            } else {
+                assert_int_equal(result, ALP_ERROR_LIMIT);
+                assert_non_null(strstr(alp_context_message(context), "stage \""));
+                assert_int_equal(found.old, bake.file_count);
+                assert_int_equal(found.others, 0);
+                refused++;
+            }
+            alp_context_destroy(context);
+            assert_int_equal(atomic_load(&memory.live), 0);
+        }
+        print_message("%s: %d limits were too low\n", bake.kind, refused);
+        assert_true(refused > 10 && baked == 1);
+        test_small_bake_reset(&bake);
+        test_small_bake_close(&bake);
+    }
+}
+
 /// Loads and estimates, without that allocation. @return the allocations there were
 static long estimate_without(long failing, alp_result *result)
 {

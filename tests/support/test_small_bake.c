@@ -173,6 +173,7 @@ alp_result test_small_bake_run(const test_small_bake *bake, alp_context *context
     options.output = bake->output;
     options.maps_folder = bake->maps;
     options.overwrite = true;
+    options.sampling.memory_limit = bake->memory_limit;
     alp_scene *scene = NULL;
     alp_result result = alp_scene_load(context, bake->scene, &scene);
     if (result == ALP_OK) {

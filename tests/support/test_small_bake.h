@@ -28,6 +28,7 @@ typedef struct test_small_bake {
     alp_maps_format format;
     char scene[512], output[512], maps[512];     // paths
     char folder[512];                            // of the outputs
+    uint64_t memory_limit;                       // of the bake, bytes; 0: none
     uint32_t file_count;                         // files that it makes, once it has run
     char *files[TEST_SMALL_BAKE_FILES];          // malloc'ed
     unsigned char *bytes[TEST_SMALL_BAKE_FILES]; // what they hold, malloc'ed

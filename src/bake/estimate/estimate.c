@@ -173,7 +173,7 @@ static alp_result estimate(alpi_bake_job *job, alp_bake_work *work)
     const alp_atlas_info atlas = guess_atlas(job);
     const double texels = (double)atlas.texels;
     work->texels = atlas.texels;
-    work->bytes = alpi_bake_memory(&atlas, job->scene, o) + alpi_bake_layers_memory(job, &atlas);
+    work->bytes = alpi_bake_forecast_memory(job, &atlas).bytes;
     work->rays = to_count((occlusion ? count_occlusion_rays(o, texels) : 0.0) +
                           (light ? count_light_rays(job, texels, lights) : 0.0));
     work->rays_at_least =

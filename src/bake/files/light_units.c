@@ -31,25 +31,6 @@ const char *alpi_bake_light_ending(const alp_bake_options *options)
                                                           : ".png";
 }
 
-uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
-                                      const alp_bake_options *options)
-{
-    enum { BYTES_OF_VALUES = 16, BYTES_OF_CODE = 16 }; // float RGBA; halves, and room to compress
-    const uint64_t page = (uint64_t)atlas->width * atlas->height;
-    const uint64_t work =
-        (int)BYTES_OF_CODE > (int)ALPI_OUTGOING_BYTES ? BYTES_OF_CODE : ALPI_OUTGOING_BYTES;
-    switch (options->lightmap_as) {
-    case ALP_LIGHTMAP_AS_NONE:
-        return 0;
-    case ALP_LIGHTMAP_AS_THREE:
-        return alpi_three_memory(scene, page * atlas->pages);
-    case ALP_LIGHTMAP_AS_BABYLON:
-        return alpi_babylon_memory(scene, page);
-    default:
-        return BYTES_OF_VALUES * page * atlas->pages + work * page;
-    }
-}
-
 // --- values --------------------------------------------------------------------------------------
 
 /// Converts a page to its units. A = 1 where a texel covers the pixel.

@@ -9,9 +9,6 @@
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_bake_make_light_asset(alpi_bake_job *job);
 void alpi_bake_release_light_asset(alpi_bake_job *job);
-/// Peak memory of the encoding, without the encoded bytes.
-uint64_t alpi_bake_light_asset_memory(const alp_atlas_info *atlas, const alp_scene *scene,
-                                      const alp_bake_options *options);
 /// Ending of the files of light: ".png", ".ktx2" …
 const char *alpi_bake_light_ending(const alp_bake_options *options);
 /// Name of the units: "irradiance" …

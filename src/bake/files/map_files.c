@@ -18,16 +18,6 @@ const char *alpi_bake_map_ending(const alp_bake_options *options)
     return endings[options->maps_format];
 }
 
-uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t page)
-{
-    enum { HALVES = 8, ROOM = 8, SCALED = 16 }; // bytes of a texel
-    const uint64_t scaled = (options->maps & ALP_MAP_LIGHT) != 0 ? SCALED : 0;
-    return options->maps_folder == NULL                ? 0
-           : options->maps_format == ALP_MAPS_EXR_HALF ? (HALVES + scaled) * page
-           : options->maps_format == ALP_MAPS_KTX2     ? (HALVES + ROOM + scaled) * page
-                                                       : 0;
-}
-
 /// Finds the least power of two, 1 or more, that makes all colours finite half floats.
 static float find_scale(const alp_image *image)
 {

@@ -17,7 +17,5 @@ typedef struct alpi_map_file {
 /// @param name of the map, for the note
 alp_result alpi_bake_encode_map(const alpi_bake_job *job, const alp_image *image, const char *name,
                                 uint32_t page, alpi_map_file *file);
-/// Peak memory of encoding `page` texels, without the encoded bytes.
-uint64_t alpi_bake_map_file_memory(const alp_bake_options *options, uint64_t page);
 
 #endif

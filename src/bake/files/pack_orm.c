@@ -193,18 +193,6 @@ bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle)
            job->packing.material_targets[material] != ALPI_NONE;
 }
 
-uint64_t alpi_bake_packing_memory(const alpi_bake_job *job)
-{
-    enum { BYTES_PER_TEXEL = 41 }; // sums 16, float RGBA 16, dilation 5, new pixels 4
-    uint64_t largest = 0;
-    for (uint32_t i = 0; i < job->packing.count; i++) {
-        const alp_image_info *info = &job->scene->images[job->packing.targets[i].image]->info;
-        uint64_t size = BYTES_PER_TEXEL * (uint64_t)info->width * info->height;
-        largest = size > largest ? size : largest;
-    }
-    return largest;
-}
-
 void alpi_bake_release_packing(alpi_bake_job *job)
 {
     for (uint32_t i = 0; i < job->packing.count; i++) {

@@ -10,8 +10,6 @@ alp_result alpi_bake_plan_packing(alpi_bake_job *job);
 /// Makes those images from the finished maps.
 alp_result alpi_bake_pack_images(alpi_bake_job *job);
 void alpi_bake_release_packing(alpi_bake_job *job);
-/// Peak memory of making them, without the encoded bytes.
-uint64_t alpi_bake_packing_memory(const alpi_bake_job *job);
 /// Whether the occlusion of a triangle is packed into an image.
 bool alpi_bake_is_packed(const alpi_bake_job *job, uint32_t triangle);
 

@@ -165,6 +165,7 @@ alp_result alpi_bake_light(alpi_bake_job *job)
     const alpi_task_progress progress = {
         .callback = o->progress, .user = o->progress_user, .stage = "light"};
     ALP_TRY(alpi_gathering_open_object(job, &job->gathering.objects.items[0], &progress));
+    job->stage = "light";
     alpi_scratch_destroy(&job->gathering.scratch);
     if ((o->maps & ALPI_MAPS_BY_DIRECTION) != 0) {
         ALPI_TRY_NEW(job->context, job->directional, job->lightmap->texels.count);

@@ -85,6 +85,7 @@ static alp_result denoise(alpi_bake_job *job, const alpi_light_task *task, float
 alp_result alpi_light_denoise(alpi_bake_job *job, const alpi_light_task *task, float (*skies)[3])
 {
     alpi_light_clock *clock = task->clock;
+    job->stage = "denoise";
     const alp_result result = clock->refused ? ALP_ERROR_CANCELLED : denoise(job, task, skies);
     if (result != ALP_ERROR_CANCELLED || !clock->refused || !job->options.sampling.keep_partial) {
         return result;

@@ -148,7 +148,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.tolerance = find_tolerance(&o->light);
     options.direct_samples = alpi_light_first_direct(job);
     options.directional = t->directional != NULL;
-    options.kept_limit = job->kept_limit;
+    options.kept_limit = UINT64_MAX;
     options.seed = o->occlusion.seed;
     options.layers = alpi_bake_light_layers(job, direct != t->lighting);
     alpi_radiosity solution;
@@ -203,7 +203,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
     options.block_rays = alpi_light_block_rays(&job->options.light,
                                                (uint64_t)options.atlas.size * options.atlas.size);
     options.direct_samples = find_direct_samples(&job->options.light);
-    options.kept_limit = job->kept_limit > 0 ? job->kept_limit : 1;
+    options.kept_limit = UINT64_MAX;
     alpi_solution *around = NULL;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));

@@ -229,14 +229,6 @@ static alp_result fill(writer *w)
     return w->text.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
-uint64_t alpi_babylon_memory(const alp_scene *scene, uint64_t pixels)
-{
-    enum { IMAGE_BYTES = 12, CODE_BYTES = 8 }; // four bytes of RGBE at most, in room that doubles
-    const uint64_t text = alpi_lightmap_text_size(scene), parts = alpi_lightmap_parts_size(scene);
-    const uint64_t picture = pixels * (IMAGE_BYTES + CODE_BYTES);
-    return text + (parts > picture ? parts : picture);
-}
-
 alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
                                const char *const *page_names, uint8_t **bytes, size_t *size)
 {

@@ -230,12 +230,6 @@ uint64_t alpi_lightmap_text_size(const alp_scene *scene)
            PART_BYTES * ((uint64_t)scene->surface_count + scene->camera_count + 1) + images;
 }
 
-uint64_t alpi_lightmap_parts_size(const alp_scene *scene)
-{
-    const uint64_t of_corner = sizeof(uint32_t) + sizeof(float[2]) + sizeof(uint32_t);
-    return 3 * of_corner * scene->usable_count;
-}
-
 // --- their numbers -------------------------------------------------------------------------------
 
 void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t count)

@@ -59,9 +59,8 @@ void alpi_lightmap_print_float(alpi_bytes *text, const char *name, float value);
 /// What stands before an item of a list: nothing before the first.
 const char *alpi_lightmap_comma(uint32_t index);
 
-/// About how many bytes of text a scene takes, its maps apart, and how many the parts take.
+/// Bytes of text that a scene takes, about, without its maps.
 uint64_t alpi_lightmap_text_size(const alp_scene *scene);
-uint64_t alpi_lightmap_parts_size(const alp_scene *scene);
 
 /// The material of a slot, or a plain one where it has none (ρ = .5).
 alpi_material alpi_lightmap_material(const alp_scene *scene, const alpi_lightmap_slot *slot);

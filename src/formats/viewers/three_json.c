@@ -342,11 +342,6 @@ static uint64_t text_size(const alp_scene *scene, uint64_t pixels)
     return alpi_lightmap_text_size(scene) + pixels * sizeof "15360,15360,15360,15360";
 }
 
-uint64_t alpi_three_memory(const alp_scene *scene, uint64_t pixels)
-{
-    return text_size(scene, pixels) + alpi_lightmap_parts_size(scene);
-}
-
 alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *light, uint8_t **bytes,
                              size_t *size)
 {

@@ -22,17 +22,11 @@ typedef struct alpi_light_pages {
 /// @return ALP_OK; LIMIT; OUT_OF_MEMORY
 alp_result alpi_three_encode(const alp_scene *scene, const alpi_light_pages *light, uint8_t **bytes,
                              size_t *size);
-/// About how many bytes that takes at its peak, the text that it becomes included.
-/// @param pixels of all pages
-uint64_t alpi_three_memory(const alp_scene *scene, uint64_t pixels);
 /// The same as a .babylon file, whose maps are the Radiance pictures `page_names` beside it:
 /// PBRMaterial with useLightmapAsShadowmap, T = E/π.
 /// @return also UNSUPPORTED (pages of less than 8 × 8 texels)
 alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *light,
                                const char *const *page_names, uint8_t **bytes, size_t *size);
-/// About how many bytes the file and one of its pictures, of so many pixels, take together at their
-/// peak.
-uint64_t alpi_babylon_memory(const alp_scene *scene, uint64_t pixels);
 /// One of those pictures.
 alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pages *light,
                                     uint32_t page, uint8_t **bytes, size_t *size);

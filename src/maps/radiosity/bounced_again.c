@@ -29,7 +29,7 @@ static alp_result prepare(alpi_bounced_again *a, uint64_t kept_limit,
         }
     }
     if (!alpi_gather_meets_cells(a->options.gather->from) || a->traced == 0 ||
-        alpi_kept_rays_size(g) * a->traced > kept_limit) {
+        alpi_kept_rays_size(g) * a->traced > alpi_kept_rays_limit(context, kept_limit)) {
         return ALP_OK;
     }
     const alpi_gather_job job = job_of(a);

@@ -19,7 +19,7 @@ typedef struct alpi_bounced_again {
 } alpi_bounced_again;
 
 /// @param states     [texels] as alpi_bounced_map left them; borrowed, as all else
-/// @param kept_limit bytes that rays may take which are traced here and then only looked up
+/// @param kept_limit bytes, within the budget, of rays that are traced here and then looked up
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_bounced_again_create(const alpi_bounced_options *options,
                                      const alpi_lattice *lattice, uint8_t *states,

@@ -5,8 +5,6 @@
 
 #include "maps/lightmap.h"
 
-enum { ALPI_OUTGOING_BYTES = 56 }; ///< that the call takes for each texel of a page, beside `out`
-
 /// The radiance ρE/π + Lₑ that leaves the front of each covered texel of a page, E being that of
 /// lightmap->irradiance_pages. ρ (alpi_surface_albedo, of a pane what it keeps) and Lₑ are means
 /// over the surface inside the texel, of 4 × 4 points as far as the page's size allows. Cut parts

@@ -170,7 +170,8 @@ static alp_result reserve_rays(solver *s)
     const alpi_radiosity_options *o = &r->options;
     const uint32_t room = r->patches.block_count * (uint32_t)sides_of(&r->patches);
     const uint64_t each = alpi_kept_rays_size(o->gatherer);
-    r->kept = alpi_gather_meets_cells(&s->from) && each * room <= o->kept_limit;
+    r->kept = alpi_gather_meets_cells(&s->from) &&
+              each * room <= alpi_kept_rays_limit(o->context, o->kept_limit);
     return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
 }
 

@@ -36,15 +36,16 @@ typedef struct alpi_radiosity_options {
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     bool directional;        // direct light is wanted by its direction
-    uint64_t kept_limit;     // bytes that kept rays may take; beyond, rays are traced every pass
+    uint64_t kept_limit; // bytes that kept rays may take, within the budget; where they need more,
+                         // rays are traced every pass
     bool backs; // all backs of double-sided materials gather; else those alone that some other who
                 // gathers sees: enough for light on fronts
     uint64_t seed;
     alpi_light_layers *layers; // NULL, or filled, but for what the texels gather
 } alpi_radiosity_options;
 
-/// What serves bakes and pictures alike (docs/measured/accuracy.md): all but scene, tracer, lighting,
-/// filter, gatherer and seed.
+/// What serves bakes and pictures alike (docs/measured/accuracy.md): all but scene, tracer,
+/// lighting, filter, gatherer and seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
 /// Of a solution for no error in particular: of a number of bounces none is left out.
 double alpi_radiosity_tolerance(uint32_t bounces);

@@ -14,6 +14,13 @@ uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
     return (uint64_t)gatherer->packet_count * ALPI_PACKET * sizeof(uint32_t);
 }
 
+uint64_t alpi_kept_rays_limit(const alp_context *context, uint64_t most)
+{
+    const uint64_t left = alpi_memory_left(context), spare = alpi_memory_held(context) / 4;
+    const uint64_t room = left == UINT64_MAX ? left : left > spare ? left - spare : 0;
+    return room < most ? room : most;
+}
+
 alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,
                                   uint32_t count, alpi_kept_rays *kept)
 {

@@ -242,31 +242,6 @@ TEST_WITH_CONTEXT(what_cannot_be_baked_says_so, 1)
     alp_scene_destroy(scene);
 }
 
-TEST_SLOW(memory_is_known_beforehand)
-{
-    alp_context *context = test_context(2);
-    alp_scene *scene = test_load(context, "builtin:furnace");
-    alp_bake_options options = small_options();
-    options.atlas.size = 1024;
-    options.occlusion.samples = 1;
-    alp_bake_report report;
-    alp_lightmap *lightmap = NULL;
-    ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
-    double told = (double)alpi_bake_memory(&report.atlas, scene, &options);
-    print_message("memory: peak over told %.3f\n", (double)report.peak_memory_bytes / told);
-    ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
-    alp_lightmap_destroy(lightmap);
-
-    // A page that no machine holds is refused with what it takes.
-    alpi_bake_job job = {.scene = scene, .context = context};
-    alp_atlas_info huge = {.pages = 4096, .width = 16384, .height = 16384, .texels = 1ull << 40};
-    assert_int_equal(alpi_bake_check_memory(&job, &huge, 0), ALP_ERROR_LIMIT);
-    assert_non_null(strstr(alp_context_message(context), "GiB"));
-    ASSERT_OK(context, alpi_bake_check_memory(&job, &report.atlas, 0));
-    alp_scene_destroy(scene);
-    alp_context_destroy(context);
-}
-
 TEST_WITH_CONTEXT(rays_clear_their_own_surface, 2)
 {
     // Planes in general position, kilometres wide, near and far from the origin: every texel is

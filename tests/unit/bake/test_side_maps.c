@@ -101,27 +101,6 @@ TEST_WITH_CONTEXT(channels_are_x_y_z, 1)
     alp_scene_destroy(scene);
 }
 
-TEST_SLOW(memory_is_known_beforehand)
-{
-    const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_BENT, ALP_MAP_AO | ALP_MAP_OBSCURANCE, ALL};
-    for (int i = 0; i < 3; i++) {
-        alp_context *context = test_context(2);
-        alp_scene *scene = test_load(context, "builtin:furnace");
-        alp_bake_options options = small_options(maps[i]);
-        options.atlas.size = 512;
-        options.occlusion.samples = 1;
-        alp_bake_report report;
-        alp_lightmap *lightmap = NULL;
-        ASSERT_OK(context, alp_bake(scene, &options, &lightmap, &report));
-        const double told = (double)alpi_bake_memory(&report.atlas, scene, &options);
-        print_message("memory: peak over told %.3f\n", (double)report.peak_memory_bytes / told);
-        ASSERT_NEAR((double)report.peak_memory_bytes / told, 1.0, 0.1);
-        alp_lightmap_destroy(lightmap);
-        alp_scene_destroy(scene);
-        alp_context_destroy(context);
-    }
-}
-
 TEST_WITH_CONTEXT(side_maps_leave_occlusion_as_it_is, 2)
 {
     alp_scene *scene = test_load(context, "builtin:torus-plane");

@@ -200,3 +200,86 @@ TEST(arrays_change_their_size)
     alpi_release(own, bytes);
     alp_context_destroy(own);
 }
+
+TEST_WITH_CONTEXT(a_budget_is_kept, 1)
+{
+    char *before = alpi_allocate(context, 100, 1);
+    assert_true(alpi_memory_left(context) == UINT64_MAX);
+    assert_int_equal(alpi_set_budget(context, (alpi_budget){.limit = 1000}).limit, 0);
+    assert_int_equal(alpi_memory_left(context), 900);
+    char *all = alpi_allocate(context, 900, 1);
+    assert_non_null(all);
+    assert_int_equal(alpi_memory_left(context), 0);
+    assert_null(alpi_allocate(context, 1, 1));
+    assert_non_null(strstr(alp_context_message(context), "more than the budget leaves"));
+    alpi_release(context, alpi_allocate(context, 0, 1)); // nothing always fits
+    assert_null(alpi_reallocate(context, all, 901, 1));
+    all = alpi_reallocate(context, all, 300, 1); // as does less
+    assert_non_null(all);
+    assert_int_equal(alpi_memory_held(context), 400);
+    assert_null(alpi_reallocate(context, all, 601, 1)); // old and new are held while it moves
+    all = alpi_reallocate(context, all, 600, 1);
+    assert_non_null(all);
+    assert_int_equal(alpi_memory_held(context), 700);
+    assert_null(alpi_allocate(context, 400, 1));
+    alpi_budget spent = alpi_set_budget(context, (alpi_budget){.limit = 50}); // less than is held
+    assert_int_equal(spent.held, 700);
+    assert_int_equal(spent.wanted, 400);
+    assert_int_equal(alpi_memory_left(context), 0);
+    assert_null(alpi_allocate(context, 1, 1));
+    assert_null(alpi_allocate(context, SIZE_MAX / 4, 1));
+    alpi_release(context, all);
+    alpi_release(context, before);
+    assert_int_equal(alpi_memory_held(context), 0);
+    alpi_set_budget(context, spent);
+    assert_int_equal(alp_context_peak_memory(context), 1000); // what was refused does not count
+}
+
+/// A true failure is not taken for the budget's.
+TEST(a_failure_is_no_refusal)
+{
+    counting_heap heap = {0};
+    alp_context_options options = options_with_heap(&heap);
+    alp_context *context = NULL;
+    assert_int_equal(alp_context_create(&options, &context), ALP_OK);
+    alpi_set_budget(context, (alpi_budget){.limit = 100});
+    assert_null(alpi_allocate(context, 101, 1));
+    heap.fail_at = heap.allocations + 1;
+    assert_null(alpi_allocate(context, 10, 1));
+    assert_int_equal(alpi_memory_held(context), 0);
+    assert_int_equal(alpi_set_budget(context, (alpi_budget){0}).wanted, 0);
+    alp_context_destroy(context);
+}
+
+enum { BLOCKS = 4000, BLOCK_SIZE = 64, ROOM_FOR = 1000 };
+
+static alp_result allocate_blocks(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    void **blocks = user;
+    alp_context *context = blocks[BLOCKS];
+    for (uint32_t i = begin; i < end; i++) {
+        if (alpi_allocate(context, ROOM_FOR * BLOCK_SIZE + 1, 1) != NULL) { // in nobody's way
+            return ALP_ERROR_LIMIT;
+        }
+        blocks[i] = alpi_allocate(context, BLOCK_SIZE, 1);
+    }
+    return ALP_OK;
+}
+
+/// Workers that allocate at once fill the budget to its last block.
+TEST_WITH_CONTEXT(workers_share_a_budget, 4)
+{
+    void *blocks[BLOCKS + 1] = {[BLOCKS] = context};
+    (void)alpi_context_pool(context); // it holds memory too
+    const uint64_t held = alpi_memory_held(context);
+    alpi_set_budget(context, (alpi_budget){.limit = held + ROOM_FOR * BLOCK_SIZE});
+    ASSERT_OK(context, alpi_parallel_for(context, BLOCKS, 16, allocate_blocks, blocks, NULL));
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < BLOCKS; i++) {
+        count += blocks[i] != NULL;
+        alpi_release(context, blocks[i]);
+    }
+    assert_int_equal(count, ROOM_FOR);
+    assert_int_equal(alpi_memory_held(context), held);
+}
