@@ -361,8 +361,8 @@ typedef struct alp_bake_report {
 /// Work of a bake, estimated before it.
 typedef struct alp_bake_work {
     uint64_t texels; ///< from areas, without making charts
-    /// Rays of the bake. With an error to reach they are those of the first round: the scene decides
-    /// how many further rounds follow.
+    /// Rays of the bake. With an error to reach they are those of the first round: the scene
+    /// decides how many further rounds follow.
     uint64_t rays;
     bool rays_at_least; ///< an error is to be reached, so that `rays` are the least
     uint64_t bytes;     ///< large arrays of the bake, without the scene and kept rays

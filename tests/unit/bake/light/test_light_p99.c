@@ -69,22 +69,22 @@ TEST(small_shadows_come_down)
     reaches("builtin:torus-plane", light, 0.03f);
 }
 
-/// Beside strips of sun bounced light is what is noisy: few texels get more rays, which the map as
-/// a whole does not need. How many all of them have in the end is chance: over eight seeds 160 to
-/// 320, in the mean 228, and 256 where all got what the few want.
+/// Beside strips of sun bounced light is noisy: few texels get more rays, which the map as a whole
+/// does not need. The rays of all texels depend on the seed: over these eight 96 to 184, in the
+/// mean 143, and 157 where all texels get the rays of the few.
 TEST_SLOW(few_texels_get_more_rays)
 {
-    enum { SEEDS = 8, MEAN_WITHOUT = 256 };
+    enum { SEEDS = 8, MEAN_WITHOUT = 157 };
     alp_light_options light = alp_bake_options_default().light;
     uint32_t samples = 0;
-    light.error = 0.04f;
+    light.error = 0.05f;
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         const alp_bake_report r = bake_seed("builtin:windows", 2 * SIZE, light, seed);
-        assert_true(r.light_relative_error <= 0.04 && r.light_p99_error <= 0.16);
+        assert_true(r.light_relative_error <= 0.05 && r.light_p99_error <= 0.2);
         samples += r.light_samples;
     }
     print_message("windows: %u rays of each texel in the mean\n", samples / SEEDS);
-    assert_true(samples < SEEDS * (MEAN_WITHOUT - 12));
+    assert_true(samples < SEEDS * (MEAN_WITHOUT - 7));
     const alp_bake_report r = bake("builtin:windows", 2 * SIZE, light);
     for (uint32_t workers = 1; workers <= 7; workers += 6) { // those two are the same bits
         alp_context *two = context;
