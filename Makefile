@@ -25,7 +25,7 @@ GALLERY ?=
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
 	@$(call build,release)
-	@echo "The command is build/release/apps/alpenglow/alpenglow; 'make help' says what else there is."
+	@echo "The command is build/release/apps/alpenglow/alpenglow; 'make help' lists all targets."
 
 demo: ## Set up, build, bake occlusion and light of a teapot in a room, render it
 	$(call setup,build)

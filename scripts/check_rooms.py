@@ -80,7 +80,7 @@ PUBLIC = {
 # header of another project: where it may be included (a folder below src/, "apps", or one file)
 THIRD_PARTY = {
     r"embree3/.*": ["src/trace/embree.h", "bench"],
-    r"jansson\.h": ["src/formats", "src/bake", "apps"],
+    r"jansson\.h": ["src/formats", "src/bake/files", "apps"],
     r"png\.h": ["src/formats"],
     r"jpeglib\.h|jerror\.h": ["src/formats"],
     r"(OpenEXR/)?openexr.*\.h": ["src/formats"],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a bake will take, as the command tells it: two digits, as it is a guess.
+// The estimated work of a bake, in two digits.
 #include "work.h"
 
 #include "output.h"

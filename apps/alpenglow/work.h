@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a bake will take, as the command tells it.
+// The estimated work of a bake, as the command tells it.
 #ifndef COMMAND_WORK_H
 #define COMMAND_WORK_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory of a bake: its budget, and a forecast of its large arrays (memory.c).
+// The memory of a bake: its budget, and a forecast of its large arrays (bake_memory.c).
 #ifndef ALPI_BAKE_BAKE_MEMORY_H
 #define ALPI_BAKE_BAKE_MEMORY_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every refusal of a bake's options, in one list. The options of occlusion, lights and atlas are
-// checked by their rooms, which alpi_bake_check calls in its turn.
+// Refusals of the options of a bake; those of light are in check_light.c. The rooms of occlusion,
+// lights and atlas check their own options, and alpi_bake_check calls them.
 #include "bake/check.h"
 
 #include "atlas/choice.h"

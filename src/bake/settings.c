@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Choices that follow from the options of a bake.
 #include "bake/settings.h"
-
-#include "base/file.h"
 
 #include "base/file.h"
 

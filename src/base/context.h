@@ -46,8 +46,8 @@ struct alpi_loop;
 struct alpi_loop **alpi_context_loop(alp_context *context);
 /// Whether code for x86-64-v3 (AVX2) may run: this machine has it, and max_isa allows it.
 bool alpi_context_has_v3(const alp_context *context);
-/// Of what alp_compile_twice of CMakeLists.txt compiles, functions or tables of them: name_v3 where
-/// it may run, else name_baseline.
+/// Chooses name_v3 if it may run, else name_baseline: functions, or tables of functions, that
+/// alp_compile_twice of CMakeLists.txt compiles.
 #ifdef ALPI_HAS_V3
 #define ALPI_COMPILED_FOR(context, name)                                                           \
     (*(alpi_context_has_v3(context) ? &name##_v3 : &name##_baseline))

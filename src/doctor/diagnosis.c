@@ -164,16 +164,6 @@ uint32_t alpi_doctor_choose_worst(const alp_scene *scene, const double *measure,
     return count;
 }
 
-bool alpi_diagnosis_has(const alp_diagnosis *diagnosis, alp_finding_kind kind)
-{
-    for (size_t i = 0; i < diagnosis->count; i++) {
-        if (diagnosis->findings[i].view.kind == kind) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // --- order ---------------------------------------------------------------------------------------
 
 /// Orders errors first, then by kind. Messages without a kind come last, by code.

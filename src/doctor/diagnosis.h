@@ -56,8 +56,6 @@ void alpi_finding_release(alp_context *context, alpi_finding *finding);
 void alpi_diagnosis_mark(alp_diagnosis *diagnosis, uint32_t triangle, vec3 at, const float uv[2]);
 /// The same at the middle of the triangle.
 void alpi_diagnosis_mark_triangle(alp_diagnosis *diagnosis, uint32_t triangle);
-/// Whether the list has a finding of the kind.
-bool alpi_diagnosis_has(const alp_diagnosis *diagnosis, alp_finding_kind kind);
 /// Sorts the findings: errors first, then by kind. Equal ones keep their order.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_diagnosis_sort(alp_diagnosis *diagnosis);

@@ -10,9 +10,9 @@
 #include <math.h>
 
 enum {
-    TRIAL_TEXELS = 256,
-    LEAST_MAP = 32 * TRIAL_TEXELS, // texels: on less a trial costs more than it tells
-    STREAM_TRIAL = 12
+    PILOT_TEXELS = 256,
+    LEAST_MAP = 32 * PILOT_TEXELS, // texels: on less the pilot costs more than it gains
+    STREAM_PILOT = 12
 };
 /// Error of a map by as many rays, over that of texels that all have their own: the mean over it is
 /// that of interpolated ones for the most part. Measured on the Cornell box, a sphere on a plane,
@@ -21,12 +21,12 @@ static const double MAP_SHARE = 0.85;
 static const double SENDING_SHARE = 0.15; // of texels that send rays, as a guess
 
 /// Some texels, one at random of each run of them that are as long. @return how many
-static uint32_t choose(const alpi_light_round_state *r, uint32_t list[TRIAL_TEXELS])
+static uint32_t choose(const alpi_light_round_state *r, uint32_t list[PILOT_TEXELS])
 {
-    const double each = (double)r->task->count / TRIAL_TEXELS;
+    const double each = (double)r->task->count / PILOT_TEXELS;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < TRIAL_TEXELS; i++) {
-        const float within = alpi_unit_float(alpi_random_key(r->task->count, i, STREAM_TRIAL));
+    for (uint32_t i = 0; i < PILOT_TEXELS; i++) {
+        const float within = alpi_unit_float(alpi_random_key(r->task->count, i, STREAM_PILOT));
         const uint32_t t = r->task->order[(uint32_t)(each * (i + (double)within))];
         const bool hidden = (r->task->lattice->texels->flags[t] & ALPI_TEXEL_HIDDEN) != 0;
         list[count] = t;
@@ -39,7 +39,7 @@ static uint32_t choose(const alpi_light_round_state *r, uint32_t list[TRIAL_TEXE
 /// write anew. Their variance is E[(x − y)²] / 2.
 static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, uint32_t count)
 {
-    alpi_reference_value *values = r->task->values, found[TRIAL_TEXELS];
+    alpi_reference_value *values = r->task->values, found[PILOT_TEXELS];
     alpi_task_progress told = r->task->progress;
     alpi_light_rays by;
     alpi_light_rays_start(r, ALPI_LIGHT_FIRST_RAYS, alpi_hash64(alpi_light_round_seed(r, false)),
@@ -68,15 +68,15 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
     return ALP_OK;
 }
 
-/// Plans as for a round after one that found what the trial did. @param rays out: of a texel
+/// Plans as for a round after one that found what the pilot did. @param rays out: of a texel
 static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p, double *rays)
 {
     const bool adaptive = alpi_light_is_adaptive(&r->job->options);
-    uint32_t list[TRIAL_TEXELS];
+    uint32_t list[PILOT_TEXELS];
     const uint32_t count = choose(r, list);
     r->sending = (adaptive ? SENDING_SHARE : 1.0) * r->task->count;
     r->rays_power = ALPI_LIGHT_FIRST_RAYS_POWER;
-    alpi_light_clock_part(r->task->clock, false, r->sending / (2.0 * TRIAL_TEXELS));
+    alpi_light_clock_part(r->task->clock, false, r->sending / (2.0 * PILOT_TEXELS));
     ALP_TRY(try_texels(r, list, count));
     ALP_TRY(alpi_light_round_measure(r, list, count));
     r->bounced_error *= adaptive ? MAP_SHARE : 1.0;

@@ -10,8 +10,8 @@
 /// Rays go on that meet something nearer than so many sides of its cells (patch_reach.h). Measured
 /// on teapot-room for 1 %: 2 and 4 took longer and erred no less.
 static const float NEAR_REACH = 1.0f;
-/// Of such a path, the ray that arrived among them: in a corner it too meets what is near. What it
-/// brings on windows: docs/how/light.md, "Near surfaces"; 8 brought no more.
+/// Bounces of such a path, with the ray that arrived: in a corner it too meets near surfaces. 8
+/// gain no accuracy on windows (docs/how/light.md, "Near surfaces").
 enum { BOUNCES = 4 };
 
 /// Has rays of texels go on from what is near (near_rays.h). Not

@@ -44,8 +44,8 @@ typedef struct alpi_radiosity_options {
     alpi_light_layers *layers; // NULL, or filled, but for what the texels gather
 } alpi_radiosity_options;
 
-/// What serves bakes and pictures alike (docs/measured/accuracy.md): all but scene, tracer,
-/// lighting, filter, gatherer and seed.
+/// Options for bakes and pictures alike, without scene, tracer, lighting, filter, gatherer and
+/// seed.
 alpi_radiosity_options alpi_radiosity_options_default(void);
 /// Of a solution for no error in particular: of a number of bounces none is left out.
 double alpi_radiosity_tolerance(uint32_t bounces);

@@ -24,7 +24,7 @@ enum {
 // makes about 1.8 of a true one): the bend of a stencil, the difference between its texels, and the
 // kink at a texel beside a traced one. Chosen on cornell, teapot-room and torus-plane: with twice
 // the bend a tenth fewer texels are traced and what is interpolated grows three times darker, with
-// twice the others small shadows get lost (docs/measured/accuracy.md).
+// twice the others small shadows get lost.
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 40.0f, KINK_LIMIT = 2.0f;
 // Shares of them near another surface: these cost the same error as tracing all of it there, and a
 // quarter less time on cornell.

@@ -2,10 +2,10 @@
 // How far a map is from the truth, said by rays that took no part in it.
 //
 // The error of quasi-Monte Carlo cannot be read off its own samples: parts of one sequence are not
-// independent, and repeating independent shorter sequences instead costs a third more error (docs/
-// measured/accuracy.md). And what interpolation misses is in no sample at all. So some texels,
-// chosen at random, are held out: each gets two estimates y₁, y₂ more, independent of the map's
-// value x and of each other, and
+// independent, and repeating independent shorter sequences instead costs up to a
+// quarter more error (docs/measured/accuracy.md). The error of interpolation is in no sample at
+// all. So some texels, chosen at random, are held out: each gets two estimates y₁, y₂ more,
+// independent of the map's value x and of each other, and
 //
 //     E[(x − y₁)(x − y₂)] = (x − truth)²
 //

@@ -215,7 +215,7 @@ static uint32_t find_stopped(const validity_job *job, alpi_rays *rays, uint32_t 
 /// something.
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
-    static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // of a chequerboard
+    static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // every other cell
     alpi_receiver_point lifted[ALPI_PACKET];
     vec3 low[ALPI_PACKET];
     float square[ALPI_PACKET][2];

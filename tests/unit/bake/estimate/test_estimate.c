@@ -66,7 +66,7 @@ TEST(rays_and_texels_are_estimated)
 TEST_WITH_CONTEXT(estimates_follow_the_options, 2)
 {
     alp_scene *scene = test_load(context, "builtin:cornell");
-    enum { PLAIN, PATHS, ALL_TEXELS, ONLY, OCCLUDERS, LAYERS, LARGER, OPTIONS };
+    enum { PLAIN, OCCLUSION, PATHS, ALL_TEXELS, ONLY, OCCLUDERS, LAYERS, LARGER, OPTIONS };
     const estimate_case plain = {
         .size = 128, .maps = ALP_MAP_LIGHT, .bounces = ALP_BOUNCES_CONVERGE};
     alp_bake_options options[OPTIONS];
@@ -78,6 +78,7 @@ TEST_WITH_CONTEXT(estimates_follow_the_options, 2)
     options[ALL_TEXELS].sampling.accuracy = ALP_ADAPTIVE_OFF;
     options[ONLY].only = "*block*";
     options[ONLY].atlas.texels_per_metre = options[LARGER].atlas.texels_per_metre = 20.0;
+    options[OCCLUSION].maps = options[OCCLUDERS].maps = ALP_MAP_AO; // light has no occluders
     options[OCCLUDERS].occluders = "*block*";
     options[LAYERS].light.layers = true;
     for (int i = 0; i < OPTIONS; i++) {
@@ -88,14 +89,14 @@ TEST_WITH_CONTEXT(estimates_follow_the_options, 2)
     assert_int_equal(work[PATHS].rays, 64 * work[PATHS].texels);
     assert_true(work[ALL_TEXELS].rays > work[PLAIN].rays);
     assert_true(work[ONLY].texels < work[LARGER].texels);
-    assert_int_equal(work[OCCLUDERS].rays, work[PLAIN].rays);
+    assert_int_equal(work[OCCLUDERS].rays, work[OCCLUSION].rays);
     assert_true(work[LAYERS].rays > work[PLAIN].rays && work[LAYERS].bytes > work[PLAIN].bytes);
     options[PLAIN].only = "nothing of this name";
     assert_int_equal(alp_bake_estimate(scene, &options[PLAIN], &work[PLAIN]),
                      ALP_ERROR_INVALID_ARGUMENT);
-    options[PATHS].atlas.mode = ALP_ATLAS_VERTEX;
-    ASSERT_OK(context, alp_bake_estimate(scene, &options[PATHS], &work[PATHS]));
-    assert_int_equal(work[PATHS].texels + work[PATHS].rays + work[PATHS].bytes, 0);
+    options[OCCLUSION].atlas.mode = ALP_ATLAS_VERTEX;
+    ASSERT_OK(context, alp_bake_estimate(scene, &options[OCCLUSION], &work[OCCLUSION]));
+    assert_int_equal(work[OCCLUSION].texels + work[OCCLUSION].rays + work[OCCLUSION].bytes, 0);
     assert_int_equal(alp_bake_estimate(NULL, NULL, &work[PLAIN]), ALP_ERROR_INVALID_ARGUMENT);
     alp_scene_destroy(scene);
 }

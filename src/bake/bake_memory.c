@@ -41,7 +41,7 @@ static size_text name_size(double bytes)
     return t;
 }
 
-/// What the limit is called in a message.
+/// Name of the limit for messages.
 static const char *name_limit(const alpi_bake_job *job)
 {
     return job->options.sampling.memory_limit > 0 ? "--memory-limit"
