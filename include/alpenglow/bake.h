@@ -128,8 +128,8 @@ typedef enum alp_emitters {
 } alp_emitters;
 
 /// Options of ALP_MAP_LIGHT. Blended and transmissive materials filter light: docs/conventions.md,
-/// "Sides and panes". Without bounces, each light gets its own samples. More than 64 lamps, or suns, share
-/// the samples of one and are drawn in proportion to their light.
+/// "Sides and panes". Without bounces, each light gets its own samples. More than 64 lamps, or
+/// suns, share the samples of one and are drawn in proportion to their light.
 ///
 /// RAYS and HEMICUBE solve a radiosity. Direct light is computed at every texel. Blocks of 4 × 4
 /// texels of one chart gather its reflections, one pass for each bounce. Passes end with the last
