@@ -266,13 +266,14 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     alpi_rays rays;
     alpi_hits hits;
+    alpi_trace_filter filter = job->occlusion.filter;
+    filter.one_sided |= job->options.method == ALP_RENDER_AO; // as viewers show them
     alpi_rays_clear(&rays);
     for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
         uint32_t rest = job->options.samples - first;
         uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
         job->view.loops->packet(&job->view, index, key, first, &rays);
-        alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter,
-                                    &hits);
+        alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, filter, &hits);
         uint32_t hit = 0;
         for (uint32_t i = 0; i < lanes; i++) {
             hit |= (hits.triangle[i] != ALPI_NONE ? 1u : 0u) << i;

@@ -52,5 +52,7 @@ void alpi_embree_cut_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_pane_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_pane_shadow_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_one_sided_filter(const struct RTCFilterFunctionNArguments *a);
+/// Lets rays through all surfaces from behind.
+void alpi_embree_front_filter(const struct RTCFilterFunctionNArguments *a);
 
 #endif
