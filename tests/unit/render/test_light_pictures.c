@@ -232,6 +232,43 @@ TEST(cornell_is_like_the_reference)
     alp_scene_destroy(scene);
 }
 
+/// Root mean square of the pixels' standard errors over the mean of a picture by the reference: a
+/// box on the ground under a clear sky with its sun. @param albedo of both
+static double noise_of_ground(float albedo)
+{
+    static picture pixels, error;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, context, "ground");
+    alpi_builder_surface(
+        &b, "ground", alpi_builder_material(&b, "grey", (vec3){albedo, albedo, albedo}, (vec3){0}));
+    alpi_builder_quad(&b, (const vec3[4]){{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
+    alpi_builder_box(&b, (vec3){-1, 0, -1}, (vec3){1, 1, 1}, ALPI_FACE_ALL);
+    alpi_builder_camera(&b, (vec3){3, 4, 5}, (vec3){0}, 0.6f); // ground and box fill it
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_render_options o = options_of(ALP_RENDER_REFERENCE, 64);
+    o.lighting.sky.kind = ALP_SKY_CLEAR;
+    o.lighting.sun.azimuth = 2.6f;
+    o.lighting.sun.elevation = 0.7f;
+    o.lighting.sun.illuminance = 6e4f;
+    draw(scene, o, pixels, error);
+    double mean = 0.0, square = 0.0;
+    for (int i = 0; i < PIXELS; i++) {
+        mean += (double)pixels[i][1] / PIXELS;
+        square += (double)error[i][1] * (double)error[i][1] / PIXELS;
+    }
+    alp_scene_destroy(scene);
+    return sqrt(square) / mean;
+}
+
+/// Noise in proportion to the mean does not grow where the first surface is dark.
+TEST(dark_materials_are_as_smooth_as_light_ones)
+{
+    const double light = noise_of_ground(0.5f), dark = noise_of_ground(0.03f);
+    print_message("noise over the mean: albedo .5 %.4f, albedo .03 %.4f\n", light, dark);
+    assert_true(dark < 1.1 * light);
+}
+
 /// A box with a lamp and a sphere of sky, or not.
 static alp_scene *make_box(bool inward, bool double_sided, bool lamp_inside)
 {
