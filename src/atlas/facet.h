@@ -17,6 +17,7 @@ typedef struct alpi_facet {
     float normals[3][3]; // unit, of the corners; set if smooth
     float heights[3][3]; // metres: of corner j above the tangent plane of corner i; set if lifted
     float lift_limit;    // metres
+    float lift_share;    // of the way to the tangent planes; 0 where normals describe creases
 } alpi_facet;
 
 /// @param lift whether points may leave the triangle for the smooth surface
