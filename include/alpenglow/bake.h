@@ -152,7 +152,8 @@ typedef struct alp_light_options {
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< at most; 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. The 99th
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map, which
+    /// counts as at least a hundredth of the light that leaves the surfaces, π Le + ρ E. The 99th
     /// percentile of texels' errors must be at most four times as much. Rounds of more and more
     /// samples run until both are reached; the last are for the texels with the largest errors.
     /// 0 (default): `samples` in one round; with a time_limit or keep_partial in rounds that
@@ -331,8 +332,11 @@ typedef struct alp_bake_report {
     bool light_direct; ///< ALP_MAP_LIGHT without bounces
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
+    /// Light that the errors below are relative to, W·m⁻²: light_mean, or, where that is less than a
+    /// hundredth of it, the mean of π times the radiance that leaves the surfaces, π Le + ρ E.
+    double light_scale;
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
-    /// texel's, both over light_mean. NaN in the dark, and for hemicubes, which have no estimate.
+    /// texel's, both over light_scale. NaN in the dark, and for hemicubes, which have no estimate.
     double light_relative_error, light_p99_error;
     uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
     uint32_t light_passes;                     ///< of radiosity, one for each bounce; else 0

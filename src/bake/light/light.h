@@ -9,6 +9,8 @@
 #include "transport/directional.h"
 #include "transport/paths/reference.h"
 
+#include <math.h>
+
 /// The stage of light: gathers irradiance at the texels, if a map of light is asked for, and fills
 /// the report.
 /// @return ALP_OK; LIMIT: the time was over before any texel had light; OUT_OF_MEMORY; CANCELLED
@@ -50,9 +52,28 @@ typedef struct alpi_light_task {
     const alpi_lattice *lattice;
     alpi_task_progress progress; // of the clock
     alpi_light_clock *clock;
+    double emitted, albedo; // means over the listed texels and channels: π × emitted radiance,
+                            // W·m⁻², and albedo; 0 where nothing emits
     alpi_reference_value *values;  // [receivers] out; made by who gathers, when it does
     alpi_directional *directional; // [receivers] out, or NULL
 } alpi_light_task;
+
+/// Finds the emission and the albedo of a task at the middles of its texels.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_light_find_emission(const alpi_bake_job *job, alpi_light_task *task);
+/// Mean of π times the radiance that leaves the surfaces, π Le + ρ E; 0 where nothing emits.
+static inline double alpi_light_leaving(const alpi_light_task *task, double mean)
+{
+    return task->emitted > 0.0 ? task->emitted + task->albedo * mean : 0.0;
+}
+
+/// The light that errors are relative to, W·m⁻²: the mean irradiance, but at least a hundredth of
+/// the light that leaves the surfaces. Nearly convex things that emit get back less than that, and
+/// an error relative to so little would be reached by no number of rays, and seen by nobody.
+static inline double alpi_light_scale(const alpi_light_task *task, double mean)
+{
+    return fmax(mean, 0.01 * alpi_light_leaving(task, mean));
+}
 
 /// Direct light and what surfaces make of it, by rays or hemicubes.
 alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);

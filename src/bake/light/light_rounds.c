@@ -226,7 +226,7 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
     direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
     if (direct > 0.0) {
-        const alpi_light_goal goal = {.wanted = p.for_direct * r->mean,
+        const alpi_light_goal goal = {.wanted = p.for_direct * r->scale,
                                       .each = r->for_worst,
                                       .among = r->for_worst ? r->worst.marks : NULL,
                                       .most = isinf(r->task->clock->deadline) ? HUGE_VAL
@@ -250,11 +250,11 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
         *done = r->cut_off = true;
     }
     *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
-    const double before = r->direct_error * r->mean;
+    const double before = r->direct_error * r->scale;
     ALP_TRY(measure(r));
     if (direct > 0.0 && !r->for_worst) {
         r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
-                                           r->direct_error * r->mean / before);
+                                           r->direct_error * r->scale / before);
     }
     return ALP_OK;
 }
@@ -355,11 +355,11 @@ static bool may_be_dropped(const alpi_light_round_state *r)
 static alp_result warn_of_error(alpi_light_round_state *r)
 {
     const bool wanted = r->job->options.light.error > 0.0f;
-    if (r->cut_off || (wanted && isnan(r->map.over_mean.p99))) {
+    if (r->cut_off || (wanted && isnan(r->map.over_scale.p99))) {
         ALP_TRY(alpi_light_round_look(r));
     }
     r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
-    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->most_rays, r->direct.most);
+    alpi_light_warn(r->job, &r->map.over_scale, r->cut_off, r->most_rays, r->direct.most);
     return ALP_OK;
 }
 
