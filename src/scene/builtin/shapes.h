@@ -58,11 +58,12 @@ void alpi_shape_panel(alpi_shaper *shaper, const vec3 corners[4], uint32_t u_cou
 /// cells must not touch along an edge alone.
 typedef struct alpi_blocks {
     const float *cuts[3]; // along x, y, z, growing
-    uint32_t counts[3];   // of cuts, both ends included
+    uint32_t counts[3];   // of cuts, both ends included; at most ALPI_BLOCK_CUTS
     bool (*solid)(const void *user, uint32_t x, uint32_t y, uint32_t z); // NULL = all are
     const void *user;
     float edge; // m, of cells at fineness 1; HUGE_VALF = as few as the cuts allow
 } alpi_blocks;
+enum { ALPI_BLOCK_CUTS = 32 };
 void alpi_shape_blocks(alpi_shaper *shaper, const alpi_blocks *blocks);
 /// A box, its edges cut off at 45°: `bevel` metres along each face, 0 < bevel < half a side. Below
 /// a fineness of ALPI_BEVEL_FINENESS they stay sharp.

@@ -4,6 +4,7 @@
 #ifndef ALPI_TRANSPORT_PATH_WAVE_H
 #define ALPI_TRANSPORT_PATH_WAVE_H
 
+#include "transport/paths/reference.h"
 
 enum { ALPI_WAVE = 256, ALPI_WAVE_PACKETS = ALPI_WAVE / ALPI_PACKET };
 

@@ -14,6 +14,7 @@
 #ifndef ALPI_FORMATS_COLLADA_PATCH_H
 #define ALPI_FORMATS_COLLADA_PATCH_H
 
+#include "formats/collada/collada_marks.h"
 #include "formats/collada/collada_read.h"
 #include "formats/text/text_edits.h"
 #include "scene/mesh_patch.h"
