@@ -384,10 +384,11 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// @param options  NULL = defaults
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0, because the caller loaded the scene
-/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; a pattern
-///         without a match: the message has the names); INVALID_DATA (nothing to bake, or a second
-///         UV set that cannot be kept); UNSUPPORTED (an output of another format, or one without a
-///         place for these maps); LIMIT; IO; OUT_OF_MEMORY; CANCELLED
+/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; ALP_MAP_LIGHT
+///         of a scene without lamp, emission and sky; a pattern without a match: the message has
+///         the names); INVALID_DATA (nothing to bake, or a second UV set that cannot be kept);
+///         UNSUPPORTED (an output of another format, or one without a place for these maps);
+///         LIMIT; IO; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

@@ -100,8 +100,9 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// Warns of a camera in a wall (camera-inside), except for AO, CONSTANT and pictures of hemicubes
 /// without light. REFERENCE, RADIOSITY and HEMICUBE give the warnings of alp_scene_examine.
 /// @param image out, which the caller destroys; NULL on failure
-/// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match, or LIGHTMAP without a map of
-///         light); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
+/// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match; LIGHTMAP without a map of
+///         light; REFERENCE, RADIOSITY, and HEMICUBE with light, of a scene without lamp, emission
+///         and sky); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
 

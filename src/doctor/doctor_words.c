@@ -123,7 +123,7 @@ static const alpi_finding_words words[] = {
      "leave such helpers out of the export, or out of the bake with --only"},
 
     {ALP_FINDING_NO_LIGHT, ALP_SEVERITY_NOTE, "no-light",
-     "black with --maps light; occlusion needs no lights",
+     "--maps light refuses the scene; occlusion needs no lights",
      "for light, give one: --sky, --sun, --lamp"},
     {ALP_FINDING_LIGHT_INSIDE, ALP_SEVERITY_WARNING, "light-inside",
      "the lamp lights nothing, and the room stays dark",

@@ -99,6 +99,16 @@ static bool goes_by_paths(const render_job *job)
            job->options.method == ALP_RENDER_RADIOSITY;
 }
 
+/// Refuses a picture that would be black because nothing lights the scene. A light map holds light
+/// of its own.
+static alp_result check_lit(const render_job *job)
+{
+    const alp_render_options *o = &job->options;
+    const bool cube = o->method == ALP_RENDER_HEMICUBE && !alpi_hemicube_view_is_map(o);
+    return goes_by_paths(job) || cube ? alpi_lighting_refuse_darkness(job->scene, &o->lighting)
+                                      : ALP_OK;
+}
+
 /// The camera that was given, or that of the scene.
 static alp_result place_camera(render_job *job)
 {
@@ -448,6 +458,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
         *job.options.error = NULL;
     }
     ALP_TRY(check_options(scene, &job.options));
+    ALP_TRY(check_lit(&job));
     alp_result result = run(&job);
     alpi_sample_run_destroy(&job.occlusion_samples);
     alpi_occlusion_release(&job.occlusion);
