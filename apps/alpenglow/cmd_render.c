@@ -85,6 +85,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
     enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
     enum { TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY | HEMICUBE };
     enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS, PLAIN = ~HEMICUBE };
+    enum { ALBEDO = LIT | HEMISPHERE | 1 << ALP_RENDER_CONSTANT };
     static const struct {
         const char *name;
         option_id id;
@@ -102,6 +103,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--sun-size", OPTION_SUN_SIZE, LIT},
                    {"--lamp", OPTION_LAMP, LIT},
                    {"--spot", OPTION_SPOT, LIT},
+                   {"--metals", OPTION_METALS, ALBEDO},
                    {"--sky-turn", OPTION_SKY_TURN, LIT},
                    {"--sky", OPTION_SKY, LIT | HEMISPHERE},
                    {"--sky-strength", OPTION_SKY_STRENGTH, LIT | HEMISPHERE},

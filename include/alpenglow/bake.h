@@ -54,8 +54,9 @@ typedef enum alp_lightmap_as {
     ALP_LIGHTMAP_AS_EXTRAS,
     /// Instead of an asset: a three.js Object JSON (`output` ends in .json) for ObjectLoader, r155
     /// or later. Surfaces are in world space with MeshLambertMaterial, whose colour has 8 bits of
-    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file,
-    /// textures of metalness (lightmap-metal) and occlusion are left out.
+    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file
+    /// and textures of occlusion are left out; if metals are black, so are textures of metalness
+    /// (lightmap-metal).
     ALP_LIGHTMAP_AS_THREE,
     /// Instead of an asset: a .babylon file. Its light is E/π in Radiance pictures beside it,
     /// OUT.hdr, OUT.1.hdr …, of at least 8 × 8 texels. Materials are PBRMaterial with

@@ -18,7 +18,7 @@ ALP_BEGIN_DECLS
 typedef enum alp_render_method {
     /// Accessibility from the scene's occlusion maps. Surfaces without a map trace rays per pixel.
     ALP_RENDER_AO = 0,
-    /// Constant ambient light of radiance 1: the albedo, base colour × (1 − metallic), at most
+    /// Constant ambient light of radiance 1: the albedo (alp_scene_set_metals), at most
     /// 0.95.
     ALP_RENDER_CONSTANT = 1,
     /// Unoccluded ambient light of a sky of radiance `lighting.sky.up` above the horizon and `down`

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene: triangles in world space with materials, lights and cameras. Immutable once made.
+// A scene: triangles in world space with materials, lights and cameras. Immutable once made, but
+// for alp_scene_set_metals.
 #ifndef ALPENGLOW_SCENE_H
 #define ALPENGLOW_SCENE_H
 
@@ -55,6 +56,20 @@ ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *conte
                                                               alp_scene **scene);
 
 ALP_API void alp_scene_destroy(alp_scene *scene); ///< NULL does nothing
+
+/// Light that a metal reflects. Every surface is diffuse here, and a metal has no diffuse colour.
+typedef enum alp_metals {
+    ALP_METALS_DIFFUSE = 0, ///< albedo = base colour, as of other materials: about what it reflects
+    ALP_METALS_BLACK = 1    ///< albedo = base colour × (1 − metallic)
+} alp_metals;
+
+/// Sets how metals count in all light, coloured obscurance and albedo of the scene from now on, and
+/// in colours of files for three.js and Babylon.js and of .obj. Default DIFFUSE. Not during another
+/// call with the scene. NULL and unknown values do nothing.
+///
+/// Viewers that multiply a light map by their own diffuse colour show metals black whatever is
+/// baked. ALP_LIGHTMAP_AS_EMISSIVE and units of radiance hold the reflected light itself.
+ALP_API void alp_scene_set_metals(alp_scene *scene, alp_metals metals);
 
 /// Counts, bounds and unit of a scene.
 typedef struct alp_scene_info {

@@ -129,6 +129,7 @@ struct alp_scene {
 
     double unit_metres; // of one unit of the file, by which its lengths were multiplied
     bool unit_assumed;  // the file does not say it: metres were taken
+    bool metals_black;  // ALP_METALS_BLACK
     char up_axis;       // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
@@ -197,7 +198,13 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 
 /// Metalness: metallic × texture; 0 without a material.
 float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2);
-/// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
+/// The share of its base colour that a material of this metalness reflects: alp_scene_set_metals.
+static inline float alpi_scene_diffuse_share(const alp_scene *scene, float metallic)
+{
+    return scene->metals_black ? 1.0f - metallic : 1.0f;
+}
+/// Diffuse albedo ρ, clamped to [0, .95]: base colour, × (1 − metallic) where metals are black; .5
+/// without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
 /// A place on a triangle: barycentric weights of corners 1 and 2.

@@ -316,7 +316,8 @@ vec3 alpi_lightmap_albedo(const alp_scene *scene, const alpi_material *material)
     const float most = alpi_lightmap_has_image(scene, &material->base_color_texture) ? 1.0f : 0.95f;
     const float metal =
         alpi_lightmap_has_image(scene, &material->metallic_texture) ? 0.0f : material->metallic;
-    vec3 albedo = vec3_scale(vec3_load(material->base_color), 1.0f - metal);
+    vec3 albedo =
+        vec3_scale(vec3_load(material->base_color), alpi_scene_diffuse_share(scene, metal));
     return vec3_min(albedo, (vec3){most, most, most});
 }
 
@@ -324,7 +325,7 @@ void alpi_lightmap_warn_of_metal(const alpi_lightmap_parts *parts)
 {
     const alp_scene *scene = parts->scene;
     uint32_t last = ALPI_NONE, count = 0;
-    for (uint32_t m = 0; m < scene->material_count; m++) {
+    for (uint32_t m = 0; m < scene->material_count && scene->metals_black; m++) {
         const alpi_material *material = &scene->materials[m];
         if (alpi_lightmap_has_image(scene, &material->metallic_texture) &&
             material->metallic > 0.0f) {

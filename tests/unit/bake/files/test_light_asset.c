@@ -61,7 +61,7 @@ static const uint8_t *byte_of(const orm_bake *p, const alp_image *image, uint32_
 /// ρE/π + Lₑ of a texel, with ρ and Lₑ as `plain` has them.
 static double radiance_of(const orm_bake *p, uint32_t texel, int k)
 {
-    static const double albedo[2][3] = {{0.8 * 0.75, 0.4 * 0.75, 0.1 * 0.75}, {0.95, 0.95, 0.95}};
+    static const double albedo[2][3] = {{0.8, 0.4, 0.1}, {0.95, 0.95, 0.95}};
     static const double emission[2][3] = {{0.05, 0.0, 0.2}, {20.0, 10.0, 5.0}};
     const uint32_t m = material_of(p, texel);
     return albedo[m][k] * (double)irradiance_of(p, texel)[k] / (double)PI + emission[m][k];
