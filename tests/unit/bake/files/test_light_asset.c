@@ -248,6 +248,51 @@ TEST(moz_is_irradiance_over_its_intensity)
     }
 }
 
+// --- the file's own occlusion
+// ---------------------------------------------------------------------
+
+static const char occluded[] =
+    "[{'name':'floor','pbrMetallicRoughness':{'metallicFactor':0},'occlusionTexture':{'index':0}},"
+    "{'occlusionTexture':{'index':0,'strength':0.5}}]"; // one that has nothing else
+
+/// A viewer would darken the light again. In emission it cannot, and what is asked for stays.
+TEST(own_occlusion_goes_where_light_comes)
+{
+    static const struct {
+        alp_lightmap_as as;
+        unsigned maps;
+        alp_existing_ao existing;
+        const char *floor, *lid;
+    } cases[] = {
+        {ALP_LIGHTMAP_AS_MOZ, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "", ""},
+        {ALP_LIGHTMAP_AS_EXTRAS, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "", ""},
+        {ALP_LIGHTMAP_AS_EXTRAS, ALP_MAP_LIGHT, ALP_EXISTING_AO_KEEP, "{\"index\":0}",
+         "{\"index\":0,\"strength\":0.5}"},
+        {ALP_LIGHTMAP_AS_EMISSIVE, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "{\"index\":0}",
+         "{\"index\":0,\"strength\":0.5}"},
+        {ALP_LIGHTMAP_AS_MOZ, ALP_MAP_AO | ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE,
+         "{\"index\":1,\"texCoord\":1}", "{\"index\":1,\"texCoord\":1}"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        orm_bake p = start(occluded, cases[i].as);
+        p.options.maps = cases[i].maps;
+        p.options.existing_ao = cases[i].existing;
+        test_log_clear();
+        orm_run(&p);
+        assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), cases[i].floor);
+        assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), cases[i].lid);
+        assert_int_equal(strstr(test_log_text(), "2 materials lose their own occlusion") != NULL,
+                         cases[i].floor[0] == '\0');
+        const bool moz = cases[i].as == ALP_LIGHTMAP_AS_MOZ;
+        if (cases[i].as != ALP_LIGHTMAP_AS_EMISSIVE) {
+            assert_string_not_equal(orm_text(&p, moz ? "materials/1/extensions/MOZ_lightmap"
+                                                     : "materials/1/extras/lightmap"),
+                                    "");
+        }
+        orm_stop(&p);
+    }
+}
+
 // --- extras --------------------------------------------------------------------------------------
 
 /// The file that extras name, beside the asset.
