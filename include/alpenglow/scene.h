@@ -83,6 +83,10 @@ typedef struct alp_scene_info {
     double unit_metres; ///< metres of one unit of the file; lengths were multiplied by it
     bool unit_stated;   ///< the file or its format states the unit; else metres were assumed
     char up_axis; ///< of a COLLADA: 'X', 'Y' or 'Z'; 0 = not stated. The scene itself is +Y up.
+    /// World of the file = origin + scene, in metres. 0 unless the file's coordinates are so far
+    /// that floats lose detail, such as those of a national grid. Bounds, cameras, lights, and
+    /// points, cameras and lamps that the caller gives are positions in the scene.
+    double origin[3];
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 

@@ -12,6 +12,7 @@
 #include "render/camera_rays.h"
 #include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
+#include "scene/origin.h"
 #include "scene/select.h"
 #include "transport/examine.h"
 #include "transport/occlusion/occlusion_run.h"
@@ -147,13 +148,14 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
         directions[i] = (vec3){d[0][i], d[1][i], d[2][i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    double at[3];
+    alpi_origin_restore(job->scene, job->view.origin, at);
     if (lights &&
         alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, is inside something or behind a wall: it sees the "
                   "backs of single-sided surfaces, which are black; move it (--camera)",
-                  (double)job->view.origin.x, (double)job->view.origin.y,
-                  (double)job->view.origin.z);
+                  at[0], at[1], at[2]);
     }
 }
 

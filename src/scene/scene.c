@@ -256,6 +256,7 @@ static void warn_of_precision(const alp_scene *scene)
     vec3 low = scene->bounds_min, high = scene->bounds_max;
     float far = fmaxf(fmaxf(fmaxf(fabsf(low.x), fabsf(low.y)), fmaxf(fabsf(low.z), fabsf(high.x))),
                       fmaxf(fabsf(high.y), fabsf(high.z)));
+    far = fmaxf(far, scene->rounded_at);
     float spacing = nextafterf(far, INFINITY) - far; // of floats at the farthest coordinate
     if (scene->usable_count > 0 && spacing > extent * 1e-4f) {
         alpi_warn(scene->context, "precision", scene->name,
@@ -307,6 +308,7 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .unit_stated = !scene->unit_assumed,
         .up_axis = scene->up_axis,
     };
+    memcpy(info.origin, scene->origin, sizeof info.origin);
     vec3_store(info.bounds_min, scene->bounds_min);
     vec3_store(info.bounds_max, scene->bounds_max);
     return info;

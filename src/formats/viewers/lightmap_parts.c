@@ -242,6 +242,19 @@ void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t co
     }
 }
 
+void alpi_lightmap_print_point(alpi_bytes *text, const alp_scene *scene, const float point[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double origin = scene->origin[k];
+        alpi_bytes_print(text, "%s", k > 0 ? "," : "");
+        if (origin != 0.0) {
+            alpi_bytes_number(text, origin + (double)point[k], 17);
+        } else {
+            alpi_bytes_float(text, point[k]);
+        }
+    }
+}
+
 void alpi_lightmap_print_float(alpi_bytes *text, const char *name, float value)
 {
     alpi_bytes_print(text, ",\"%s\":", name);
