@@ -320,11 +320,26 @@ static alp_result build(builder *b, const uint32_t *scene_materials)
                                                           : result;
 }
 
+static void note_materials(const alpi_obj *o)
+{
+    uint32_t without = 0;
+    for (uint32_t s = 0; s < o->surface_count; s++) {
+        without += o->surfaces[s].material == ALPI_NONE;
+    }
+    if (without > 0) {
+        alpi_note(o->context, "no-material", o->path,
+                  "surfaces without a material, read as a grey of albedo 0.5: %u", without);
+    }
+}
+
 alp_result alpi_obj_fill_meshes(const alpi_obj *obj, const uint32_t *scene_materials,
                                 alp_scene *scene)
 {
     builder b = {.obj = obj, .scene = scene, .scratch = {.context = obj->context}};
     alp_result result = build(&b, scene_materials);
+    if (result == ALP_OK) {
+        note_materials(obj);
+    }
     if (result == ALP_OK && scene->triangle_count == 0) {
         alpi_warn(obj->context, "no-triangles", obj->path,
                   "%u vertices, but no faces: there is nothing to bake", obj->position_count);
