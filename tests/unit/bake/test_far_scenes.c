@@ -81,13 +81,17 @@ static const char *write_dae(const double node[3], const double array[3])
     for (int t = 0; t < TRIANGLES; t++) {
         alpi_bytes_print(&text, " %u %u %u", triangles[t][0], triangles[t][1], triangles[t][2]);
     }
-    alpi_bytes_print(&text,
-                     "</p></triangles></mesh></geometry></library_geometries>"
-                     "<library_visual_scenes><visual_scene id='s'><node><translate>%.2f %.2f %.2f"
-                     "</translate><instance_geometry url='#g'/></node></visual_scene>"
-                     "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
-                     "</COLLADA>",
-                     node[0], node[1], node[2]);
+    alpi_bytes_print(
+        &text,
+        "</p></triangles></mesh></geometry></library_geometries>"
+        "<library_cameras><camera id='c'><optics><technique_common><perspective>"
+        "<yfov>40</yfov></perspective></technique_common></optics></camera>"
+        "</library_cameras>"
+        "<library_visual_scenes><visual_scene id='s'><node><translate>%.2f %.2f %.2f"
+        "</translate><instance_geometry url='#g'/><instance_camera url='#c'/></node></visual_scene>"
+        "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+        "</COLLADA>",
+        node[0], node[1], node[2]);
     return write_text(test_folder(), "scene.dae", &text);
 }
 
@@ -260,20 +264,26 @@ TEST(an_obj_keeps_its_digits)
     alp_scene_destroy(scene);
 }
 
-/// What has no file of its own kind is written with a transform, and read again in the same place.
-TEST(an_obj_as_gltf)
+/// What has no file of its own kind is written with transforms, and read again in the same place.
+TEST(other_files_as_gltf)
 {
     const char *output = test_path(test_folder(), "baked.glb");
-    alp_scene *scene = test_load(context, write_obj(FAR));
-    const double mean = mean_of(scene, 64, output);
-    alp_scene *again = test_load(context, output);
-    for (int k = 0; k < 3; k++) {
-        assert_true(again->origin[k] == scene->origin[k]);
+    for (int dae = 0; dae < 2; dae++) {
+        alp_scene *scene = test_load(context, dae ? write_dae(FAR, NEAR) : write_obj(FAR));
+        const double mean = mean_of(scene, 64, output);
+        alp_scene *again = test_load(context, output);
+        for (int k = 0; k < 3; k++) {
+            assert_true(again->origin[k] == scene->origin[k]);
+        }
+        check_places(again, FAR);
+        assert_int_equal(again->camera_count, dae);
+        for (int k = 0; dae && k < 3; k++) {
+            ASSERT_NEAR(again->origin[k] + (double)again->cameras[0].position[k], FAR[k], 1e-6);
+        }
+        ASSERT_NEAR(mean_of(again, 64, NULL), mean, 1e-3);
+        alp_scene_destroy(again);
+        alp_scene_destroy(scene);
     }
-    check_places(again, FAR);
-    ASSERT_NEAR(mean_of(again, 64, NULL), mean, 1e-3);
-    alp_scene_destroy(again);
-    alp_scene_destroy(scene);
 }
 
 TEST(viewers_get_a_transform)

@@ -347,14 +347,13 @@ static void print_matrix(const exporter *e, alpi_bytes *text, vec3 position, vec
 {
     float m[16];
     alpi_look_matrix(position, forward, up, m);
-    print_numbers(text, "matrix", m, 12);
-    text->size -= text->failed ? 0 : 1; // the bracket
-    for (int k = 0; k < 3; k++) {
-        const double origin = e->scene->origin[k];
-        alpi_bytes_print(text, ",");
-        alpi_bytes_number(text, origin + (double)m[12 + k], origin != 0.0 ? 17 : 9);
+    alpi_bytes_print(text, "\"matrix\":[");
+    for (int i = 0; i < 16; i++) {
+        const double origin = i >= 12 && i < 15 ? e->scene->origin[i - 12] : 0.0;
+        alpi_bytes_print(text, "%s", i > 0 ? "," : "");
+        alpi_bytes_number(text, origin + (double)m[i], origin != 0.0 ? 17 : 9);
     }
-    alpi_bytes_print(text, ",1]");
+    alpi_bytes_print(text, "]");
 }
 
 static void add_camera(exporter *e, const alp_camera *camera)
