@@ -530,7 +530,7 @@ static alp_result move_to_origin(plan *p)
         }
         reader->posing = 0; // once more, within the same limit
         scene->rounded_at = 0.0f;
-        for (uint32_t i = 0; i < scene->surface_count; i++) {
+        for (uint32_t i = 0; p->parts != NULL && i < scene->surface_count; i++) {
             alpi_origin_note_rounding(scene, world_of(p, &p->parts[i]));
             ALP_TRY(fill_positions(p, &p->parts[i], &scene->surfaces[i]));
             ALP_TRY(fill_normals(p, &p->parts[i], &scene->surfaces[i]));
