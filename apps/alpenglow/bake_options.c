@@ -220,6 +220,9 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
     const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
     const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
+    if (values[OPTION_METALS].given && !light && !bleed) {
+        return usage_error(COMMAND_BAKE, "--metals: needs --maps light or --ao-bleed");
+    }
     if ((sh || direction) && !light) {
         return usage_error(COMMAND_BAKE, "--maps %s: needs light; give --maps light,%s",
                            sh ? "sh" : "direction", sh ? "sh" : "direction");

@@ -54,8 +54,9 @@ typedef enum alp_lightmap_as {
     ALP_LIGHTMAP_AS_EXTRAS,
     /// Instead of an asset: a three.js Object JSON (`output` ends in .json) for ObjectLoader, r155
     /// or later. Surfaces are in world space with MeshLambertMaterial, whose colour has 8 bits of
-    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file,
-    /// textures of metalness (lightmap-metal) and occlusion are left out.
+    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file
+    /// and textures of occlusion are left out; if metals are black, so are textures of metalness
+    /// (lightmap-metal).
     ALP_LIGHTMAP_AS_THREE,
     /// Instead of an asset: a .babylon file. Its light is E/π in Radiance pictures beside it,
     /// OUT.hdr, OUT.1.hdr …, of at least 8 × 8 texels. Materials are PBRMaterial with
@@ -388,10 +389,11 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// @param options  NULL = defaults
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0, because the caller loaded the scene
-/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; a pattern
-///         without a match: the message has the names); INVALID_DATA (nothing to bake, or a second
-///         UV set that cannot be kept); UNSUPPORTED (an output of another format, or one without a
-///         place for these maps); LIMIT; IO; OUT_OF_MEMORY; CANCELLED
+/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; ALP_MAP_LIGHT
+///         of a scene without lamp, emission and sky; a pattern without a match: the message has
+///         the names); INVALID_DATA (nothing to bake, or a second UV set that cannot be kept);
+///         UNSUPPORTED (an output of another format, or one without a place for these maps);
+///         LIMIT; IO; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

@@ -32,6 +32,7 @@ alp_bake_options alp_bake_options_default(void)
 static alp_result run(alpi_bake_job *job)
 {
     ALP_TRY(alpi_bake_check(job));
+    ALP_TRY(alpi_bake_check_lit(job));
     ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);

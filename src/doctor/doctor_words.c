@@ -107,7 +107,7 @@ static const alpi_finding_words words[] = {
      "largest albedo in use)",
      "use 0.8 for white paint, 0.9 for snow"},
     {ALP_FINDING_METAL, ALP_SEVERITY_WARNING, "metal",
-     "black in a light bake: a metal has no diffuse colour and bounces nothing",
+     "black where a viewer multiplies a light map by the diffuse colour, which metals lack",
      "set metallicFactor to 0 on other materials; without one, glTF assumes 1"},
     {ALP_FINDING_IMAGE, ALP_SEVERITY_WARNING, "image",
      "the material without this texture: plain colours in bounced light, no holes, no glow",
@@ -123,7 +123,7 @@ static const alpi_finding_words words[] = {
      "leave such helpers out of the export, or out of the bake with --only"},
 
     {ALP_FINDING_NO_LIGHT, ALP_SEVERITY_NOTE, "no-light",
-     "black with --maps light; occlusion needs no lights",
+     "--maps light refuses the scene; occlusion needs no lights",
      "for light, give one: --sky, --sun, --lamp"},
     {ALP_FINDING_LIGHT_INSIDE, ALP_SEVERITY_WARNING, "light-inside",
      "the lamp lights nothing, and the room stays dark",

@@ -96,6 +96,11 @@ struct alp_scene {
     alp_context *context;
     char *name; // path or "builtin:…", for messages
 
+    /// Of positions, lights, cameras and bounds, in metres: file = origin + scene. 0 unless the
+    /// file's coordinates are far (origin.h).
+    double origin[3];
+    float rounded_at; // metres: largest coordinate that a far file holds as a float, else 0
+
     // Vertices, world space. A primitive without normals has three vertices of its own per
     // triangle.
     uint32_t vertex_count;
@@ -129,6 +134,7 @@ struct alp_scene {
 
     double unit_metres; // of one unit of the file, by which its lengths were multiplied
     bool unit_assumed;  // the file does not say it: metres were taken
+    bool metals_black;  // ALP_METALS_BLACK
     char up_axis;       // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
@@ -197,7 +203,13 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 
 /// Metalness: metallic × texture; 0 without a material.
 float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2);
-/// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
+/// The share of its base colour that a material of this metalness reflects: alp_scene_set_metals.
+static inline float alpi_scene_diffuse_share(const alp_scene *scene, float metallic)
+{
+    return scene->metals_black ? 1.0f - metallic : 1.0f;
+}
+/// Diffuse albedo ρ, clamped to [0, .95]: base colour, × (1 − metallic) where metals are black; .5
+/// without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
 /// A place on a triangle: barycentric weights of corners 1 and 2.

@@ -331,15 +331,22 @@ TEST(single_sided_walls_are_black_from_behind)
     alp_scene_destroy(scene);
 }
 
-TEST(without_light_all_is_black)
+TEST(without_light_pictures_are_refused)
 {
-    static picture pixels;
+    static const alp_render_method methods[] = {ALP_RENDER_REFERENCE, ALP_RENDER_RADIOSITY,
+                                                ALP_RENDER_HEMICUBE};
     alp_scene *scene = make_box(true, false, true);
-    const alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
-    draw(scene, o, pixels, NULL);
-    assert_black(pixels, 1.0f);
-    draw_lightmap(scene, 32, o, pixels);
-    assert_black(pixels, 1.0f);
+    alp_render_options o = options_of(ALP_RENDER_REFERENCE, 1);
+    alp_image *image = NULL;
+    for (int i = 0; i < 3; i++) {
+        o.method = methods[i];
+        assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_INVALID_ARGUMENT);
+        assert_null(image);
+        assert_non_null(strstr(alp_context_message(context), "--sky 1,1,1"));
+    }
+    o.hemicube_show = ALP_HEMICUBE_WEIGHT; // a picture of multipliers needs no light
+    ASSERT_OK(context, alp_render(scene, &o, &image));
+    alp_image_destroy(image);
     alp_scene_destroy(scene);
 }
 
