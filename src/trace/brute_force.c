@@ -3,6 +3,8 @@
 // Based on: Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. JGT 2(1), 1997.
 #include "trace/trace.h"
 
+#include "scene/sides.h"
+
 typedef struct vec3d {
     double x, y, z;
 } vec3d;
@@ -90,7 +92,8 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
                 hits->triangle[i] = t;
                 hits->b1[i] = (float)h.b1;
                 hits->b2[i] = (float)h.b2;
-                hits->behind = (hits->behind & ~(1u << i)) | (h.from_behind ? 1u << i : 0u);
+                const bool behind = h.from_behind != alpi_sides_is_turned(scene, t);
+                hits->behind = (hits->behind & ~(1u << i)) | (behind ? 1u << i : 0u);
             }
         }
     }

@@ -2,6 +2,8 @@
 // Packets of rays through Embree 3.
 #include "trace/embree.h"
 
+#include "scene/sides.h"
+
 #include <assert.h>
 #include <stddef.h>
 #include <string.h>
@@ -208,6 +210,18 @@ __attribute__((noinline)) static void take_all(uint32_t first, const found_lanes
     hits->behind = find_behind(found) & hit_lanes;
 }
 
+/// Exchanges front and back of hits on solids that are wound inwards.
+static void turn_over(const alpi_tracer *tracer, uint32_t active, alpi_hits *hits)
+{
+    for (; active != 0; active &= active - 1) {
+        const int i = __builtin_ctz(active);
+        if (hits->triangle[i] != ALPI_NONE &&
+            alpi_sides_is_turned(tracer->scene, hits->triangle[i])) {
+            hits->behind ^= 1u << i;
+        }
+    }
+}
+
 /// Whether all its triangles are solid, and one after the other in the scene too.
 static bool is_in_row(const alpi_tracer *tracer)
 {
@@ -249,6 +263,9 @@ static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint
     } else {
         take_some(tracer, &lanes, active, hits);
     }
+    if (tracer->scene->sides != NULL) {
+        turn_over(tracer, active, hits);
+    }
 }
 
 /// Packets of which all lanes take part, two at a time, laid out as trace_shadow_pairs does.
@@ -272,6 +289,9 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
             take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], &lanes, &hits[i]);
         } else {
             take_some(tracer, &lanes, ALL_LANES, &hits[i]);
+        }
+        if (tracer->scene->sides != NULL) {
+            turn_over(tracer, ALL_LANES, &hits[i]);
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include "base/tasks.h"
 #include "scene/double3.h"
+#include "scene/sides.h"
 
 #include <math.h>
 
@@ -14,7 +15,7 @@ static const double LEAST_COSINE = 0.1; // between a normal and the mean of both
 
 /// One side of a seam: a place on the edge of its triangle.
 typedef struct side {
-    double3 place, inward, normal; // metres; unit
+    double3 place, inward, normal; // metres; unit, of the side that the map holds
     double reach;                  // metres inward
     double rounding;               // metres: how far above the surface a ray must start
 } side;
@@ -49,7 +50,8 @@ static side make_side(const alp_scene *scene, uint32_t half_edge, double share, 
         find_room(inward, along, share * length, (1.0 - share) * length, double3_sub(third, place));
     vec3 c[3];
     alpi_triangle_corners(scene, half_edge / 3, c);
-    return (side){place, inward, normal, fmin(REACH * texel, DEPTH * room),
+    const double3 seen = double3_from(alpi_sides_normal(scene, half_edge / 3));
+    return (side){place, inward, seen, fmin(REACH * texel, DEPTH * room),
                   (double)alpi_receiver_offset(double3_to_vec3(place), c)};
 }
 
