@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Solids wound inwards, by their signed volumes. What holds what is told by winding numbers: sums
-// of the solid angles of a solid's triangles, seen from a point, over 4π. Based on: A. Van
-// Oosterom, J. Strackee. The Solid Angle of a Plane Triangle. IEEE Transactions on
+// Solids wound inwards, by their signed volumes. Winding numbers tell which part holds which: sums
+// of the solid angles of a solid's triangles, seen from a point, over 4π.
+//
+// Based on: A. Van Oosterom, J. Strackee. The Solid Angle of a Plane Triangle. IEEE Transactions on
 //           Biomedical Engineering 30(2), 1983.
 #include "scene/sides.h"
 

@@ -10,7 +10,7 @@ enum { WINDOW = 4 };   // samples along the seam on each side: two texels
 enum { SHORTEST = 8 }; // samples of a pair of edges that can be judged: four texels
 static const double NOISE_LIMIT = 6.0, MEDIAN_LIMIT = 8.0, CHANGE_LIMIT = 4.0;
 
-/// What a sample's sides read, means of the channels.
+/// Values that a sample reads on both sides, means of the channels.
 typedef struct reading {
     float sides[2];
     float difference; // absolute; of colours the mean of the channels
