@@ -114,8 +114,8 @@ struct alp_scene {
     uint32_t (*triangles)[3];   // indices into the vertices
     uint32_t *triangle_surface; // surface of each
     bool *triangle_usable;      // finite, |coordinate| ≤ ALPI_COORDINATE_LIMIT, area > 0
+    alpi_sides *sides;          // NULL: maps hold the fronts of all triangles
     uint32_t usable_count;
-    alpi_sides *sides; // NULL: maps hold the fronts of all triangles
 
     uint32_t surface_count;
     alpi_surface *surfaces;
