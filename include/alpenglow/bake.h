@@ -243,9 +243,11 @@ typedef struct alp_bake_options {
     /// ALP_ATLAS_VERTEX. Default false.
     bool ao_self;
     /// true: changes values beside seams of every map, by least squares, so that both sides agree.
-    /// A change stays near the standard error, unless the seam itself proves a larger one. All
-    /// other values keep their bits; layers still add up. ALP_ATLAS_VERTEX ignores it. Default
-    /// true. Based on: M. Iwanicki. Lighting Technology of The Last of Us. SIGGRAPH 2013 talks.
+    /// Places where light jumps far beyond noise, the rest of the seam and all change along it keep
+    /// their values. A change stays near the standard error, unless the seam itself proves a larger
+    /// one. All other values keep their bits; layers still add up. ALP_ATLAS_VERTEX ignores it.
+    /// Default true. Based on: M. Iwanicki. Lighting Technology of The Last of Us. SIGGRAPH 2013
+    /// talks.
     bool stitch;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Names of the surfaces that get a map: patterns with commas between. NULL (default) = all.
@@ -308,7 +310,8 @@ typedef struct alp_seam_error {
 
 /// Seams: edges of triangles across which a surface continues but reads other texels, within one
 /// object or between two. Shading normals that differ by more than 3° make no seam, because light
-/// itself has a step there. Edges must meet within a tenth of a texel.
+/// itself has a step there. Nor do places where a wall or another thing stands within a texel of
+/// the edge. Edges must meet within a tenth of a texel.
 typedef struct alp_seam_report {
     uint32_t count; ///< pairs of edges of triangles; 0 with ALP_ATLAS_VERTEX
     double length;  ///< metres

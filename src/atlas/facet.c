@@ -6,6 +6,8 @@
 // Based on: J. Hanika. Hacking the Shadow Terminator. Ray Tracing Gems II, chapter 4, 2021.
 #include "atlas/facet.h"
 
+#include "scene/sides.h"
+
 #include <math.h>
 
 // Corner normals this near (their distance, squared) to the geometric one are the geometric one.
@@ -53,7 +55,7 @@ static float find_offset(const alpi_facet *f, const vec3 corner[3])
     return alpi_receiver_offset(vec3_load(largest), NULL);
 }
 
-static void load_shape(alpi_facet *f, const vec3 corner[3])
+static void load_shape(alpi_facet *f, const vec3 corner[3], vec3 normal)
 {
     const vec3 first = corner[0];
     const double base[3] = {(double)first.x, (double)first.y, (double)first.z};
@@ -66,7 +68,7 @@ static void load_shape(alpi_facet *f, const vec3 corner[3])
         f->edges[k][1] = (double)end.y - base[1];
         f->edges[k][2] = (double)end.z - base[2];
     }
-    f->geometric = vec3_triangle_normal(corner[0], corner[1], corner[2], (vec3){0.0f, 1.0f, 0.0f});
+    f->geometric = normal;
     f->offset = find_offset(f, corner);
 }
 
@@ -116,15 +118,15 @@ static void load_lift(alpi_facet *f, const vec3 corner[3])
 
 void alpi_facet_load(const alp_scene *scene, uint32_t triangle, bool lift, alpi_facet *facet)
 {
-    vec3 corner[3];
+    vec3 corner[3], normals[3];
     alpi_triangle_corners(scene, triangle, corner);
-    load_shape(facet, corner);
+    alpi_sides_corner_normals(scene, triangle, normals);
+    load_shape(facet, corner, alpi_sides_normal(scene, triangle));
     facet->smooth = facet->lifted = false;
     for (int k = 0; k < 3; k++) {
-        const float *normal = scene->normals[scene->triangles[triangle][k]];
-        const vec3 apart = vec3_sub(vec3_load(normal), facet->geometric);
+        const vec3 apart = vec3_sub(normals[k], facet->geometric);
         facet->smooth = facet->smooth || vec3_dot(apart, apart) > SAME_NORMAL;
-        vec3_store(facet->normals[k], vec3_load(normal));
+        vec3_store(facet->normals[k], normals[k]);
     }
     if (facet->smooth && lift) {
         load_lift(facet, corner);

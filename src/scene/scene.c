@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/area_points.h"
+#include "scene/sides.h"
 #include "scene/viewpoints.h"
 
 #include <math.h>
@@ -54,6 +55,7 @@ void alp_scene_destroy(alp_scene *scene)
     for (int i = 0; i < ALPI_UV_SLOT_COUNT; i++) {
         alpi_release(context, scene->uvs[i]);
     }
+    alpi_sides_destroy(context, scene->sides);
     void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,
                             scene->vertex_source,   scene->triangles, scene->triangle_surface,
                             scene->triangle_usable, scene->surfaces,  scene->materials,
@@ -277,7 +279,7 @@ alp_result alpi_scene_finish(alp_scene *scene)
     clamp_materials(scene);
     warn_of_metal(scene);
     warn_of_precision(scene);
-    return ALP_OK;
+    return alpi_sides_create(scene);
 }
 
 void alp_scene_set_metals(alp_scene *scene, alp_metals metals)

@@ -92,6 +92,9 @@ typedef enum alpi_attachment_kind {
     ALPI_ATTACHMENT_COUNT
 } alpi_attachment_kind;
 
+/// Solids that are wound inwards, see sides.h.
+typedef struct alpi_sides alpi_sides;
+
 struct alp_scene {
     alp_context *context;
     char *name; // path or "builtin:…", for messages
@@ -116,6 +119,7 @@ struct alp_scene {
     uint32_t (*triangles)[3];   // indices into the vertices
     uint32_t *triangle_surface; // surface of each
     bool *triangle_usable;      // finite, |coordinate| ≤ ALPI_COORDINATE_LIMIT, area > 0
+    alpi_sides *sides;          // NULL: maps hold the fronts of all triangles
     uint32_t usable_count;
 
     uint32_t surface_count;
@@ -151,7 +155,9 @@ alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene *
 /// Checks and completes a filled scene: marks usable triangles, replaces normals that are zero or
 /// not finite by the triangle's, clamps material values, computes bounds and area, warns of what is
 /// odd (counts and names). Non-finite positions are set to 0 and their triangles made unusable.
-/// @return ALP_OK; INVALID_DATA (an index out of range: a programming error of the reader)
+/// Finds solids that are wound inwards.
+/// @return ALP_OK; INVALID_DATA (an index out of range: a programming error of the reader);
+///         OUT_OF_MEMORY; CANCELLED
 alp_result alpi_scene_finish(alp_scene *scene);
 
 /// A material with glTF's defaults except metallic 0, named `name`.

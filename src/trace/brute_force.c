@@ -3,6 +3,8 @@
 // Based on: Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. JGT 2(1), 1997.
 #include "trace/trace.h"
 
+#include "scene/sides.h"
+
 typedef struct vec3d {
     double x, y, z;
 } vec3d;
@@ -131,6 +133,7 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
         hits->distance[i] = met ? (float)h.distance : INFINITY;
         hits->b1[i] = met ? (float)h.b1 : 0.0f;
         hits->b2[i] = met ? (float)h.b2 : 0.0f;
-        hits->behind = (hits->behind & ~(1u << i)) | (met && h.from_behind ? 1u << i : 0u);
+        const bool behind = met && h.from_behind != alpi_sides_is_turned(scene, triangle);
+        hits->behind = (hits->behind & ~(1u << i)) | (behind ? 1u << i : 0u);
     }
 }

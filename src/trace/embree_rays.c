@@ -2,6 +2,8 @@
 // Packets of rays through Embree 3.
 #include "trace/embree.h"
 
+#include "scene/sides.h"
+
 #include <assert.h>
 #include <stddef.h>
 #include <string.h>
@@ -208,6 +210,18 @@ __attribute__((noinline)) static void take_all(uint32_t first, const found_lanes
     hits->behind = find_behind(found) & hit_lanes;
 }
 
+/// Exchanges front and back of hits on solids that are wound inwards.
+static void turn_over(const alpi_tracer *tracer, uint32_t active, alpi_hits *hits)
+{
+    for (; active != 0; active &= active - 1) {
+        const int i = __builtin_ctz(active);
+        if (hits->triangle[i] != ALPI_NONE &&
+            alpi_sides_is_turned(tracer->scene, hits->triangle[i])) {
+            hits->behind ^= 1u << i;
+        }
+    }
+}
+
 /// Whether all its triangles are solid, and one after the other in the scene too.
 static bool is_in_row(const alpi_tracer *tracer)
 {
@@ -288,6 +302,9 @@ static void take(const alpi_tracer *tracer, const alpi_rays *rays, const found_l
         take_some(tracer, lanes, active, hits);
     }
     prefer_fronts(tracer, rays, lanes, active, context, hits);
+    if (tracer->scene->sides != NULL) {
+        turn_over(tracer, active, hits);
+    }
 }
 
 static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,

@@ -411,6 +411,43 @@ TEST_WITH_CONTEXT(chosen_surfaces_alone_are_hit, 1)
     alp_scene_destroy(scene);
 }
 
+/// Solids that are wound inwards have their fronts outside, as scene/sides.h says.
+TEST_WITH_CONTEXT(sides_of_a_solid_wound_inwards, 1)
+{
+    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t outwards[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    static const uint32_t inwards[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    for (int k = 0; k < 2; k++) {
+        const alp_mesh mesh = {.positions = &corners[0][0],
+                               .indices = k == 0 ? &outwards[0][0] : &inwards[0][0],
+                               .vertex_count = 4,
+                               .triangle_count = 4,
+                               .double_sided = true,
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+        alp_scene *scene = NULL;
+        alpi_tracer *tracer = NULL;
+        alpi_rays rays;
+        alpi_hits fast[3], slow;
+        ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+        ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+        alpi_rays_clear(&rays);
+        for (int i = 0; i < ALPI_PACKET; i++) { // the first half from inside
+            const float x = i < 4 ? 0.1f : -1.0f, y = 0.1f + 0.03f * (float)i;
+            alpi_rays_set(&rays, i, (vec3){x, y, 0.1f}, (vec3){1.0f, 0.0f, 0.0f}, INFINITY);
+        }
+        alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &fast[0]);
+        const alpi_rays *const pair[2] = {&rays, &rays};
+        const uint32_t active[2] = {0xffu, 0xffu};
+        alpi_trace_nearest_coherent_many(tracer, pair, active, 2, (alpi_trace_filter){0}, &fast[1]);
+        alpi_brute_force_nearest(scene, &rays, 0xffu, (alpi_trace_filter){0}, &slow);
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(fast[i].behind, 0x0fu);
+            same_hits(&fast[i], &slow, 0xffu);
+        }
+        alp_scene_destroy(scene);
+    }
+}
+
 TEST_WITH_CONTEXT(an_empty_scene_is_never_hit, 1)
 {
     test_mesh *mesh = test_mesh_start();
