@@ -293,6 +293,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
         o->light.bounces > 0) {
         const bool till_time = s->time_limit > 0.0 && !(s->error > 0.0f);
         o->light.error = s->error > 0.0f ? s->error : till_time ? 0.0f : 0.01f;
+        o->light.bounded = s->error == 0.0f && !till_time;
         o->light.samples = till_time ? MOST_SAMPLES : o->light.samples;
     }
     if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {

@@ -131,7 +131,7 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
     }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
     print_stated_error(r->light_relative_error, r->light_p99_error,
-                       r->light_scale > r->light_mean ? "the light that leaves the surfaces"
+                       r->light_scale > r->light_mean ? "the light that the surfaces emit"
                                                       : "the mean");
     const alp_light_energy *e = &r->light_energy;
     if (r->light_passes > 0 && e->known) {

@@ -153,13 +153,18 @@ typedef struct alp_light_options {
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< at most; 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map, which
-    /// counts as at least a hundredth of the light that leaves the surfaces, π Le + ρ E. The 99th
-    /// percentile of texels' errors must be at most four times as much. Rounds of more and more
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. The mean
+    /// counts as more where surfaces emit more than 1,500 times of it: see
+    /// alp_bake_report.light_scale. The 99th percentile of texels' errors must be at most four times
+    /// as much. Rounds of more and more
     /// samples run until both are reached; the last are for the texels with the largest errors.
     /// 0 (default): `samples` in one round; with a time_limit or keep_partial in rounds that
     /// double.
     float error;
+    /// With an error: rays of the light are limited too, by a number that depends on triangles and
+    /// texels alone: 1,024 a texel of at least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles. The
+    /// bake then ends with the error that it has (ray-limit). Default false.
+    bool bounded;
     /// [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple of 32. PATHS: paths
     /// of a texel, to a multiple of 16. Without bounces: rays to each light, to a multiple of 8.
     /// HEMICUBE ignores it.
@@ -336,8 +341,8 @@ typedef struct alp_bake_report {
     bool light_direct; ///< ALP_MAP_LIGHT without bounces
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
-    /// Light that the errors below are relative to, W·m⁻²: light_mean, or, where that is less than a
-    /// hundredth of it, the mean of π times the radiance that leaves the surfaces, π Le + ρ E.
+    /// Light that the errors below are relative to, W·m⁻²: E + max(0, M − 1500 E) for E = light_mean
+    /// and M the root mean square over texels of π times the radiance that surfaces emit.
     double light_scale;
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_scale. NaN in the dark, and for hemicubes, which have no estimate.
@@ -345,6 +350,7 @@ typedef struct alp_bake_report {
     uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
     uint32_t light_passes;                     ///< of radiosity, one for each bounce; else 0
     uint32_t light_rounds;                     ///< of radiosity, rounds of texels' rays; else 0
+    bool light_bounded; ///< the limit of rays ended light before its error, see `bounded`
     /// Mean change of the light in each of the first 64 passes, over its mean.
     float light_changes[64];
     alp_light_energy light_energy;

@@ -98,7 +98,7 @@ static void put_light(alpi_page *page, const alp_bake_report *r)
     alpi_page_format(page, "<dt>Mean irradiance</dt><dd>%s W/m²</dd>\n",
                      alpi_significant(r->light_mean, 4).text);
     put_error(page, "Stated error of irradiance", r->light_relative_error, r->light_p99_error,
-              r->light_scale > r->light_mean ? "the light that leaves the surfaces" : "the mean");
+              r->light_scale > r->light_mean ? "the light that the surfaces emit" : "the mean");
 }
 
 /// Where the light goes, in watts.

@@ -57,10 +57,9 @@ static alp_result take_values(alpi_bake_job *job, const alpi_light_task *task)
     const bool told = !is_by_hemicubes(job);
     alp_bake_report *r = &job->report;
     r->light_mean = error.mean;
-    r->light_scale = error.scale > error.mean ? alpi_light_leaving(task, error.mean) : error.mean;
-    const double share = r->light_scale > 0.0 ? error.scale / r->light_scale : 1.0;
-    r->light_relative_error = told ? error.over_scale.rms * share : (double)NAN;
-    r->light_p99_error = told ? error.over_scale.p99 * share : (double)NAN;
+    r->light_scale = error.scale;
+    r->light_relative_error = told ? error.over_scale.rms : (double)NAN;
+    r->light_p99_error = told ? error.over_scale.p99 : (double)NAN;
     return ALP_OK;
 }
 
@@ -82,9 +81,7 @@ static void sum_emission(const void *user, uint32_t begin, uint32_t end,
         const vec3 up = {0.0f, 1.0f, 0.0f};
         const vec3 emission = alpi_surface_emission(job->scene, triangle, b[0], b[1],
                                                     vec3_triangle_normal(c[0], c[1], c[2], up));
-        const vec3 albedo = alpi_surface_albedo(job->scene, triangle, b[0], b[1]);
-        sums[0] += (double)emission.x + (double)emission.y + (double)emission.z;
-        sums[1] += (double)albedo.x + (double)albedo.y + (double)albedo.z;
+        sums[0] += (double)vec3_dot(emission, emission);
     }
 }
 
@@ -93,9 +90,7 @@ alp_result alpi_light_find_emission(const alpi_bake_job *job, alpi_light_task *t
     double sums[ALPI_SUM_LIMIT] = {0.0};
     const emission_job emission = {job->scene, &job->lightmap->texels, task->order};
     ALP_TRY(alpi_parallel_sum(job->context, task->count, sum_emission, &emission, NULL, sums));
-    const double all = 3.0 * fmax((double)task->count, 1.0);
-    task->emitted = ALPI_PI * sums[0] / all;
-    task->albedo = sums[1] / all;
+    task->emitted = ALPI_PI * sqrt(sums[0] / (3.0 * fmax((double)task->count, 1.0)));
     return ALP_OK;
 }
 

@@ -30,6 +30,7 @@ typedef struct alpi_light_round_state {
     uint32_t *rays_of;       // [texels] of each
     alpi_light_worst worst;  // rays of this round: of the list; count 0: of all
     uint32_t number;         // of the round
+    double ray_limit;        // rays that light may take
     uint32_t most_rays;      // of any texel so far
     float factor;            // alpi_bounced_report, of the last round of all texels
     double sending;          // texels that send rays in a round of all; a guess before there is one
