@@ -125,7 +125,7 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
             (double)rays->maximum[i]};
         hit h;
         uint32_t triangle = find_nearest(scene, &r, filter, false, &h);
-        if (triangle != ALPI_NONE && h.from_behind) {
+        if (triangle != ALPI_NONE && h.from_behind && !filter.backs) {
             triangle = find_front(scene, &r, filter, triangle, &h);
         }
         const bool met = triangle != ALPI_NONE;

@@ -36,6 +36,7 @@ typedef struct alpi_trace_context {
     struct RTCIntersectContext embree; // first: filters get its address
     const alpi_tracer *tracer;
     bool panes; // the caller sees to them
+    bool backs; // fronts are not met before backs in their place
 } alpi_trace_context;
 
 /// The scene's triangle of a hit.

@@ -10,7 +10,7 @@
 
 static alpi_trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
 {
-    alpi_trace_context context = {.tracer = tracer, .panes = filter.panes};
+    alpi_trace_context context = {.tracer = tracer, .panes = filter.panes, .backs = filter.backs};
     rtcInitIntersectContext(&context.embree);
     context.embree.filter = filter.one_sided ? alpi_embree_one_sided_filter : NULL;
     return context;
@@ -263,7 +263,7 @@ static void prefer_fronts(const alpi_tracer *tracer, const alpi_rays *rays,
                           const found_lanes *lanes, uint32_t active, alpi_trace_context *context,
                           alpi_hits *hits)
 {
-    const uint32_t behind = hits->behind & active;
+    const uint32_t behind = context->backs ? 0 : hits->behind & active;
     if (behind == 0) {
         return;
     }

@@ -104,6 +104,7 @@ typedef struct alpi_trace_filter {
     bool panes; // the caller sees to panes (alpi_surface_is_pane): they do not stop shadow rays,
                 // and meet other rays whatever their alpha. Else BLEND is cut at one half and
                 // transmission opaque
+    bool backs; // a back is met even where a front lies in its place (alpi_trace_place)
     bool quick; // rays of random directions that are only asked whether they are blocked: one that
                 // meets the edge between two triangles may slip through. For a job of which
                 // alpi_tracer_quicken says so, no other

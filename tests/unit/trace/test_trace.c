@@ -192,6 +192,8 @@ TEST(fronts_are_met_before_backs_in_one_place)
             alpi_rays rays;
             alpi_hits fast, slow;
             soup_rays(&rays, packet);
+            memset(&fast, 0, sizeof fast);
+            memset(&slow, 0, sizeof slow);
             alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &fast);
             alpi_brute_force_nearest(scene, &rays, 0xffu, (alpi_trace_filter){0}, &slow);
             assert_int_equal(fast.behind, 0);
@@ -226,6 +228,7 @@ TEST(only_fronts_in_the_same_place_count)
             alpi_rays rays;
             alpi_hits hits;
             soup_rays(&rays, packet);
+            memset(&hits, 0, sizeof hits);
             alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
             for (int i = 0; i < ALPI_PACKET; i++) {
                 met += hits.triangle[i] != ALPI_NONE;

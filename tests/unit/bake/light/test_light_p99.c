@@ -152,7 +152,7 @@ TEST(worst_texels_are_found)
     }
     uint8_t between[TEXELS] = {0, 0, 0, 1, 0, 1};
     const uint32_t order[5] = {5, 4, 3, 1, 0}; // 2 has no light of its own
-    const alpi_light_error error = {.mean = 10.0};
+    const alpi_light_error error = {.mean = 10.0, .scale = 10.0};
     const alpi_light_whole w = {.values = whole, .bounced = bounced, .order = order, .count = 5};
     uint8_t marks[TEXELS];
     uint32_t list[5];
