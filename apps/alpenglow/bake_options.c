@@ -220,6 +220,9 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
     const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
     const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
+    if (values[OPTION_METALS].given && !light && !bleed) {
+        return usage_error(COMMAND_BAKE, "--metals: needs --maps light or --ao-bleed");
+    }
     if ((sh || direction) && !light) {
         return usage_error(COMMAND_BAKE, "--maps %s: needs light; give --maps light,%s",
                            sh ? "sh" : "direction", sh ? "sh" : "direction");
@@ -290,6 +293,7 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
         o->light.bounces > 0) {
         const bool till_time = s->time_limit > 0.0 && !(s->error > 0.0f);
         o->light.error = s->error > 0.0f ? s->error : till_time ? 0.0f : 0.01f;
+        o->light.bounded = s->error == 0.0f && !till_time;
         o->light.samples = till_time ? MOST_SAMPLES : o->light.samples;
     }
     if ((s->error > 0.0f || s->time_limit > 0.0) && !values[OPTION_AO_SAMPLES].given) {

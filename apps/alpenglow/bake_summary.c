@@ -69,12 +69,13 @@ static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
 }
 
 /// Ends the line of a map. @param p99 bound for 99 % of the standard errors
-static void print_stated_error(double relative, double p99)
+/// @param of what the errors are relative to
+static void print_stated_error(double relative, double p99, const char *of)
 {
     if (isfinite(relative)) {
         printf("; stated error ");
         print_percent(stdout, relative);
-        printf(" of the mean, 99 %% of the texels within ");
+        printf(" of %s, 99 %% of the texels within ", of);
         print_percent(stdout, p99);
         putchar('\n');
     } else {
@@ -108,7 +109,7 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (r->unknown > 0) {
         printf(", %llu without a value filled", (unsigned long long)r->unknown);
     }
-    print_stated_error(r->ao_relative_error, r->ao_p99_error);
+    print_stated_error(r->ao_relative_error, r->ao_p99_error, "the mean");
 }
 
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
@@ -129,7 +130,9 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
                100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
     }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
-    print_stated_error(r->light_relative_error, r->light_p99_error);
+    print_stated_error(r->light_relative_error, r->light_p99_error,
+                       r->light_scale > r->light_mean ? "the light that the surfaces emit"
+                                                      : "the mean");
     const alp_light_energy *e = &r->light_energy;
     if (r->light_passes > 0 && e->known) {
         printf(

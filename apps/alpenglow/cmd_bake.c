@@ -107,6 +107,7 @@ int command_bake(const command_line *a)
     }
     alp_image *sky = NULL;
     if (code == EXIT_DONE) {
+        lighting_place(&s, a, &lamps);
         code = lighting_load_sky(&s, a, &options.light.lighting, &sky);
     }
     if (code == EXIT_DONE) {

@@ -13,6 +13,19 @@
 /// Number of lamps, and of emissive surfaces, that text lists; JSON lists all.
 enum { LIGHTS_TOLD = 16 };
 
+static bool is_far(const alp_scene_info *i)
+{
+    return i->origin[0] != 0.0 || i->origin[1] != 0.0 || i->origin[2] != 0.0;
+}
+
+/// A point in the world of the file, with more digits where that is far away.
+static void print_point(const alp_scene_info *i, const float p[3])
+{
+    const double *o = i->origin;
+    printf(is_far(i) ? "%.10g %.10g %.10g" : "%g %g %g", o[0] + (double)p[0], o[1] + (double)p[1],
+           o[2] + (double)p[2]);
+}
+
 static void print_scene(const char *path, const alp_scene_info *i)
 {
     printf("scene      ");
@@ -22,8 +35,11 @@ static void print_scene(const char *path, const alp_scene_info *i)
            i->triangles, i->usable_triangles, i->vertices, i->surfaces, i->materials, i->images,
            i->lights, i->cameras);
     const float *low = i->bounds_min, *high = i->bounds_max;
-    printf("bounds     %g %g %g to %g %g %g m\n", (double)low[0], (double)low[1], (double)low[2],
-           (double)high[0], (double)high[1], (double)high[2]);
+    printf("bounds     ");
+    print_point(i, low);
+    printf(" to ");
+    print_point(i, high);
+    printf(" m\n");
     printf("size       %g x %g x %g m\n", (double)high[0] - (double)low[0],
            (double)high[1] - (double)low[1], (double)high[2] - (double)low[2]);
     printf("area       %.6g m2\n", i->area);
@@ -127,12 +143,14 @@ static void print_light_name(const alp_light_info *l, uint32_t index)
 }
 
 /// Position and direction of a light, as far as its kind has them.
-static void print_place(const alp_light_info *l, const alp_light_traits *traits)
+static void print_place(const alp_scene_info *info, const alp_light_info *l,
+                        const alp_light_traits *traits)
 {
     const double degrees = 180.0 / M_PI;
     if (traits->has_position) {
-        printf(", at %g %g %g m", (double)l->position[0], (double)l->position[1],
-               (double)l->position[2]);
+        printf(", at ");
+        print_point(info, l->position);
+        printf(" m");
     }
     if (traits->has_direction) {
         printf(", towards %g %g %g", (double)l->direction[0], (double)l->direction[1],
@@ -150,14 +168,14 @@ static void print_place(const alp_light_info *l, const alp_light_traits *traits)
     }
 }
 
-static void print_lamp(const alp_light_info *l, uint32_t index)
+static void print_lamp(const alp_scene_info *info, const alp_light_info *l, uint32_t index)
 {
     const alp_light_traits traits = alp_light_traits_of(l->kind);
     printf("light      ");
     print_light_name(l, index);
     printf(", %s: %g %s, colour %g %g %g", traits.name, (double)l->intensity, traits.unit,
            (double)l->color[0], (double)l->color[1], (double)l->color[2]);
-    print_place(l, &traits);
+    print_place(info, l, &traits);
     putchar('\n');
 }
 
@@ -192,7 +210,7 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     print_rest(emissive, "emissive surface");
     for (uint32_t i = 0; i < info->lights && i < LIGHTS_TOLD; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
-        print_lamp(&l, i);
+        print_lamp(info, &l, i);
     }
     print_rest(info->lights, "lamp");
     if (info->lights + emissive == 0) {
@@ -206,6 +224,14 @@ static json_t *make_vector(const float v[3])
                      json_number((double)v[2]));
 }
 
+/// A point in the world of the file.
+static json_t *make_point(const alp_scene_info *i, const float p[3])
+{
+    return json_pack("[o, o, o]", json_number(i->origin[0] + (double)p[0]),
+                     json_number(i->origin[1] + (double)p[1]),
+                     json_number(i->origin[2] + (double)p[2]));
+}
+
 static json_t *make_scene(const alp_scene *scene, const alp_scene_info *i)
 {
     return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:{s:o, s:o}, s:o, s:o}",
@@ -213,8 +239,8 @@ static json_t *make_scene(const alp_scene *scene, const alp_scene_info *i)
                      (json_int_t)i->usable_triangles, "vertices", (json_int_t)i->vertices,
                      "surfaces", (json_int_t)i->surfaces, "materials", (json_int_t)i->materials,
                      "images", (json_int_t)i->images, "lights", (json_int_t)i->lights, "cameras",
-                     (json_int_t)i->cameras, "bounds", "minimum", make_vector(i->bounds_min),
-                     "maximum", make_vector(i->bounds_max), "area", json_number(i->area), "unit",
+                     (json_int_t)i->cameras, "bounds", "minimum", make_point(i, i->bounds_min),
+                     "maximum", make_point(i, i->bounds_max), "area", json_number(i->area), "unit",
                      make_unit(scene, i));
 }
 
@@ -240,38 +266,39 @@ static json_t *make_angle(bool has, float radians)
     return has ? json_number((double)radians * 180.0 / M_PI) : json_null();
 }
 
-static json_t *make_light(const alp_light_info *l)
+static json_t *make_light(const alp_scene_info *info, const alp_light_info *l)
 {
     const alp_light_traits traits = alp_light_traits_of(l->kind);
     return json_pack("{s:o, s:s, s:o, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name",
                      json_text(l->name), "kind", traits.name, "intensity",
                      json_number((double)l->intensity), "unit", traits.unit, "color",
-                     make_vector(l->color), "position", make_vector(l->position), "direction",
+                     make_vector(l->color), "position", make_point(info, l->position), "direction",
                      make_vector(l->direction), "range", json_number((double)l->range),
                      "inner_cone_degrees", make_angle(traits.has_cone, l->inner_cone),
                      "outer_cone_degrees", make_angle(traits.has_cone, l->outer_cone),
                      "size_degrees", make_angle(traits.has_size, l->size));
 }
 
-static json_t *make_lights(const alp_scene *scene, uint32_t count)
+static json_t *make_lights(const alp_scene *scene, const alp_scene_info *info)
 {
     json_t *list = json_array();
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < info->lights; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
-        json_array_append_new(list, make_light(&l));
+        json_array_append_new(list, make_light(info, &l));
     }
     return list;
 }
 
-static json_t *make_cameras(const alp_scene *scene, uint32_t count)
+static json_t *make_cameras(const alp_scene *scene, const alp_scene_info *info)
 {
     json_t *list = json_array();
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < info->cameras; i++) {
         alp_camera c = alp_scene_get_camera(scene, i);
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:o}", "position", make_vector(c.position), "target",
-                            make_vector(c.target), "up", make_vector(c.up), "vertical_fov_degrees",
-                            json_number((double)c.vertical_fov * 180.0 / M_PI)));
+        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:o}", "position",
+                                              make_point(info, c.position), "target",
+                                              make_point(info, c.target), "up", make_vector(c.up),
+                                              "vertical_fov_degrees",
+                                              json_number((double)c.vertical_fov * 180.0 / M_PI)));
     }
     return list;
 }
@@ -283,9 +310,9 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
         "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version", alp_version(),
         "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao), "light",
         work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
-        make_lights(s->scene, info->lights), "cameras", make_cameras(s->scene, info->cameras),
-        "uv_sets", findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis),
-        "pictures", pictures, "warnings", report_warnings(&s->messages));
+        make_lights(s->scene, info), "cameras", make_cameras(s->scene, info), "uv_sets",
+        findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis), "pictures",
+        pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }

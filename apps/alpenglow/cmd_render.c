@@ -39,13 +39,14 @@ static bool read_numbers(const char *text, double *numbers, int count)
     return end != NULL && *end == '\0';
 }
 
-static bool place_camera(const double n[CAMERA_NUMBERS], alp_camera *camera)
+/// @param origin of the scene in the world of its file
+static bool place_camera(const double n[CAMERA_NUMBERS], const double origin[3], alp_camera *camera)
 {
     double axis[3], length = 0.0;
     for (int i = 0; i < 3; i++) {
-        camera->position[i] = (float)n[i];
-        camera->target[i] = (float)n[i + 3];
-        axis[i] = (double)camera->target[i] - (double)camera->position[i];
+        camera->position[i] = (float)(n[i] - origin[i]);
+        camera->target[i] = (float)(n[i + 3] - origin[i]);
+        axis[i] = n[i + 3] - n[i];
         length += axis[i] * axis[i];
     }
     length = sqrt(length);
@@ -58,7 +59,7 @@ static bool place_camera(const double n[CAMERA_NUMBERS], alp_camera *camera)
     return length > 0.0 && n[6] >= 1e-3 && n[6] <= 179.0;
 }
 
-static int read_camera(const char *text, alp_render_options *o)
+static int read_camera(const char *text, const double origin[3], alp_render_options *o)
 {
     uint64_t index = 0;
     double numbers[CAMERA_NUMBERS];
@@ -68,7 +69,7 @@ static int read_camera(const char *text, alp_render_options *o)
     } else if (result == NUMBER_OK && index < UINT32_MAX) {
         o->camera_index = (uint32_t)index;
     } else if (result != NUMBER_NONE || !read_numbers(text, numbers, CAMERA_NUMBERS) ||
-               !place_camera(numbers, &o->camera)) {
+               !place_camera(numbers, origin, &o->camera)) {
         return usage_error(COMMAND_RENDER,
                            "--camera: '%s' is not a camera; give a number from 0, auto, or "
                            "PX,PY,PZ,TX,TY,TZ,VFOV: position and another point as target in "
@@ -85,6 +86,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
     enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
     enum { TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY | HEMICUBE };
     enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS, PLAIN = ~HEMICUBE };
+    enum { ALBEDO = LIT | HEMISPHERE | 1 << ALP_RENDER_CONSTANT };
     static const struct {
         const char *name;
         option_id id;
@@ -102,6 +104,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--sun-size", OPTION_SUN_SIZE, LIT},
                    {"--lamp", OPTION_LAMP, LIT},
                    {"--spot", OPTION_SPOT, LIT},
+                   {"--metals", OPTION_METALS, ALBEDO},
                    {"--sky-turn", OPTION_SKY_TURN, LIT},
                    {"--sky", OPTION_SKY, LIT | HEMISPHERE},
                    {"--sky-strength", OPTION_SKY_STRENGTH, LIT | HEMISPHERE},
@@ -173,7 +176,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
         code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
     }
     if (code == EXIT_DONE) {
-        code = read_camera(a->values[OPTION_CAMERA].text, o);
+        code = read_camera(a->values[OPTION_CAMERA].text, (const double[3]){0.0, 0.0, 0.0}, o);
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
@@ -183,10 +186,15 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     return code == EXIT_DONE ? check_hemisphere(o) : code;
 }
 
-/// A camera given by number must exist.
-static int check_camera(const session *s, const command_line *a, const alp_render_options *o)
+/// Places a camera given by position in the scene that was loaded. One given by number must exist.
+static int find_camera(const session *s, const command_line *a, alp_render_options *o)
 {
-    uint32_t cameras = alp_scene_get_info(s->scene).cameras;
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    const int code = read_camera(a->values[OPTION_CAMERA].text, info.origin, o);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    uint32_t cameras = info.cameras;
     bool numbered = o->camera.vertical_fov <= 0.0f && o->camera_index != UINT32_MAX;
     if (a->values[OPTION_CAMERA].given && numbered && o->camera_index >= cameras) {
         char text[160];
@@ -307,10 +315,11 @@ int command_render(const command_line *a)
         code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
-        code = check_camera(&s, a, &options);
+        code = find_camera(&s, a, &options);
     }
     alp_image *sky = NULL;
     if (code == EXIT_DONE) {
+        lighting_place(&s, a, &lamps);
         code = lighting_load_sky(&s, a, &options.lighting, &sky);
     }
     if (code == EXIT_DONE) {

@@ -32,9 +32,20 @@ static const char *object_name(const assets *s)
     return alp_scene_get_surface(s->a, s->difference.maximum_surface).name;
 }
 
+/// Place of the largest difference in the world of the file.
+static void find_maximum(const assets *s, double at[3])
+{
+    const alp_scene_info info = alp_scene_get_info(s->a);
+    for (int k = 0; k < 3; k++) {
+        at[k] = info.origin[k] + (double)s->difference.maximum_position[k];
+    }
+}
+
 static json_t *make_document(const command_line *arguments, const assets *s)
 {
     const alp_map_difference *d = &s->difference;
+    double at[3];
+    find_maximum(s, at);
     return json_pack(
         "{s:s, s:o, s:o, s:s, s:[b, b], s:o, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
         "s:[o, o, o], s:o}",
@@ -45,15 +56,15 @@ static json_t *make_document(const command_line *arguments, const assets *s)
         (json_int_t)d->only_second, "rmse", json_number(d->rmse), "relative_rmse",
         json_number(d->relative_rmse), "bias", json_number(d->bias), "mean_a",
         json_number(d->mean_first), "mean_b", json_number(d->mean_second), "p99",
-        json_number(d->p99), "maximum", json_number(d->maximum), "maximum_at",
-        json_number((double)d->maximum_position[0]), json_number((double)d->maximum_position[1]),
-        json_number((double)d->maximum_position[2]), "maximum_object", json_text(object_name(s)));
+        json_number(d->p99), "maximum", json_number(d->maximum), "maximum_at", json_number(at[0]),
+        json_number(at[1]), json_number(at[2]), "maximum_object", json_text(object_name(s)));
 }
 
 static void print_difference(const assets *s)
 {
     const alp_map_difference *d = &s->difference;
-    const float *at = d->maximum_position;
+    double at[3];
+    find_maximum(s, at);
     printf("map       %s, A %s, B %s\n", map_name(d), d->blended_first ? "blended" : "of one set",
            d->blended_second ? "blended" : "of one set");
     printf("points    %llu (only in A %llu, only in B %llu)\n", (unsigned long long)d->points,
@@ -64,7 +75,7 @@ static void print_difference(const assets *s)
     printf("p99       %.6g\n", d->p99);
     printf("maximum   %.6g", d->maximum);
     if (d->points > 0) {
-        printf(" at %.4g %.4g %.4g m on ", (double)at[0], (double)at[1], (double)at[2]);
+        printf(" at %.4g %.4g %.4g m on ", at[0], at[1], at[2]);
         print_clean(stdout, object_name(s));
     }
     printf("\nmeans     %.6g and %.6g\n", d->mean_first, d->mean_second);

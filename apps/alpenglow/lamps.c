@@ -27,14 +27,16 @@ static bool read_numbers(const char *text, double *numbers, int count, float col
     return end != NULL && *end == '\0';
 }
 
-static void place(const double at[3], float position[3])
+/// A point in the world of the file as one of the scene.
+static void place(const double at[3], const double origin[3], float position[3])
 {
     for (int k = 0; k < 3; k++) {
-        position[k] = (float)at[k];
+        position[k] = (float)(at[k] - origin[k]);
     }
 }
 
-static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
+static int read_lamp(const command_line *a, const char *text, const double origin[3],
+                     alp_lamp *lamp)
 {
     double numbers[4]; // X, Y, Z, CANDELA
     if (!read_numbers(text, numbers, 4, lamp->color) || numbers[3] < 0.0) {
@@ -44,7 +46,7 @@ static int read_lamp(const command_line *a, const char *text, alp_lamp *lamp)
                            " 0 to 1e9",
                            text);
     }
-    place(numbers, lamp->position);
+    place(numbers, origin, lamp->position);
     lamp->intensity = (float)numbers[3];
     return EXIT_DONE;
 }
@@ -60,7 +62,8 @@ static bool aim(const double from[3], const double target[3], float direction[3]
     return length > 0.0;
 }
 
-static int read_spot(const command_line *a, const char *text, alp_lamp *lamp)
+static int read_spot(const command_line *a, const char *text, const double origin[3],
+                     alp_lamp *lamp)
 {
     const double radians = M_PI / 180.0;
     double numbers[9]; // X, Y, Z, TX, TY, TZ, CANDELA, INNER, OUTER
@@ -81,12 +84,12 @@ static int read_spot(const command_line *a, const char *text, alp_lamp *lamp)
                            text);
     }
     lamp->kind = ALP_LIGHT_SPOT;
-    place(numbers, lamp->position);
+    place(numbers, origin, lamp->position);
     lamp->intensity = (float)numbers[6];
     return EXIT_DONE;
 }
 
-int lamps_read(const command_line *a, lamp_list *list)
+int lamps_read(const command_line *a, const double origin[3], lamp_list *list)
 {
     list->count = 0;
     int code = EXIT_DONE;
@@ -95,8 +98,8 @@ int lamps_read(const command_line *a, lamp_list *list)
         if (id == OPTION_LAMP || id == OPTION_SPOT) {
             alp_lamp *lamp = &list->lamps[list->count++];
             *lamp = alp_lamp_default();
-            code = id == OPTION_LAMP ? read_lamp(a, a->repeated[i].text, lamp)
-                                     : read_spot(a, a->repeated[i].text, lamp);
+            code = id == OPTION_LAMP ? read_lamp(a, a->repeated[i].text, origin, lamp)
+                                     : read_spot(a, a->repeated[i].text, origin, lamp);
         }
     }
     return code;

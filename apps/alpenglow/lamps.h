@@ -11,8 +11,9 @@ typedef struct lamp_list {
 } lamp_list;
 
 /// All of them, in the order in which they are given.
+/// @param origin of the scene in the world of its file (alp_scene_info)
 /// @return EXIT_DONE, or EXIT_USAGE after a message
-int lamps_read(const command_line *arguments, lamp_list *list);
+int lamps_read(const command_line *arguments, const double origin[3], lamp_list *list);
 
 /// Takes a colour over. @return false: a channel is negative
 bool color_set(const double numbers[3], float color[3]);

@@ -94,7 +94,7 @@ int lighting_read(const command_line *a, alp_lighting_options *options, lamp_lis
         code = read_sun(a, &options->sun);
     }
     if (code == EXIT_DONE) {
-        code = lamps_read(a, lamps);
+        code = lamps_read(a, (const double[3]){0.0, 0.0, 0.0}, lamps);
         options->lamps = lamps->lamps;
         options->lamp_count = lamps->count;
     }
@@ -103,6 +103,12 @@ int lighting_read(const command_line *a, alp_lighting_options *options, lamp_lis
         options->file_sun_size = options->sun.size;
     }
     return code;
+}
+
+void lighting_place(const session *s, const command_line *a, lamp_list *lamps)
+{
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    (void)lamps_read(a, info.origin, lamps); // it was read before without a fault
 }
 
 /// Checks the sky's image, so that messages name its file.

@@ -10,6 +10,9 @@
 /// @return EXIT_DONE, or EXIT_USAGE after a message
 int lighting_read(const command_line *arguments, alp_lighting_options *options, lamp_list *lamps);
 
+/// Places the lamps in the scene that was loaded.
+void lighting_place(const session *s, const command_line *arguments, lamp_list *lamps);
+
 /// Loads the image of the sky, if --sky names one. `options` borrows it.
 /// @param image out: NULL, or the image, which the caller destroys after the work
 /// @return EXIT_DONE, or EXIT_FAILED after a message

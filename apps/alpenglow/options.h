@@ -70,6 +70,7 @@ typedef enum option_id {
     OPTION_LAYERS,
     OPTION_DENOISE,
     OPTION_STITCH,
+    OPTION_METALS,
     OPTION_SKY,
     OPTION_SKY_TURN,
     OPTION_SKY_STRENGTH,

@@ -166,6 +166,19 @@ static const option rows[] = {
              "0: direct light alone.\n"
              "converge: until further bounces add nothing. With --error, passes end "
              "when further ones would add less than a hundredth of it."},
+    {.id = OPTION_METALS,
+     .commands = RAY_COMMANDS,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--metals",
+     .value = "diffuse|black",
+     .choices = "diffuse|black",
+     .initial = "diffuse",
+     .help = "Albedo of metals, for light and --ao-bleed.\n"
+             "diffuse: base colour, as of other materials; about what a metal "
+             "reflects.\n"
+             "black: base colour x (1 - metallic). Viewers that multiply a light map by "
+             "their diffuse colour show metals black either way."},
     {.id = OPTION_SKY,
      .commands = RAY_COMMANDS,
      .group = GROUP_LIGHT,

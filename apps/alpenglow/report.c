@@ -246,10 +246,10 @@ json_t *report_make(const session *s, const alp_lightmap *lightmap, const alp_ba
             json_object_set_new(json_object_get(document, "light"), "layers",
                                 make_layers(lightmap));
         }
-        json_object_set_new(error, "irradiance",
-                            json_pack("{s:o, s:o}", "relative",
-                                      json_number(r->light_relative_error), "p99",
-                                      json_number(r->light_p99_error)));
+        json_object_set_new(
+            error, "irradiance",
+            json_pack("{s:o, s:o, s:o}", "relative", json_number(r->light_relative_error), "p99",
+                      json_number(r->light_p99_error), "relative_to", json_number(r->light_scale)));
     }
     if ((r->maps & (ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE)) == 0) {
         json_object_del(error, "ao");

@@ -35,6 +35,7 @@ int session_load(session *s, const command_line *a)
     alp_result result =
         alp_scene_load_choice(s->context, a->operands[0], a->values[OPTION_SCENE].text, &s->scene);
     s->load_seconds = clock_seconds() - start;
+    alp_scene_set_metals(s->scene, (alp_metals)a->values[OPTION_METALS].choice);
     return result == ALP_OK ? session_judge_warnings(s) : session_end(s, result);
 }
 

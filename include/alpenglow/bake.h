@@ -54,8 +54,9 @@ typedef enum alp_lightmap_as {
     ALP_LIGHTMAP_AS_EXTRAS,
     /// Instead of an asset: a three.js Object JSON (`output` ends in .json) for ObjectLoader, r155
     /// or later. Surfaces are in world space with MeshLambertMaterial, whose colour has 8 bits of
-    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file,
-    /// textures of metalness (lightmap-metal) and occlusion are left out.
+    /// sRGB. The lightMap has half floats; lightMap × lightMapIntensity = E. Lights of the file
+    /// and textures of occlusion are left out; if metals are black, so are textures of metalness
+    /// (lightmap-metal).
     ALP_LIGHTMAP_AS_THREE,
     /// Instead of an asset: a .babylon file. Its light is E/π in Radiance pictures beside it,
     /// OUT.hdr, OUT.1.hdr …, of at least 8 × 8 texels. Materials are PBRMaterial with
@@ -152,12 +153,18 @@ typedef struct alp_light_options {
     alp_gather gather;
     alp_direct direct; ///< OFF and APART: not with PATHS and not without bounces
     uint32_t bounces;  ///< at most; 0 = direct light alone; default ALP_BOUNCES_CONVERGE
-    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. The 99th
-    /// percentile of texels' errors must be at most four times as much. Rounds of more and more
+    /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. The mean
+    /// counts as more where surfaces emit more than 1,500 times of it: see
+    /// alp_bake_report.light_scale. The 99th percentile of texels' errors must be at most four times
+    /// as much. Rounds of more and more
     /// samples run until both are reached; the last are for the texels with the largest errors.
     /// 0 (default): `samples` in one round; with a time_limit or keep_partial in rounds that
     /// double.
     float error;
+    /// With an error: rays of the light are limited too, by a number that depends on triangles and
+    /// texels alone: 1,024 a texel of at least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles. The
+    /// bake then ends with the error that it has (ray-limit). Default false.
+    bool bounded;
     /// [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple of 32. PATHS: paths
     /// of a texel, to a multiple of 16. Without bounces: rays to each light, to a multiple of 8.
     /// HEMICUBE ignores it.
@@ -241,9 +248,11 @@ typedef struct alp_bake_options {
     /// ALP_ATLAS_VERTEX. Default false.
     bool ao_self;
     /// true: changes values beside seams of every map, by least squares, so that both sides agree.
-    /// A change stays near the standard error, unless the seam itself proves a larger one. All
-    /// other values keep their bits; layers still add up. ALP_ATLAS_VERTEX ignores it. Default
-    /// true. Based on: M. Iwanicki. Lighting Technology of The Last of Us. SIGGRAPH 2013 talks.
+    /// Places where light jumps far beyond noise, the rest of the seam and all change along it keep
+    /// their values. A change stays near the standard error, unless the seam itself proves a larger
+    /// one. All other values keep their bits; layers still add up. ALP_ATLAS_VERTEX ignores it.
+    /// Default true. Based on: M. Iwanicki. Lighting Technology of The Last of Us. SIGGRAPH 2013
+    /// talks.
     bool stitch;
     bool overwrite; ///< default false: an existing file stops the job before it starts
     /// Names of the surfaces that get a map: patterns with commas between. NULL (default) = all.
@@ -306,7 +315,8 @@ typedef struct alp_seam_error {
 
 /// Seams: edges of triangles across which a surface continues but reads other texels, within one
 /// object or between two. Shading normals that differ by more than 3° make no seam, because light
-/// itself has a step there. Edges must meet within a tenth of a texel.
+/// itself has a step there. Nor do places where a wall or another thing stands within a texel of
+/// the edge. Edges must meet within a tenth of a texel.
 typedef struct alp_seam_report {
     uint32_t count; ///< pairs of edges of triangles; 0 with ALP_ATLAS_VERTEX
     double length;  ///< metres
@@ -331,12 +341,16 @@ typedef struct alp_bake_report {
     bool light_direct; ///< ALP_MAP_LIGHT without bounces
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
+    /// Light that the errors below are relative to, W·m⁻²: E + max(0, M − 1500 E) for E = light_mean
+    /// and M the root mean square over texels of π times the radiance that surfaces emit.
+    double light_scale;
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
-    /// texel's, both over light_mean. NaN in the dark, and for hemicubes, which have no estimate.
+    /// texel's, both over light_scale. NaN in the dark, and for hemicubes, which have no estimate.
     double light_relative_error, light_p99_error;
     uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
     uint32_t light_passes;                     ///< of radiosity, one for each bounce; else 0
     uint32_t light_rounds;                     ///< of radiosity, rounds of texels' rays; else 0
+    bool light_bounded; ///< the limit of rays ended light before its error, see `bounded`
     /// Mean change of the light in each of the first 64 passes, over its mean.
     float light_changes[64];
     alp_light_energy light_energy;
@@ -384,10 +398,11 @@ ALP_API ALP_NODISCARD alp_result alp_bake_estimate(const alp_scene *scene,
 /// @param options  NULL = defaults
 /// @param lightmap NULL, or out: the maps, which the caller destroys before the scene
 /// @param report   NULL, or out; seconds_load is 0, because the caller loaded the scene
-/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; a pattern
-///         without a match: the message has the names); INVALID_DATA (nothing to bake, or a second
-///         UV set that cannot be kept); UNSUPPORTED (an output of another format, or one without a
-///         place for these maps); LIMIT; IO; OUT_OF_MEMORY; CANCELLED
+/// @return ALP_OK; INVALID_ARGUMENT (options out of range or excluding each other; ALP_MAP_LIGHT
+///         of a scene without lamp, emission and sky; a pattern without a match: the message has
+///         the names); INVALID_DATA (nothing to bake, or a second UV set that cannot be kept);
+///         UNSUPPORTED (an output of another format, or one without a place for these maps);
+///         LIMIT; IO; OUT_OF_MEMORY; CANCELLED
 ALP_API ALP_NODISCARD alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
                                           alp_lightmap **lightmap, alp_bake_report *report);
 

@@ -27,7 +27,7 @@ typedef struct alp_map_difference {
     double rmse, relative_rmse, bias, mean_first, mean_second, p99;
     double maximum;            ///< largest |s·a − b|
     uint32_t maximum_surface;  ///< its surface in the first scene; UINT32_MAX without any point
-    float maximum_position[3]; ///< its position, metres
+    float maximum_position[3]; ///< its position in the first scene, metres
 } alp_map_difference;
 
 /// Compares the maps of two scenes of the same triangles, at points of equal area. The first scene

@@ -45,6 +45,7 @@ typedef enum alp_finding_kind {
     ALP_FINDING_BURIED = 15,          ///< surface inside other objects
     ALP_FINDING_SCALE = 16,           ///< objects of another order of size than all others
     ALP_FINDING_COPLANAR = 17,        ///< triangles that partly overlap others in their plane
+    ALP_FINDING_INSIDE_OUT = 18,      ///< double-sided solids that are wound inwards
 
     ALP_FINDING_NO_UVS = 30,     ///< no coordinates at all
     ALP_FINDING_UV_MISSING = 31, ///< some surfaces lack the set

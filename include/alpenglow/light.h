@@ -91,7 +91,8 @@ ALP_API alp_lighting_options alp_lighting_options_default(void);
 ///                     bounces between front sides. Reported only if the scene has no lamp and no
 ///                     emissive surface. Method: 16 random walks of 64 bounces from 512 points.
 ///                     They find most openings of a thousandth of the walls.
-/// alp_bake (irradiance) and alp_render (REFERENCE, RADIOSITY, HEMICUBE) give the same warnings.
+/// alp_bake (irradiance) and alp_render (REFERENCE, RADIOSITY, HEMICUBE) give the same warnings,
+/// but refuse a scene without light.
 /// @param lighting as of a bake; NULL = the lights of the file alone
 /// @param progress NULL, or called to learn whether to go on
 /// @return ALP_OK, with or without warnings; INVALID_ARGUMENT; OUT_OF_MEMORY; UNSUPPORTED (the ray

@@ -18,7 +18,7 @@ ALP_BEGIN_DECLS
 typedef enum alp_render_method {
     /// Accessibility from the scene's occlusion maps. Surfaces without a map trace rays per pixel.
     ALP_RENDER_AO = 0,
-    /// Constant ambient light of radiance 1: the albedo, base colour × (1 − metallic), at most
+    /// Constant ambient light of radiance 1: the albedo (alp_scene_set_metals), at most
     /// 0.95.
     ALP_RENDER_CONSTANT = 1,
     /// Unoccluded ambient light of a sky of radiance `lighting.sky.up` above the horizon and `down`
@@ -100,8 +100,9 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// Warns of a camera in a wall (camera-inside), except for AO, CONSTANT and pictures of hemicubes
 /// without light. REFERENCE, RADIOSITY and HEMICUBE give the warnings of alp_scene_examine.
 /// @param image out, which the caller destroys; NULL on failure
-/// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match, or LIGHTMAP without a map of
-///         light); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
+/// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match; LIGHTMAP without a map of
+///         light; REFERENCE, RADIOSITY, and HEMICUBE with light, of a scene without lamp, emission
+///         and sky); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene: triangles in world space with materials, lights and cameras. Immutable once made.
+// A scene: triangles in world space with materials, lights and cameras. Immutable once made, but
+// for alp_scene_set_metals.
 #ifndef ALPENGLOW_SCENE_H
 #define ALPENGLOW_SCENE_H
 
@@ -56,6 +57,20 @@ ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *conte
 
 ALP_API void alp_scene_destroy(alp_scene *scene); ///< NULL does nothing
 
+/// Light that a metal reflects. Every surface is diffuse here, and a metal has no diffuse colour.
+typedef enum alp_metals {
+    ALP_METALS_DIFFUSE = 0, ///< albedo = base colour, as of other materials: about what it reflects
+    ALP_METALS_BLACK = 1    ///< albedo = base colour × (1 − metallic)
+} alp_metals;
+
+/// Sets how metals count in all light, coloured obscurance and albedo of the scene from now on, and
+/// in colours of files for three.js and Babylon.js and of .obj. Default DIFFUSE. Not during another
+/// call with the scene. NULL and unknown values do nothing.
+///
+/// Viewers that multiply a light map by their own diffuse colour show metals black whatever is
+/// baked. ALP_LIGHTMAP_AS_EMISSIVE and units of radiance hold the reflected light itself.
+ALP_API void alp_scene_set_metals(alp_scene *scene, alp_metals metals);
+
 /// Counts, bounds and unit of a scene.
 typedef struct alp_scene_info {
     uint32_t triangles;        ///< all triangles, degenerate ones included
@@ -68,6 +83,10 @@ typedef struct alp_scene_info {
     double unit_metres; ///< metres of one unit of the file; lengths were multiplied by it
     bool unit_stated;   ///< the file or its format states the unit; else metres were assumed
     char up_axis; ///< of a COLLADA: 'X', 'Y' or 'Z'; 0 = not stated. The scene itself is +Y up.
+    /// World of the file = origin + scene, in metres. 0 unless the file's coordinates are so far
+    /// that floats lose detail, such as those of a national grid. Bounds, cameras, lights, and
+    /// points, cameras and lamps that the caller gives are positions in the scene.
+    double origin[3];
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "scene/adjacency.h"
 
 #include <math.h>
 

@@ -6,6 +6,8 @@
 // Based on: J. Hanika. Hacking the Shadow Terminator. Ray Tracing Gems II, chapter 4, 2021.
 #include "atlas/facet.h"
 
+#include "scene/sides.h"
+
 #include <math.h>
 
 // Corner normals this near (their distance, squared) to the geometric one are the geometric one.
@@ -22,6 +24,14 @@ static const float LIFT_SHARE = 0.7f;
 // needs up to θ/16, at a quarter of its length: 0.07 on an icosahedron. The formula gives more, and
 // a third where normals are averaged over the creases of a cube, which describe no surface.
 static const float LARGEST_LIFT = 0.125f;
+
+// Which normals describe a smooth surface. On a quadric two corners lie as deep below each other's
+// tangent planes, so depths that differ by more than a share of their edge are of a crease. A roof
+// with one normal at its ridge: .6; with normals averaged at the eaves too: .16; spheres: 0. Facets
+// of a sphere in 5 × 4 segments make 40° with the normals of their corners, those of a cube 55°.
+// Between smooth and creased the lift is faded out.
+static const float SMOOTH_DEPTHS = 0.05f, CREASED_DEPTHS = 0.15f;
+static const float SMOOTH_COSINE = 0.755f, CREASED_COSINE = 0.707f; // 41° and 45°
 
 static float larger(float a, float b)
 {
@@ -45,7 +55,7 @@ static float find_offset(const alpi_facet *f, const vec3 corner[3])
     return alpi_receiver_offset(vec3_load(largest), NULL);
 }
 
-static void load_shape(alpi_facet *f, const vec3 corner[3])
+static void load_shape(alpi_facet *f, const vec3 corner[3], vec3 normal)
 {
     const vec3 first = corner[0];
     const double base[3] = {(double)first.x, (double)first.y, (double)first.z};
@@ -58,42 +68,65 @@ static void load_shape(alpi_facet *f, const vec3 corner[3])
         f->edges[k][1] = (double)end.y - base[1];
         f->edges[k][2] = (double)end.z - base[2];
     }
-    f->geometric = vec3_triangle_normal(corner[0], corner[1], corner[2], (vec3){0.0f, 1.0f, 0.0f});
+    f->geometric = normal;
     f->offset = find_offset(f, corner);
+}
+
+/// 1 at `full` and beyond, 0 at `none` and beyond on its side, linear between.
+static float fade(float value, float none, float full)
+{
+    const float share = (value - none) / (full - none);
+    return share < 0.0f ? 0.0f : share > 1.0f ? 1.0f : share;
+}
+
+/// The share of the lift that the normals deserve: 1 where they describe a smooth surface.
+/// @param heights set   @param squares of the edges between corners i and j
+static float find_smoothness(const alpi_facet *f, float squares[3][3])
+{
+    float cosine = 1.0f, apart = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const float own = vec3_dot(vec3_load(f->normals[i]), f->geometric);
+        const float depths = f->heights[i][j] - f->heights[j][i];
+        cosine = own < cosine ? own : cosine;
+        apart = larger(apart, depths * depths / squares[i][j]);
+    }
+    return fade(cosine, CREASED_COSINE, SMOOTH_COSINE) *
+           fade(sqrtf(apart), CREASED_DEPTHS, SMOOTH_DEPTHS);
 }
 
 /// Heights of the corners above each other's tangent planes; whether any point must be lifted.
 static void load_lift(alpi_facet *f, const vec3 corner[3])
 {
     float square = 0.0f, lowest = 0.0f; // of the longest edge
+    float squares[3][3];
     for (int i = 0; i < 3; i++) {
         const vec3 normal = vec3_load(f->normals[i]);
-        if (!(vec3_dot(normal, f->geometric) > 0.0f)) {
-            return; // turned over: these normals are of no surface near this one
-        }
         for (int j = 0; j < 3; j++) {
             const vec3 edge = vec3_sub(corner[j], corner[i]);
+            squares[i][j] = vec3_dot(edge, edge);
             f->heights[i][j] = j == i ? 0.0f : vec3_dot(edge, normal);
-            square = larger(square, vec3_dot(edge, edge));
+            square = larger(square, squares[i][j]);
             lowest = f->heights[i][j] < lowest ? f->heights[i][j] : lowest;
         }
     }
     const float longest = sqrtf(square);
     f->lift_limit = LARGEST_LIFT * longest;
-    f->lifted = lowest < -LEAST_HEIGHT * longest && isfinite(longest);
+    f->lift_share = LIFT_SHARE * find_smoothness(f, squares);
+    f->lifted = lowest < -LEAST_HEIGHT * longest && f->lift_share > 0.0f && isfinite(longest);
 }
 
 void alpi_facet_load(const alp_scene *scene, uint32_t triangle, bool lift, alpi_facet *facet)
 {
-    vec3 corner[3];
+    vec3 corner[3], normals[3];
     alpi_triangle_corners(scene, triangle, corner);
-    load_shape(facet, corner);
+    alpi_sides_corner_normals(scene, triangle, normals);
+    load_shape(facet, corner, alpi_sides_normal(scene, triangle));
     facet->smooth = facet->lifted = false;
     for (int k = 0; k < 3; k++) {
-        const float *normal = scene->normals[scene->triangles[triangle][k]];
-        const vec3 apart = vec3_sub(vec3_load(normal), facet->geometric);
+        const vec3 apart = vec3_sub(normals[k], facet->geometric);
         facet->smooth = facet->smooth || vec3_dot(apart, apart) > SAME_NORMAL;
-        vec3_store(facet->normals[k], vec3_load(normal));
+        vec3_store(facet->normals[k], normals[k]);
     }
     if (facet->smooth && lift) {
         load_lift(facet, corner);
@@ -122,7 +155,7 @@ static vec3 find_lift(const alpi_facet *f, const float w[3])
     for (int i = 0; i < 3; i++) {
         const float *h = f->heights[i];
         const float height = w[0] * h[0] + w[1] * h[1] + w[2] * h[2];
-        lift = vec3_mad(lift, -LIFT_SHARE * w[i] * (height < 0.0f ? height : 0.0f),
+        lift = vec3_mad(lift, -f->lift_share * w[i] * (height < 0.0f ? height : 0.0f),
                         vec3_load(f->normals[i]));
     }
     const float length = vec3_length(lift);

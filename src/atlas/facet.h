@@ -10,13 +10,14 @@
 /// What all points of a triangle share.
 typedef struct alpi_facet {
     double corner[3], edges[2][3]; // metres: corner 0, and from it to corners 1 and 2
-    vec3 geometric;
-    float offset;        // metres, enough for any of its points
-    bool smooth;         // the shading normal is not the geometric one everywhere
-    bool lifted;         // some of its points are below the tangent plane of a corner
-    float normals[3][3]; // unit, of the corners; set if smooth
+    vec3 geometric;                // of the side that maps hold (scene/sides.h)
+    float offset;                  // metres, enough for any of its points
+    bool smooth;                   // the shading normal is not the geometric one everywhere
+    bool lifted;                   // some of its points are below the tangent plane of a corner
+    float normals[3][3];           // unit, of the corners; set if smooth
     float heights[3][3]; // metres: of corner j above the tangent plane of corner i; set if lifted
     float lift_limit;    // metres
+    float lift_share;    // of the way to the tangent planes; 0 where normals describe creases
 } alpi_facet;
 
 /// @param lift whether points may leave the triangle for the smooth surface

@@ -3,6 +3,7 @@
 #include "atlas/stages.h"
 
 #include "base/memory.h"
+#include "scene/adjacency.h"
 
 #include <math.h>
 

@@ -9,9 +9,11 @@
 #include "bake/gathering.h"
 #include "bake/layers.h"
 #include "bake/light/light.h"
+#include "bake/settings.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "scene/sides.h"
 
 #include <unistd.h>
 
@@ -29,9 +31,28 @@ alp_bake_options alp_bake_options_default(void)
                               .stitch = true};
 }
 
+/// Solids that are wound inwards and hold a lamp of the options are rooms.
+static alp_result choose_sides(const alpi_bake_job *job)
+{
+    const alp_lighting_options *o = &job->options.light.lighting;
+    const uint32_t count = alpi_bake_wants_light(&job->options) ? o->lamp_count : 0;
+    vec3 *lamps = ALPI_NEW(job->context, vec3, count);
+    if (lamps == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        lamps[i] = vec3_load(o->lamps[i].position);
+    }
+    alpi_sides_choose(job->scene, lamps, count);
+    alpi_release(job->context, lamps);
+    return ALP_OK;
+}
+
 static alp_result run(alpi_bake_job *job)
 {
     ALP_TRY(alpi_bake_check(job));
+    ALP_TRY(alpi_bake_check_lit(job));
+    ALP_TRY(choose_sides(job));
     ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);

@@ -3,6 +3,7 @@
 // the values beside the seams.
 #include "bake/bake_stages.h"
 
+#include "bake/objects.h"
 #include "base/tasks.h"
 #include "maps/seams/stitch.h"
 
@@ -204,8 +205,13 @@ static alp_result measure_and_stitch(alpi_bake_job *job, const alpi_seams *seams
 
 static alp_result find_seams(alpi_bake_job *job)
 {
+    const alpi_watch *watch = alpi_context_watch(job->context);
+    alpi_tracer *tracer, *owned;
     alpi_seams seams;
-    ALP_TRY(alpi_seams_create(job->lightmap, &seams));
+    ALP_TRY(alpi_bake_tracer(job, watch->callback, watch->user, &tracer, &owned));
+    const alp_result found = alpi_seams_create(job->lightmap, tracer, &seams);
+    alpi_tracer_destroy(owned);
+    ALP_TRY(found);
     job->report.seams.count = seams.count;
     job->report.seams.length = seams.length;
     const alp_result result = measure_and_stitch(job, &seams);

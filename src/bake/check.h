@@ -14,4 +14,9 @@ alp_result alpi_bake_check(const alpi_bake_job *job);
 /// The part of it that is about light (check_light.c).
 alp_result alpi_bake_check_light(const alpi_bake_job *job);
 
+/// Refuses a bake of light where nothing lights the scene (check_light.c). The estimate of work
+/// does not call it, because light may still be added.
+/// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY
+alp_result alpi_bake_check_lit(const alpi_bake_job *job);
+
 #endif

@@ -3,6 +3,7 @@
 #include "bake/check.h"
 
 #include "bake/settings.h"
+#include "scene/lights/lighting.h"
 
 enum { PATH_LIMIT = 65536 };
 
@@ -138,6 +139,13 @@ static const char *find_fault(const alp_bake_options *o)
         return "readers of MOZ_lightmap multiply by the albedo; set light_units to irradiance";
     }
     return NULL;
+}
+
+alp_result alpi_bake_check_lit(const alpi_bake_job *job)
+{
+    return alpi_bake_wants_light(&job->options)
+               ? alpi_lighting_refuse_darkness(job->scene, &job->options.light.lighting)
+               : ALP_OK;
 }
 
 alp_result alpi_bake_check_light(const alpi_bake_job *job)

@@ -5,6 +5,7 @@
 #include "atlas/atlas.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "scene/adjacency.h"
 
 #include <stdio.h>
 

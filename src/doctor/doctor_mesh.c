@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "scene/sides.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -221,7 +222,7 @@ static double reversed_share(const alp_scene *scene, const alpi_surface *surface
         vec3 c[3];
         alpi_triangle_corners(scene, t, c);
         const vec3 face = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-        bool back = true;
+        bool back = !alpi_sides_is_turned(scene, t); // else they point to the side of the map
         for (int k = 0; k < 3; k++) {
             back = back && vec3_dot(face, vec3_load(scene->normals[scene->triangles[t][k]])) < 0.0f;
         }
@@ -247,6 +248,48 @@ static alp_result look_for_reversed(alp_diagnosis *d)
             ALP_TRY(alpi_diagnosis_add(d, facts,
                                        "the normals of %u of %u triangles, %.3g %% of the area, "
                                        "point to their backs",
+                                       count, surface->triangle_count, 100.0 * share));
+            alpi_diagnosis_mark_triangle(d, largest);
+        }
+    }
+    return ALP_OK;
+}
+
+/// Triangles of a surface of which the map holds the back, and their share of its area.
+/// @param largest out: of those triangles, where there are any
+static double turned_share(const alp_scene *scene, const alpi_surface *surface, uint32_t *count,
+                           uint32_t *largest)
+{
+    double area = 0.0, turned = 0.0, most = 0.0;
+    *count = 0;
+    for (uint32_t i = 0; i < surface->triangle_count; i++) {
+        const uint32_t t = surface->first_triangle + i;
+        vec3 c[3];
+        alpi_triangle_corners(scene, t, c);
+        const double own = scene->triangle_usable[t] ? vec3_triangle_area(c[0], c[1], c[2]) : 0.0;
+        area += own;
+        if (alpi_sides_is_turned(scene, t)) {
+            turned += own;
+            *largest = own > most ? t : *largest;
+            most = fmax(most, own);
+            ++*count;
+        }
+    }
+    return area > 0.0 ? turned / area : 0.0;
+}
+
+static alp_result look_for_inside_out(alp_diagnosis *d)
+{
+    for (uint32_t s = 0; s < d->scene->surface_count && d->scene->sides != NULL; s++) {
+        const alpi_surface *surface = &d->scene->surfaces[s];
+        uint32_t count, largest = ALPI_NONE;
+        const double share = turned_share(d->scene, surface, &count, &largest);
+        if (count > 0) {
+            const alpi_finding_facts facts = {ALP_FINDING_INSIDE_OUT, ALP_PLACE_SURFACE, s, count,
+                                              share};
+            ALP_TRY(alpi_diagnosis_add(d, facts,
+                                       "%u of %u triangles, %.3g %% of the area, belong to "
+                                       "double-sided solids that are wound inwards",
                                        count, surface->triangle_count, 100.0 * share));
             alpi_diagnosis_mark_triangle(d, largest);
         }
@@ -317,6 +360,7 @@ alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis)
     ALP_TRY(look_for_triangles(diagnosis));
     ALP_TRY(look_for_twins(diagnosis));
     ALP_TRY(look_for_reversed(diagnosis));
+    ALP_TRY(look_for_inside_out(diagnosis));
     ALP_TRY(count_surfaces(diagnosis, ALP_FINDING_NO_NORMALS, lacks_normals,
                            "no normals: flat ones were made"));
     ALP_TRY(count_surfaces(diagnosis, ALP_FINDING_MIRRORED, is_mirrored,

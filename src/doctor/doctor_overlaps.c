@@ -220,7 +220,7 @@ static bool is_seen(const search *s, const candidate *o)
     const double3 start =
         double3_add(o->shared.at, double3_scale(f.normal, 4.0 * alpi_doctor_rounding(c)));
     const alpi_doctor_eye eye = {double3_to_vec3(start), double3_to_vec3(f.normal),
-                                 alpi_random_key(0, o->second, STREAM_OVERLAPS)};
+                                 alpi_random_key(0, o->second, STREAM_OVERLAPS), true};
     for (uint32_t first = 0; first < ALPI_DOCTOR_RAYS && open == 0; first += ALPI_PACKET) {
         alpi_doctor_hit hits[ALPI_PACKET];
         alpi_doctor_look(s->scene, s->tracer, &eye, first, hits);

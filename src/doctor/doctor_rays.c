@@ -55,7 +55,7 @@ void alpi_doctor_look(const alp_scene *scene, const alpi_tracer *tracer, const a
         alpi_rays_set(&rays, (int)i, eye->start, directions[i], (float)INFINITY);
     }
     alpi_trace_nearest(tracer, &rays, (1u << ALPI_PACKET) - 1u,
-                       (alpi_trace_filter){.one_sided = false}, &met);
+                       (alpi_trace_filter){.backs = eye->backs}, &met);
     for (int i = 0; i < ALPI_PACKET; i++) {
         hits[i] = judge(scene, &met, i, directions[i]);
     }
@@ -69,7 +69,7 @@ void alpi_doctor_look_from(const alpi_doctor_points *points, uint32_t point, flo
     const vec3 normal = vec3_scale(face_normal(c), sign);
     const vec3 p = place_of(c, &points->points[point]);
     const alpi_doctor_eye eye = {vec3_mad(p, alpi_receiver_offset(p, c), normal), normal,
-                                 alpi_random_key(0, point, stream)};
+                                 alpi_random_key(0, point, stream), false};
     alpi_doctor_look(points->scene, points->tracer, &eye, first, hits);
 }
 

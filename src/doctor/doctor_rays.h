@@ -29,6 +29,7 @@ typedef struct alpi_doctor_hit {
 typedef struct alpi_doctor_eye {
     vec3 start, normal; // metres; unit
     uint32_t key;       // of random numbers
+    bool backs;         // count where fronts lie in their place: they are the walls of a solid
 } alpi_doctor_eye;
 
 /// A packet of rays from a point, spread about a unit normal by the cosine.

@@ -12,6 +12,7 @@
 #include "render/camera_rays.h"
 #include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
+#include "scene/origin.h"
 #include "scene/select.h"
 #include "transport/examine.h"
 #include "transport/occlusion/occlusion_run.h"
@@ -99,6 +100,16 @@ static bool goes_by_paths(const render_job *job)
            job->options.method == ALP_RENDER_RADIOSITY;
 }
 
+/// Refuses a picture that would be black because nothing lights the scene. A light map holds light
+/// of its own.
+static alp_result check_lit(const render_job *job)
+{
+    const alp_render_options *o = &job->options;
+    const bool cube = o->method == ALP_RENDER_HEMICUBE && !alpi_hemicube_view_is_map(o);
+    return goes_by_paths(job) || cube ? alpi_lighting_refuse_darkness(job->scene, &o->lighting)
+                                      : ALP_OK;
+}
+
 /// The camera that was given, or that of the scene.
 static alp_result place_camera(render_job *job)
 {
@@ -137,13 +148,14 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
         directions[i] = (vec3){d[0][i], d[1][i], d[2][i]};
     }
     const alpi_trace_filter filter = {.one_sided = job->options.occlusion.one_sided};
+    double at[3];
+    alpi_origin_restore(job->scene, job->view.origin, at);
     if (lights &&
         alpi_examine_is_inside(tracer, filter, job->scene, job->view.origin, directions, COUNT)) {
         alpi_warn(job->scene->context, "camera-inside", job->scene->name,
                   "the camera, at %g %g %g m, is inside something or behind a wall: it sees the "
                   "backs of single-sided surfaces, which are black; move it (--camera)",
-                  (double)job->view.origin.x, (double)job->view.origin.y,
-                  (double)job->view.origin.z);
+                  at[0], at[1], at[2]);
     }
 }
 
@@ -266,13 +278,14 @@ static void render_pixel(const render_job *job, uint32_t index, float pixel[4])
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     alpi_rays rays;
     alpi_hits hits;
+    alpi_trace_filter filter = job->occlusion.filter;
+    filter.one_sided |= job->options.method == ALP_RENDER_AO; // as viewers show them
     alpi_rays_clear(&rays);
     for (uint32_t first = 0; first < job->options.samples; first += ALPI_PACKET) {
         uint32_t rest = job->options.samples - first;
         uint32_t lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
         job->view.loops->packet(&job->view, index, key, first, &rays);
-        alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, job->occlusion.filter,
-                                    &hits);
+        alpi_trace_nearest_coherent(job->tracer, &rays, (1u << lanes) - 1u, filter, &hits);
         uint32_t hit = 0;
         for (uint32_t i = 0; i < lanes; i++) {
             hit |= (hits.triangle[i] != ALPI_NONE ? 1u : 0u) << i;
@@ -448,6 +461,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
         *job.options.error = NULL;
     }
     ALP_TRY(check_options(scene, &job.options));
+    ALP_TRY(check_lit(&job));
     alp_result result = run(&job);
     alpi_sample_run_destroy(&job.occlusion_samples);
     alpi_occlusion_release(&job.occlusion);

@@ -15,15 +15,16 @@ static void put_count(alpi_page *page, const char *name, uint64_t count)
     put_fact(page, name, alpi_grouped(count).text);
 }
 
-static void put_error(alpi_page *page, const char *name, double relative, double p99)
+/// @param of what the errors are relative to
+static void put_error(alpi_page *page, const char *name, double relative, double p99,
+                      const char *of)
 {
     if (!isfinite(relative)) {
         put_fact(page, name, "unknown");
         return;
     }
-    alpi_page_format(page,
-                     "<dt>%s</dt><dd>%s of the mean; 99\u00A0%% of the texels within %s</dd>\n",
-                     name, alpi_percent(relative).text, alpi_percent(p99).text);
+    alpi_page_format(page, "<dt>%s</dt><dd>%s of %s; 99\u00A0%% of the texels within %s</dd>\n",
+                     name, alpi_percent(relative).text, of, alpi_percent(p99).text);
 }
 
 static void put_scene(alpi_page *page, const alp_scene *scene, const alp_bake_report *r)
@@ -82,7 +83,7 @@ static void put_occlusion(alpi_page *page, const alp_bake_report *r)
     if (at_vertices) {
         return; // no error is stated
     }
-    put_error(page, "Stated error of occlusion", r->ao_relative_error, r->ao_p99_error);
+    put_error(page, "Stated error of occlusion", r->ao_relative_error, r->ao_p99_error, "the mean");
     alpi_page_format(page, "<dt>Texels traced</dt><dd>%s, and %s interpolated</dd>\n",
                      alpi_grouped(r->traced).text, alpi_grouped(r->interpolated).text);
 }
@@ -96,7 +97,8 @@ static void put_light(alpi_page *page, const alp_bake_report *r)
               r->light_samples);
     alpi_page_format(page, "<dt>Mean irradiance</dt><dd>%s W/m²</dd>\n",
                      alpi_significant(r->light_mean, 4).text);
-    put_error(page, "Stated error of irradiance", r->light_relative_error, r->light_p99_error);
+    put_error(page, "Stated error of irradiance", r->light_relative_error, r->light_p99_error,
+              r->light_scale > r->light_mean ? "the light that the surfaces emit" : "the mean");
 }
 
 /// Where the light goes, in watts.

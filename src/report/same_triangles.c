@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "scene/origin.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,11 +19,13 @@ static const float ROUNDING = 1e-6f;
 static bool are_near(const alp_scene *a, const alp_scene *b, uint32_t triangle, float tolerance)
 {
     vec3 p[3], q[3];
+    const vec3 apart = {(float)(b->origin[0] - a->origin[0]), (float)(b->origin[1] - a->origin[1]),
+                        (float)(b->origin[2] - a->origin[2])};
     alpi_triangle_corners(a, triangle, p);
     alpi_triangle_corners(b, triangle, q);
     bool near = true;
     for (int k = 0; k < 3; k++) {
-        near = near && vec3_length(vec3_sub(p[k], q[k])) <= tolerance;
+        near = near && vec3_length(vec3_sub(vec3_sub(p[k], q[k]), apart)) <= tolerance;
     }
     return near;
 }
@@ -129,12 +132,13 @@ static uint8_t find_turn(const alp_scene *a, uint32_t triangle, const alp_scene 
 
 static alp_result fail_triangle(const alp_scene *in, uint32_t triangle, const alp_scene *missing)
 {
-    const float *at = in->positions[in->triangles[triangle][0]];
+    double at[3];
+    alpi_origin_restore(in, vec3_load(in->positions[in->triangles[triangle][0]]), at);
     return alpi_fail(in->context, ALP_ERROR_INVALID_DATA,
                      "compare: %s has a triangle in \"%s\" with a corner at %g %g %g m that %s has "
                      "not; compare bakes of one scene",
-                     in->name, in->surfaces[in->triangle_surface[triangle]].name, (double)at[0],
-                     (double)at[1], (double)at[2], missing->name);
+                     in->name, in->surfaces[in->triangle_surface[triangle]].name, at[0], at[1],
+                     at[2], missing->name);
 }
 
 static alp_result pair(const alp_scene *a, const alp_scene *b, const entry *of_a, const entry *of_b,

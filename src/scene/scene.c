@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/area_points.h"
+#include "scene/sides.h"
 #include "scene/viewpoints.h"
 
 #include <math.h>
@@ -54,6 +55,7 @@ void alp_scene_destroy(alp_scene *scene)
     for (int i = 0; i < ALPI_UV_SLOT_COUNT; i++) {
         alpi_release(context, scene->uvs[i]);
     }
+    alpi_sides_destroy(context, scene->sides);
     void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,
                             scene->vertex_source,   scene->triangles, scene->triangle_surface,
                             scene->triangle_usable, scene->surfaces,  scene->materials,
@@ -217,9 +219,9 @@ static void clamp_materials(alp_scene *scene)
     }
 }
 
-/// A metal has no diffuse albedo, and glTF's default material is one: a scene of it bounces no
-/// light. What emits all its light on black is no mistake. Textures count: what is looked at are
-/// points spread over the area.
+/// A metal has no diffuse colour for a viewer to multiply light by, and glTF's default material is
+/// one. A black metal may emit all its light, which is no mistake. Points spread over the area
+/// sample factors and textures.
 static void warn_of_metal(const alp_scene *scene)
 {
     enum { POINTS = 1024 };
@@ -242,8 +244,8 @@ static void warn_of_metal(const alp_scene *scene)
     if (metal > POINTS / 2) {
         alpi_warn(
             scene->context, "metal", scene->name,
-            "%.0f %% of the surface is metal, the default of glTF: it has no diffuse colour, is "
-            "black in a bake and bounces no light; set metallicFactor to 0 on other materials",
+            "%.0f %% of the surface is metal, the default of glTF: viewers that multiply a light "
+            "map by the diffuse colour show it black; set metallicFactor to 0 on other materials",
             100.0 * metal / POINTS);
     }
 }
@@ -256,6 +258,7 @@ static void warn_of_precision(const alp_scene *scene)
     vec3 low = scene->bounds_min, high = scene->bounds_max;
     float far = fmaxf(fmaxf(fmaxf(fabsf(low.x), fabsf(low.y)), fmaxf(fabsf(low.z), fabsf(high.x))),
                       fmaxf(fabsf(high.y), fabsf(high.z)));
+    far = fmaxf(far, scene->rounded_at);
     float spacing = nextafterf(far, INFINITY) - far; // of floats at the farthest coordinate
     if (scene->usable_count > 0 && spacing > extent * 1e-4f) {
         alpi_warn(scene->context, "precision", scene->name,
@@ -276,7 +279,14 @@ alp_result alpi_scene_finish(alp_scene *scene)
     clamp_materials(scene);
     warn_of_metal(scene);
     warn_of_precision(scene);
-    return ALP_OK;
+    return alpi_sides_create(scene);
+}
+
+void alp_scene_set_metals(alp_scene *scene, alp_metals metals)
+{
+    if (scene != NULL && (metals == ALP_METALS_DIFFUSE || metals == ALP_METALS_BLACK)) {
+        scene->metals_black = metals == ALP_METALS_BLACK;
+    }
 }
 
 // --- questions -----------------------------------------------------------------------------------
@@ -300,6 +310,7 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .unit_stated = !scene->unit_assumed,
         .up_axis = scene->up_axis,
     };
+    memcpy(info.origin, scene->origin, sizeof info.origin);
     vec3_store(info.bounds_min, scene->bounds_min);
     vec3_store(info.bounds_max, scene->bounds_max);
     return info;

@@ -92,9 +92,17 @@ typedef enum alpi_attachment_kind {
     ALPI_ATTACHMENT_COUNT
 } alpi_attachment_kind;
 
+/// Solids that are wound inwards, see sides.h.
+typedef struct alpi_sides alpi_sides;
+
 struct alp_scene {
     alp_context *context;
     char *name; // path or "builtin:…", for messages
+
+    /// Of positions, lights, cameras and bounds, in metres: file = origin + scene. 0 unless the
+    /// file's coordinates are far (origin.h).
+    double origin[3];
+    float rounded_at; // metres: largest coordinate that a far file holds as a float, else 0
 
     // Vertices, world space. A primitive without normals has three vertices of its own per
     // triangle.
@@ -111,6 +119,7 @@ struct alp_scene {
     uint32_t (*triangles)[3];   // indices into the vertices
     uint32_t *triangle_surface; // surface of each
     bool *triangle_usable;      // finite, |coordinate| ≤ ALPI_COORDINATE_LIMIT, area > 0
+    alpi_sides *sides;          // NULL: maps hold the fronts of all triangles
     uint32_t usable_count;
 
     uint32_t surface_count;
@@ -129,6 +138,7 @@ struct alp_scene {
 
     double unit_metres; // of one unit of the file, by which its lengths were multiplied
     bool unit_assumed;  // the file does not say it: metres were taken
+    bool metals_black;  // ALP_METALS_BLACK
     char up_axis;       // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
@@ -145,7 +155,9 @@ alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene *
 /// Checks and completes a filled scene: marks usable triangles, replaces normals that are zero or
 /// not finite by the triangle's, clamps material values, computes bounds and area, warns of what is
 /// odd (counts and names). Non-finite positions are set to 0 and their triangles made unusable.
-/// @return ALP_OK; INVALID_DATA (an index out of range: a programming error of the reader)
+/// Finds solids that are wound inwards.
+/// @return ALP_OK; INVALID_DATA (an index out of range: a programming error of the reader);
+///         OUT_OF_MEMORY; CANCELLED
 alp_result alpi_scene_finish(alp_scene *scene);
 
 /// A material with glTF's defaults except metallic 0, named `name`.
@@ -197,7 +209,13 @@ bool alpi_surface_has_cuts(const alp_scene *scene, uint32_t surface);
 
 /// Metalness: metallic × texture; 0 without a material.
 float alpi_surface_metallic(const alp_scene *scene, uint32_t triangle, float b1, float b2);
-/// Diffuse albedo ρ = base colour × (1 − metallic), clamped to [0, .95]; .5 without a material.
+/// The share of its base colour that a material of this metalness reflects: alp_scene_set_metals.
+static inline float alpi_scene_diffuse_share(const alp_scene *scene, float metallic)
+{
+    return scene->metals_black ? 1.0f - metallic : 1.0f;
+}
+/// Diffuse albedo ρ, clamped to [0, .95]: base colour, × (1 − metallic) where metals are black; .5
+/// without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
 /// A place on a triangle: barycentric weights of corners 1 and 2.

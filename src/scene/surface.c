@@ -187,10 +187,11 @@ vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, fl
         return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
     }
     const vec3 color = base_color_at(scene, material, (alpi_surface_place){triangle, b1, b2});
-    const float dielectric = 1.0f - alpi_surface_metallic(scene, triangle, b1, b2);
-    return (vec3){clamp_between(color.x * dielectric, 0.0f, ALBEDO_LIMIT),
-                  clamp_between(color.y * dielectric, 0.0f, ALBEDO_LIMIT),
-                  clamp_between(color.z * dielectric, 0.0f, ALBEDO_LIMIT)};
+    const float diffuse =
+        scene->metals_black ? 1.0f - alpi_surface_metallic(scene, triangle, b1, b2) : 1.0f;
+    return (vec3){clamp_between(color.x * diffuse, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.y * diffuse, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.z * diffuse, 0.0f, ALBEDO_LIMIT)};
 }
 
 bool alpi_surface_is_pane(const alp_scene *scene, uint32_t surface)

@@ -3,6 +3,8 @@
 // Based on: Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. JGT 2(1), 1997.
 #include "trace/trace.h"
 
+#include "scene/sides.h"
+
 typedef struct vec3d {
     double x, y, z;
 } vec3d;
@@ -64,6 +66,50 @@ static bool passes(const alp_scene *scene, uint32_t triangle, const hit *h,
            (!met && alpi_surface_is_cut(scene, triangle, (float)h->b1, (float)h->b2));
 }
 
+/// A ray in double precision, and how far it reaches.
+typedef struct ray {
+    vec3d origin, direction;
+    double minimum, maximum;
+} ray;
+
+/// The nearest hit between minimum and maximum. @param fronts no back is met
+/// @return its triangle, ALPI_NONE for none
+static uint32_t find_nearest(const alp_scene *scene, const ray *r, alpi_trace_filter filter,
+                             bool fronts, hit *nearest)
+{
+    uint32_t found = ALPI_NONE;
+    nearest->distance = r->maximum;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        hit h;
+        if (scene->triangle_usable[t] && intersect(scene, t, r->origin, r->direction, &h) &&
+            h.distance >= r->minimum && h.distance <= nearest->distance &&
+            !(fronts && h.from_behind) && !passes(scene, t, &h, filter)) {
+            *nearest = h;
+            found = t;
+        }
+    }
+    return found;
+}
+
+/// A front in the place of a back (alpi_trace_place).
+static uint32_t find_front(const alp_scene *scene, const ray *r, alpi_trace_filter filter,
+                           uint32_t back, hit *nearest)
+{
+    vec3 c[3];
+    const vec3 origin = {(float)r->origin.x, (float)r->origin.y, (float)r->origin.z};
+    const vec3 way = {(float)r->direction.x, (float)r->direction.y, (float)r->direction.z};
+    alpi_triangle_corners(scene, back, c);
+    const vec3 normal = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+    const double near = (double)alpi_trace_place(origin, way, normal, (float)nearest->distance);
+    ray around = *r;
+    around.minimum = fmax(r->minimum, nearest->distance - near);
+    around.maximum = fmin(r->maximum, nearest->distance + near);
+    hit front;
+    const uint32_t found = find_nearest(scene, &around, filter, true, &front);
+    *nearest = found != ALPI_NONE ? front : *nearest;
+    return found != ALPI_NONE ? found : back;
+}
+
 void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uint32_t active,
                               alpi_trace_filter filter, alpi_hits *hits)
 {
@@ -71,27 +117,23 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
         if ((active >> i & 1u) == 0) {
             continue;
         }
-        vec3d origin = {(double)rays->origin_x[i], (double)rays->origin_y[i],
-                        (double)rays->origin_z[i]};
-        vec3d direction = {(double)rays->direction_x[i], (double)rays->direction_y[i],
-                           (double)rays->direction_z[i]};
-        double nearest = (double)rays->maximum[i];
-        hits->distance[i] = INFINITY;
-        hits->triangle[i] = ALPI_NONE;
-        hits->b1[i] = hits->b2[i] = 0.0f;
-        hits->behind &= ~(1u << i);
-        for (uint32_t t = 0; t < scene->triangle_count; t++) {
-            hit h;
-            if (scene->triangle_usable[t] && intersect(scene, t, origin, direction, &h) &&
-                h.distance >= (double)rays->minimum[i] && h.distance <= nearest &&
-                !passes(scene, t, &h, filter)) {
-                nearest = h.distance;
-                hits->distance[i] = (float)h.distance;
-                hits->triangle[i] = t;
-                hits->b1[i] = (float)h.b1;
-                hits->b2[i] = (float)h.b2;
-                hits->behind = (hits->behind & ~(1u << i)) | (h.from_behind ? 1u << i : 0u);
-            }
+        const ray r = {
+            {(double)rays->origin_x[i], (double)rays->origin_y[i], (double)rays->origin_z[i]},
+            {(double)rays->direction_x[i], (double)rays->direction_y[i],
+             (double)rays->direction_z[i]},
+            (double)rays->minimum[i],
+            (double)rays->maximum[i]};
+        hit h;
+        uint32_t triangle = find_nearest(scene, &r, filter, false, &h);
+        if (triangle != ALPI_NONE && h.from_behind && !filter.backs) {
+            triangle = find_front(scene, &r, filter, triangle, &h);
         }
+        const bool met = triangle != ALPI_NONE;
+        hits->triangle[i] = triangle;
+        hits->distance[i] = met ? (float)h.distance : INFINITY;
+        hits->b1[i] = met ? (float)h.b1 : 0.0f;
+        hits->b2[i] = met ? (float)h.b2 : 0.0f;
+        const bool behind = met && h.from_behind != alpi_sides_is_turned(scene, triangle);
+        hits->behind = (hits->behind & ~(1u << i)) | (behind ? 1u << i : 0u);
     }
 }

@@ -36,6 +36,7 @@ typedef struct alpi_trace_context {
     struct RTCIntersectContext embree; // first: filters get its address
     const alpi_tracer *tracer;
     bool panes; // the caller sees to them
+    bool backs; // fronts are not met before backs in their place
 } alpi_trace_context;
 
 /// The scene's triangle of a hit.
@@ -52,5 +53,7 @@ void alpi_embree_cut_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_pane_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_pane_shadow_filter(const struct RTCFilterFunctionNArguments *a);
 void alpi_embree_one_sided_filter(const struct RTCFilterFunctionNArguments *a);
+/// Lets rays through all surfaces from behind.
+void alpi_embree_front_filter(const struct RTCFilterFunctionNArguments *a);
 
 #endif

@@ -65,22 +65,33 @@ void alpi_embree_pane_filter(const struct RTCFilterFunctionNArguments *a)
     }
 }
 
-/// Lets rays through single-sided surfaces from behind. Embree's normal is (v1−v0)×(v2−v0), which
-/// points outside for a counter-clockwise triangle.
+/// Whether a ray meets the back of its triangle: Embree's normal is (v1−v0)×(v2−v0), which points
+/// outside for a counter-clockwise triangle.
+static bool is_from_behind(const struct RTCFilterFunctionNArguments *a, unsigned lane)
+{
+    float along = 0.0f;
+    for (unsigned k = 0; k < 3; k++) {
+        along += lane_float(a->ray, a->N, RAY_DIRECTION_X + k, lane) *
+                 lane_float(a->hit, a->N, HIT_NORMAL_X + k, lane);
+    }
+    return along > 0.0f;
+}
+
 void alpi_embree_one_sided_filter(const struct RTCFilterFunctionNArguments *a)
 {
     const alpi_trace_context *context = (const void *)a->context;
     for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] == 0) {
-            continue;
-        }
-        float along = 0.0f;
-        for (unsigned k = 0; k < 3; k++) {
-            along += lane_float(a->ray, a->N, RAY_DIRECTION_X + k, i) *
-                     lane_float(a->hit, a->N, HIT_NORMAL_X + k, i);
-        }
-        if (along > 0.0f &&
+        if (a->valid[i] != 0 && is_from_behind(a, i) &&
             !alpi_surface_is_double_sided(context->tracer->scene, lane_triangle(a, i))) {
+            a->valid[i] = 0;
+        }
+    }
+}
+
+void alpi_embree_front_filter(const struct RTCFilterFunctionNArguments *a)
+{
+    for (unsigned i = 0; i < a->N; i++) {
+        if (a->valid[i] != 0 && is_from_behind(a, i)) {
             a->valid[i] = 0;
         }
     }

@@ -2,13 +2,15 @@
 // Packets of rays through Embree 3.
 #include "trace/embree.h"
 
+#include "scene/sides.h"
+
 #include <assert.h>
 #include <stddef.h>
 #include <string.h>
 
 static alpi_trace_context start_context(const alpi_tracer *tracer, alpi_trace_filter filter)
 {
-    alpi_trace_context context = {.tracer = tracer, .panes = filter.panes};
+    alpi_trace_context context = {.tracer = tracer, .panes = filter.panes, .backs = filter.backs};
     rtcInitIntersectContext(&context.embree);
     context.embree.filter = filter.one_sided ? alpi_embree_one_sided_filter : NULL;
     return context;
@@ -208,6 +210,18 @@ __attribute__((noinline)) static void take_all(uint32_t first, const found_lanes
     hits->behind = find_behind(found) & hit_lanes;
 }
 
+/// Exchanges front and back of hits on solids that are wound inwards.
+static void turn_over(const alpi_tracer *tracer, uint32_t active, alpi_hits *hits)
+{
+    for (; active != 0; active &= active - 1) {
+        const int i = __builtin_ctz(active);
+        if (hits->triangle[i] != ALPI_NONE &&
+            alpi_sides_is_turned(tracer->scene, hits->triangle[i])) {
+            hits->behind ^= 1u << i;
+        }
+    }
+}
+
 /// Whether all its triangles are solid, and one after the other in the scene too.
 static bool is_in_row(const alpi_tracer *tracer)
 {
@@ -233,22 +247,75 @@ static void copy_rays(const alpi_rays *rays, struct RTCRay8 *to)
     }
 }
 
+/// Traces the active lanes of `found`, whose rays are set.
+static void intersect(const alpi_tracer *tracer, const int *valid, alpi_trace_context *context,
+                      struct RTCRayHit8 *found)
+{
+    memset(found->hit.geomID, 0xff, sizeof found->hit.geomID); // RTC_INVALID_GEOMETRY_ID
+    memset(found->hit.instID, 0xff, sizeof found->hit.instID);
+    rtcIntersect8(valid, tracer->embree_scene, &context->embree, found);
+}
+
+/// Replaces hits of backs by fronts that lie in the same place (alpi_trace_place): which of the two
+/// a ray meets first is a matter of rounding and of the order of triangles.
+/// @param lanes where and how the hits were met
+static void prefer_fronts(const alpi_tracer *tracer, const alpi_rays *rays,
+                          const found_lanes *lanes, uint32_t active, alpi_trace_context *context,
+                          alpi_hits *hits)
+{
+    const uint32_t behind = context->backs ? 0 : hits->behind & active;
+    if (behind == 0) {
+        return;
+    }
+    struct RTCRayHit8 found;
+    _Alignas(32) int some[ALPI_PACKET];
+    uint32_t fronts = 0;
+    copy_rays(rays, &found.ray);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((behind >> i & 1u) != 0) {
+            const vec3 origin = {rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]};
+            const vec3 way = {lanes->direction[0][i], lanes->direction[1][i],
+                              lanes->direction[2][i]};
+            const vec3 normal = {lanes->normal[0][i], lanes->normal[1][i], lanes->normal[2][i]};
+            const float near = alpi_trace_place(origin, way, normal, hits->distance[i]);
+            found.ray.tnear[i] = fmaxf(hits->distance[i] - near, rays->minimum[i]);
+            found.ray.tfar[i] = fminf(hits->distance[i] + near, rays->maximum[i]);
+        }
+    }
+    alpi_trace_context own = *context;
+    own.embree.filter = alpi_embree_front_filter;
+    intersect(tracer, spread_bits(behind, some), &own, &found);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const bool front = found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        fronts |= front ? behind & LANE_BITS[i] : 0u;
+    }
+    const found_lanes instead = FOUND_LANES(&found, 0);
+    take_some(tracer, &instead, fronts, hits);
+}
+
+static void take(const alpi_tracer *tracer, const alpi_rays *rays, const found_lanes *lanes,
+                 uint32_t active, alpi_trace_context *context, alpi_hits *hits)
+{
+    if (active == ALL_LANES && is_in_row(tracer)) {
+        take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], lanes, hits);
+    } else {
+        take_some(tracer, lanes, active, hits);
+    }
+    prefer_fronts(tracer, rays, lanes, active, context, hits);
+    if (tracer->scene->sides != NULL) {
+        turn_over(tracer, active, hits);
+    }
+}
+
 static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                           alpi_trace_context *context, alpi_hits *hits)
 {
     struct RTCRayHit8 found;
     _Alignas(32) int some[ALPI_PACKET];
-    const int *valid = spread_bits(active, some);
     copy_rays(rays, &found.ray);
-    memset(found.hit.geomID, 0xff, sizeof found.hit.geomID); // RTC_INVALID_GEOMETRY_ID
-    memset(found.hit.instID, 0xff, sizeof found.hit.instID);
-    rtcIntersect8(valid, tracer->embree_scene, &context->embree, &found);
+    intersect(tracer, spread_bits(active, some), context, &found);
     const found_lanes lanes = FOUND_LANES(&found, 0);
-    if (valid == ALL_VALID && is_in_row(tracer)) {
-        take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], &lanes, hits);
-    } else {
-        take_some(tracer, &lanes, active, hits);
-    }
+    take(tracer, rays, &lanes, active, context, hits);
 }
 
 /// Packets of which all lanes take part, two at a time, laid out as trace_shadow_pairs does.
@@ -256,7 +323,6 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
                         alpi_trace_context *context, alpi_hits *hits)
 {
     struct RTCRayHit16 found[PAIRS_TOGETHER];
-    const bool in_row = is_in_row(tracer);
     for (uint32_t p = 0; p < pairs; p++) {
         alpi_ray_pair_set((alpi_ray_pair *)&found[p].ray, 0, packets[2 * p]);
         alpi_ray_pair_set((alpi_ray_pair *)&found[p].ray, 1, packets[2 * p + 1]);
@@ -268,11 +334,7 @@ static void trace_pairs(const alpi_tracer *tracer, const alpi_rays *const *packe
     }
     for (uint32_t i = 0; i < 2 * pairs; i++) {
         const found_lanes lanes = FOUND_LANES(&found[i / 2], i % 2 * ALPI_PACKET);
-        if (in_row) {
-            take_all(tracer->triangles[ALPI_GEOMETRY_SOLID][0], &lanes, &hits[i]);
-        } else {
-            take_some(tracer, &lanes, ALL_LANES, &hits[i]);
-        }
+        take(tracer, packets[i], &lanes, ALL_LANES, context, &hits[i]);
     }
 }
 

@@ -6,6 +6,8 @@
 
 #include "scene/scene.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 enum { ALPI_PACKET = 8, ALPI_TRACE_BATCH = 64 };
@@ -90,7 +92,8 @@ typedef struct alpi_hits {
     _Alignas(32) float distance[ALPI_PACKET]; // INFINITY where nothing was hit
     uint32_t triangle[ALPI_PACKET];           // ALPI_NONE where nothing was hit
     float b1[ALPI_PACKET], b2[ALPI_PACKET];   // barycentric weights of corners 1 and 2
-    uint32_t behind; // bit i: lane i met the back of its triangle, by the tracer's rounding
+    uint32_t behind; // bit i: lane i met the back of its triangle, by the tracer's rounding. Of
+                     // solids that are wound inwards (scene/sides.h) that is the front
 } alpi_hits;
 
 typedef struct alpi_tracer alpi_tracer;
@@ -101,6 +104,7 @@ typedef struct alpi_trace_filter {
     bool panes; // the caller sees to panes (alpi_surface_is_pane): they do not stop shadow rays,
                 // and meet other rays whatever their alpha. Else BLEND is cut at one half and
                 // transmission opaque
+    bool backs; // a back is met even where a front lies in its place (alpi_trace_place)
     bool quick; // rays of random directions that are only asked whether they are blocked: one that
                 // meets the edge between two triangles may slip through. For a job of which
                 // alpi_tracer_quicken says so, no other
@@ -155,6 +159,17 @@ bool alpi_tracer_takes_pairs(const alpi_tracer *tracer);
 /// The same of packets in pairs, of which all lanes take part. @param count of pairs
 void alpi_trace_occluded_pairs(const alpi_tracer *tracer, alpi_ray_pair *pairs, uint32_t count,
                                alpi_trace_filter filter);
+/// Surfaces lie in one place for a ray where their distances differ by a few steps of float. There
+/// a front is met before a back, whatever the order of triangles.
+/// @param normal of the triangle that was met at `distance`, of any length
+/// @return m along the ray: 8 ε (|origin|∞ + distance) / cosine, cosine at least 1/64
+static inline float alpi_trace_place(vec3 origin, vec3 direction, vec3 normal, float distance)
+{
+    const float cosine = fabsf(vec3_dot(direction, normal)) / vec3_length(normal);
+    const float size = fmaxf(fmaxf(fabsf(origin.x), fabsf(origin.y)), fabsf(origin.z)) + distance;
+    return 8.0f * FLT_EPSILON * size / fmaxf(cosine, 1.0f / 64.0f);
+}
+
 /// Lanes that are not active keep what `hits` holds.
 void alpi_trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,
                         alpi_trace_filter filter, alpi_hits *hits);

@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "base/warp.h"
 #include "scene/area_points.h"
+#include "scene/origin.h"
 #include "transport/paths/hit.h"
 
 #include <alpenglow/light.h>
@@ -218,7 +219,8 @@ static void name_lamp(const examination *e, uint32_t index, const verdict *v)
 {
     const alp_scene *scene = e->scene;
     const alpi_light *light = alpi_lighting_light(e->lighting, index);
-    const vec3 p = light->position;
+    double p[3];
+    alpi_origin_restore(scene, light->position, p);
     char name[40];
     snprintf(name, sizeof name, "light %u", index);
     const char *called = light->name != NULL && light->name[0] != '\0' ? light->name : name;
@@ -227,12 +229,12 @@ static void name_lamp(const examination *e, uint32_t index, const verdict *v)
                   "lies inside something or behind a wall, at %g %g %g m: its rays meet the "
                   "backs of single-sided surfaces, \"%s\" first, which are black and opaque; "
                   "move it, or remove the surface around it",
-                  (double)p.x, (double)p.y, (double)p.z, surface_name(scene, v->around));
+                  p[0], p[1], p[2], surface_name(scene, v->around));
     } else {
         alpi_warn(scene->context, "light-on-surface", called,
                   "lies in the surface \"%s\", at %g %g %g m, and lights both its sides; move it"
                   " to the side that it should light",
-                  surface_name(scene, v->in), (double)p.x, (double)p.y, (double)p.z);
+                  surface_name(scene, v->in), p[0], p[1], p[2]);
     }
 }
 

@@ -510,6 +510,7 @@ TEST(other_lights_are_not_counted)
     alp_lamp lamp = alp_lamp_default();
     alp_scene *scene = NULL;
     lamp.position[1] = 1.0f;
+    lamp.intensity = 1.0f;
     ASSERT_OK(context, alp_scene_load(context, "builtin:torus-plane", &scene));
     for (int soft = 0; soft < 2; soft++) {
         alp_lightmap *maps[2];

@@ -9,10 +9,11 @@ const encode = (l) => (l <= 0.0031308 ? 12.92 * l : 1.055 * l ** (1 / 2.4) - 0.0
 /// A colour as three.js' files hold it, in eight bits of sRGB.
 const inEightBits = (l) => decode(Math.round(255 * encode(l)) / 255);
 
-/// Half a step of eight bits of sRGB, times what the texture is multiplied by.
-const halfStep = (value, strength) => {
+/// Three halves of a step of eight bits of sRGB, times what the texture is multiplied by: half a step
+/// of rounding, and one of noise.
+const ditheredStep = (value, strength) => {
   const c = encode(Math.min(1, value / strength));
-  return strength * (decode(c + 0.5 / 255) - decode(c));
+  return strength * (decode(c + 1.5 / 255) - decode(c));
 };
 
 /// By name of a .glb's materials, what their textures are relative to.
@@ -34,7 +35,8 @@ async function emissiveStrengths(file) {
 /// (spread); and single floats on the way, 1e-5.
 /// three.js: half floats, 2⁻¹¹. Babylon.js: eight bits of the texel's largest channel, half a step
 /// of 2⁻⁸, for any of the four texels. glTF with the light as emission, whose texture holds
-/// albedo · E/π in eight bits of sRGB: half a step of them at the largest of the four texels.
+/// albedo · E/π in eight bits of sRGB, dithered: three halves of a step at the largest of the four
+/// texels.
 const kinds = {
   three: {
     file: 'cornell.json',
@@ -54,7 +56,7 @@ const kinds = {
     albedo: (a) => a,
     emission: (e, k) => e[k],
     stored: (pixel, k, strength) =>
-      halfStep((pixel.albedo[k] / Math.PI) * (pixel.irradiance[k] + pixel.spread[k]) + pixel.emission[k], strength),
+      ditheredStep((pixel.albedo[k] / Math.PI) * (pixel.irradiance[k] + pixel.spread[k]) + pixel.emission[k], strength),
   },
 };
 

@@ -123,6 +123,9 @@ static json_t *describe_light(const alpi_bake_job *job)
     if (o->light.emitters == ALP_EMITTERS_COUNTED) {
         json_object_set_new(object, "emitters", json_string("counted"));
     }
+    if (job->scene->metals_black) {
+        json_object_set_new(object, "metals", json_string("black"));
+    }
     if (r->light_direct) {
         json_object_del(object, "gather"); // nothing was gathered
     }

@@ -3,6 +3,7 @@
 #include "bake/files/light_units.h"
 
 #include "bake/settings.h"
+#include "base/dither.h"
 #include "base/half.h"
 #include "base/memory.h"
 #include "formats/formats.h"
@@ -113,18 +114,36 @@ static void choose_scales(alpi_bake_job *job, float *const *values)
 
 // --- encoding ------------------------------------------------------------------------------------
 
-/// Encodes values in [0, 1] as 8-bit RGB. Two materials that meet inside a chart have scales of
-/// their own. A filter that reads across their border mixes the scales, as it mixes the colours.
+enum { STREAM_DITHER = 40 }; // random numbers apart from those of samples
+
+/// Turns values in [0, 1] into codes of 8 bits. Emission is dithered, because dim walls show every
+/// step of its codes. Texels beside the charts get the codes of their neighbours afterwards.
+static void quantise(const alpi_bake_job *job, float *page, uint32_t number)
+{
+    const bool emissive = job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE;
+    const uint64_t pixels = (uint64_t)job->lightmap->width * job->lightmap->height;
+    for (uint64_t i = 0; i < 4 * pixels; i++) {
+        if (i % 4 == 3 || !(page[i / 4 * 4 + 3] > 0.0f)) {
+            continue;
+        }
+        const float value = fminf(fmaxf(page[i], 0.0f), 1.0f);
+        const uint32_t key =
+            alpi_random_key(job->options.occlusion.seed, 4 * pixels * number + i, STREAM_DITHER);
+        page[i] = emissive ? (float)alpi_dither_byte(alpi_linear_to_srgb(value) * 255.0f, key)
+                           : floorf(value * 255.0f + 0.5f);
+    }
+}
+
+/// Encodes codes as 8-bit RGB. Two materials that meet inside a chart have scales of their own. A
+/// filter that reads across their border mixes the scales, as it mixes the colours.
 static alp_result encode_bytes(const alpi_bake_job *job, const float *page, uint32_t number)
 {
-    const bool srgb = job->options.lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE;
     const alp_image_info info = {job->lightmap->width, job->lightmap->height, 3, ALP_COMPONENT_U8};
     alp_image *image = NULL;
     ALP_TRY(alp_image_create(job->context, info, &image));
     uint8_t *bytes = alp_image_bytes(image);
     for (size_t i = 0; i < 3 * (size_t)info.width * info.height; i++) {
-        const float value = fminf(fmaxf(page[i / 3 * 4 + i % 3], 0.0f), 1.0f);
-        bytes[i] = (uint8_t)((srgb ? alpi_linear_to_srgb(value) : value) * 255.0f + 0.5f);
+        bytes[i] = (uint8_t)page[i / 3 * 4 + i % 3];
     }
     const alp_result result = alpi_png_encode(image, &job->light_asset.files[number],
                                               &job->light_asset.file_sizes[number]);
@@ -135,8 +154,12 @@ static alp_result encode_bytes(const alpi_bake_job *job, const float *page, uint
 static alp_result encode_page(alpi_bake_job *job, float *page, uint32_t number)
 {
     const alp_lightmap *l = job->lightmap;
+    const bool bytes_are_wanted = job->options.lightmap_as != ALP_LIGHTMAP_AS_EXTRAS;
+    if (bytes_are_wanted) {
+        quantise(job, page, number);
+    }
     ALP_TRY(alpi_dilate(job->context, page, l->width, l->height));
-    if (job->options.lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+    if (bytes_are_wanted) {
         return encode_bytes(job, page, number);
     }
     const alp_image view = {.context = job->context,

@@ -44,21 +44,53 @@ static alp_result take_range(void *user, uint32_t begin, uint32_t end, uint32_t 
 }
 
 /// Takes means and standard errors of the listed texels, and the stated error of the whole.
-static alp_result take_values(alpi_bake_job *job, const uint32_t *order, uint32_t count,
-                              const alpi_reference_value *values)
+static alp_result take_values(alpi_bake_job *job, const alpi_light_task *task)
 {
     const uint32_t texels = job->lightmap->texels.count;
     ALPI_TRY_NEW(job->context, job->irradiance, texels);
     ALPI_TRY_NEW(job->context, job->irradiance_errors, texels);
-    take_job take = {job, order, values};
-    ALP_TRY(alpi_parallel_for(job->context, count, TEXELS_PER_RANGE, take_range, &take, NULL));
+    take_job take = {job, task->order, task->values};
+    ALP_TRY(
+        alpi_parallel_for(job->context, task->count, TEXELS_PER_RANGE, take_range, &take, NULL));
     alpi_light_error error;
-    ALP_TRY(alpi_light_find_error(job->context, values, texels, order, count, &error));
+    ALP_TRY(alpi_light_find_error(job->context, task->values, task, &error));
     const bool told = !is_by_hemicubes(job);
     alp_bake_report *r = &job->report;
     r->light_mean = error.mean;
-    r->light_relative_error = told ? error.over_mean.rms : (double)NAN;
-    r->light_p99_error = told ? error.over_mean.p99 : (double)NAN;
+    r->light_scale = error.scale;
+    r->light_relative_error = told ? error.over_scale.rms : (double)NAN;
+    r->light_p99_error = told ? error.over_scale.p99 : (double)NAN;
+    return ALP_OK;
+}
+
+typedef struct emission_job {
+    const alp_scene *scene;
+    const alpi_texels *texels;
+    const uint32_t *order;
+} emission_job;
+
+static void sum_emission(const void *user, uint32_t begin, uint32_t end,
+                         double sums[ALPI_SUM_LIMIT])
+{
+    const emission_job *job = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i], triangle = job->texels->triangles[t];
+        const float *b = job->texels->barycentrics[t];
+        vec3 c[3];
+        alpi_triangle_corners(job->scene, triangle, c);
+        const vec3 up = {0.0f, 1.0f, 0.0f};
+        const vec3 emission = alpi_surface_emission(job->scene, triangle, b[0], b[1],
+                                                    vec3_triangle_normal(c[0], c[1], c[2], up));
+        sums[0] += (double)vec3_dot(emission, emission);
+    }
+}
+
+alp_result alpi_light_find_emission(const alpi_bake_job *job, alpi_light_task *task)
+{
+    double sums[ALPI_SUM_LIMIT] = {0.0};
+    const emission_job emission = {job->scene, &job->lightmap->texels, task->order};
+    ALP_TRY(alpi_parallel_sum(job->context, task->count, sum_emission, &emission, NULL, sums));
+    task->emitted = ALPI_PI * sqrt(sums[0] / (3.0 * fmax((double)task->count, 1.0)));
     return ALP_OK;
 }
 
@@ -127,7 +159,7 @@ static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
                             ? gather_paths(job, t)
                             : alpi_bake_radiosity(job, t);
     if (result == ALP_OK) {
-        result = take_values(job, t->order, t->count, t->values);
+        result = take_values(job, t);
     }
     alpi_release(job->context, t->values);
     return result;
@@ -153,6 +185,9 @@ static alp_result gather_by_clock(alpi_bake_job *job, const alpi_lighting *light
         .directional = job->directional,
         .progress = {.callback = alpi_light_clock_goes_on, .user = clock, .stage = clock->stage},
         .clock = clock};
+    if (alpi_lighting_emitter_count(lighting) > 0) {
+        ALP_TRY(alpi_light_find_emission(job, &task));
+    }
     return gather(job, &task);
 }
 

@@ -9,6 +9,8 @@
 #include "transport/directional.h"
 #include "transport/paths/reference.h"
 
+#include <math.h>
+
 /// The stage of light: gathers irradiance at the texels, if a map of light is asked for, and fills
 /// the report.
 /// @return ALP_OK; LIMIT: the time was over before any texel had light; OUT_OF_MEMORY; CANCELLED
@@ -22,6 +24,7 @@ typedef struct alpi_light_clock {
     const char *stage;
     double deadline;     // alpi_seconds(); HUGE_VAL: none
     bool until_deadline; // all the time there is will be used
+    bool may_go_on;      // rounds follow until an error is reached
     bool refused;        // by the user
     bool ended;          // nobody is asked any more
     bool one_loop;       // of the part: its progress is told as that of one loop
@@ -50,13 +53,29 @@ typedef struct alpi_light_task {
     const alpi_lattice *lattice;
     alpi_task_progress progress; // of the clock
     alpi_light_clock *clock;
+    double emitted; // W·m⁻²: π × emitted radiance, root mean square over texels and channels
     alpi_reference_value *values;  // [receivers] out; made by who gathers, when it does
     alpi_directional *directional; // [receivers] out, or NULL
 } alpi_light_task;
 
+/// Finds the emission of a task's texels, at the middle of each.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_light_find_emission(const alpi_bake_job *job, alpi_light_task *task);
+/// The light that errors are relative to, W·m⁻²: E + max(0, M − 1500 E), E the mean irradiance and
+/// M the root mean square of what the surfaces emit. Little of what nearly convex things emit
+/// returns to them. Beside emission that much brighter no picture shows it, and no number of rays
+/// would reach an error over so little. A room with small bright lamps has less: built-in windows
+/// M = 1,180 E.
+static inline double alpi_light_scale(const alpi_light_task *task, double mean)
+{
+    return mean + fmax(0.0, task->emitted - 1500.0 * mean);
+}
+
 /// Direct light and what surfaces make of it, by rays or hemicubes.
 alp_result alpi_bake_radiosity(alpi_bake_job *job, alpi_light_task *task);
 
+/// The rays that light may take; HUGE_VAL: any number (alp_light_options.bounded).
+double alpi_light_ray_limit(const alpi_bake_job *job, uint32_t texels);
 /// Rays of a block, on a map of so many texels.
 uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels);
 /// Samples of each light at a texel in the first round.

@@ -13,6 +13,8 @@
 static const double LOOP_SHARE = 0.5;
 // Nobody knows before a round whether it is the last.
 static const double MOST_TOLD = 0.99;
+/// Seconds that are left at least while the error decides whether another round follows.
+static const double LEAST_LEFT = 1.0;
 
 alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
                                         const alpi_task_progress *progress)
@@ -24,6 +26,7 @@ alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
         .user = progress->user,
         .stage = progress->stage,
         .deadline = s->time_limit > 0.0 ? job->gathering.began + s->time_limit : HUGE_VAL,
+        .may_go_on = job->options.light.error > 0.0f,
         .until_deadline = s->time_limit > 0.0 && !(job->options.light.error > 0.0f),
         .began = now,
         .part_began = now,
@@ -69,6 +72,9 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress)
         const double now = alpi_seconds(), elapsed = now - c->part_began;
         double left =
             c->share > 0.0 ? elapsed * ((1.0 - c->share) / c->share + c->after / c->share) : -1.0;
+        if (left >= 0.0 && c->may_go_on) { // another round may follow, and nobody knows
+            left = fmax(left, LEAST_LEFT);
+        }
         if (c->until_deadline || left > c->deadline - now) {
             left = fmax(c->deadline - now, 0.0);
         }

@@ -18,6 +18,7 @@ typedef struct alpi_light_direct {
     double power;                        // of samples, that the error falls with
     double foreseen;                     // root mean square of the errors after more of them
     double seconds;                      // of a sample more of a texel
+    double drawn;                        // samples in rounds so far, of all texels together
 } alpi_light_direct;
 
 /// Share of the texels whose direct light is noisy.

@@ -34,25 +34,24 @@ static void sum_errors(const void *user, uint32_t begin, uint32_t end, double su
 }
 
 alp_result alpi_light_find_error(alp_context *context, const alpi_reference_value *values,
-                                 uint32_t texels, const uint32_t *order, uint32_t count,
-                                 alpi_light_error *error)
+                                 const alpi_light_task *task, alpi_light_error *error)
 {
     double sums[ALPI_SUM_LIMIT] = {0.0}, p99 = 0.0;
-    const error_job job = {values, order, ALPI_NEW(context, float, texels)};
+    const error_job job = {values, task->order, ALPI_NEW(context, float, task->receivers->count)};
     if (job.errors == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alp_result result = alpi_parallel_sum(context, count, sum_errors, &job, NULL, sums);
+    alp_result result = alpi_parallel_sum(context, task->count, sum_errors, &job, NULL, sums);
     if (result == ALP_OK) {
-        result = alpi_percentile(context, job.errors, order, count, 0.99, &p99);
+        result = alpi_percentile(context, job.errors, task->order, task->count, 0.99, &p99);
     }
     alpi_release(context, job.errors);
-    const double mean = sums[0], squares = sums[1];
-    const double all = 3.0 * fmax((double)count, 1.0);
-    *error = (alpi_light_error){.mean = mean / all, .over_mean = {(double)NAN, (double)NAN}};
-    if (mean > 0.0) {
-        error->over_mean.rms = sqrt(squares / all) / error->mean;
-        error->over_mean.p99 = p99 / error->mean;
+    const double all = 3.0 * fmax((double)task->count, 1.0), mean = sums[0] / all;
+    const double scale = alpi_light_scale(task, mean);
+    *error = (alpi_light_error){mean, scale, {(double)NAN, (double)NAN}};
+    if (scale > 0.0) {
+        error->over_scale.rms = sqrt(sums[1] / all) / scale;
+        error->over_scale.p99 = p99 / scale;
     }
     return result;
 }
@@ -60,7 +59,7 @@ alp_result alpi_light_find_error(alp_context *context, const alpi_reference_valu
 /// Squared errors of texels at the limit, channels summed.
 static double square_at(const alpi_light_error *error, double limit)
 {
-    return 3.0 * pow(limit * error->mean, 2.0);
+    return 3.0 * pow(limit * error->scale, 2.0);
 }
 
 /// Of it: that of half the limit.
@@ -88,9 +87,9 @@ double alpi_light_tail(const alpi_light_whole *whole, const alpi_light_error *er
     if (!(all > 0.0)) {
         return 0.0;
     }
-    noise->direct = error->over_mean.p99 * sqrt(direct / all);
-    noise->bounced = error->over_mean.p99 * sqrt(bounced / all);
-    return error->over_mean.p99 * sqrt(fmax(all - direct - bounced, 0.0) / all);
+    noise->direct = error->over_scale.p99 * sqrt(direct / all);
+    noise->bounced = error->over_scale.p99 * sqrt(bounced / all);
+    return error->over_scale.p99 * sqrt(fmax(all - direct - bounced, 0.0) / all);
 }
 
 void alpi_light_find_worst(const alpi_light_whole *whole, const alpi_light_error *error,
@@ -128,6 +127,14 @@ void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error,
                   "light was cut off after %u rays per texel and %u samples of each light; the "
                   "stated error is %.2g %%, and another run gives other bits",
                   rays, direct, 100.0 * stated);
+    } else if (wanted > 0.0 && job->report.light_bounded &&
+               (error->rms > wanted || error->p99 > ALPI_P99_LIMIT * wanted)) {
+        alpi_note(job->context, "ray-limit", job->scene->name,
+                  "light ended after %.3g million rays, the limit of a bake without --error: the "
+                  "stated error is %.2g %%, of the worst texel in a hundred %.2g %%; --error %g "
+                  "goes on",
+                  1e-6 * (double)job->report.rays, 100.0 * stated, 100.0 * error->p99,
+                  100.0 * wanted);
     } else if (wanted > 0.0 && error->rms > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
                   "the stated error of the light is %.2g %% after %u rays per texel and %u "

@@ -4,21 +4,22 @@
 #define ALPI_BAKE_LIGHT_ERROR_H
 
 #include "bake/job.h"
+#include "bake/light/light.h"
 #include "bake/light/light_plan.h"
 #include "maps/texels/stated_error.h"
 #include "transport/paths/reference.h"
 
 /// Of a map of light. An error of a texel is the root mean square of those of its channels.
 typedef struct alpi_light_error {
-    double mean;                   // of the light, over texels and channels
-    alpi_relative_error over_mean; // NaN where it is dark
+    double mean;                    // of the light, over texels and channels
+    double scale;                   // alpi_light_scale
+    alpi_relative_error over_scale; // NaN where that is 0
 } alpi_light_error;
 
 /// @param values [texels]
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
 alp_result alpi_light_find_error(alp_context *context, const alpi_reference_value *values,
-                                 uint32_t texels, const uint32_t *order, uint32_t count,
-                                 alpi_light_error *error);
+                                 const alpi_light_task *task, alpi_light_error *error);
 
 /// Light as a map holds it, and the parts that rays and samples make better. What its variances
 /// have beyond theirs is the solution's.

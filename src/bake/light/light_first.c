@@ -111,5 +111,5 @@ alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
     double wanted;
     ALP_TRY(plan(r, &p, &wanted));
     *rays = alpi_light_ray_count(wanted);
-    return p.direct > 0.0 ? add_direct(r, p.for_direct * r->mean) : ALP_OK;
+    return p.direct > 0.0 ? add_direct(r, p.for_direct * r->scale) : ALP_OK;
 }

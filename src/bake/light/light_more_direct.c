@@ -276,6 +276,7 @@ static alp_result gather(const direct_deal *deal, uint32_t count, uint32_t more)
                                   &output));
     scale_layers(deal, count, more, true);
     d->job->report.rays += output.rays;
+    d->drawn += (double)count * more;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t t = deal->some[i];
         const double had = d->counts[t];

@@ -67,22 +67,24 @@ alp_result alpi_light_round_measure(alpi_light_round_state *r, const uint32_t *l
         b[k] /= 3.0 * fmax((double)count, 1.0);
     }
     r->mean = d[0] + b[0];
-    r->map_mean = r->job->options.light.direct != ALP_DIRECT_OFF ? r->mean : b[3];
-    r->direct_error = r->mean > 0.0 ? sqrt(d[1]) / r->mean : 0.0;
-    r->bounced_error = r->map_mean > 0.0 ? sqrt(b[1]) / r->map_mean : 0.0;
+    const double map_mean = r->job->options.light.direct != ALP_DIRECT_OFF ? r->mean : b[3];
+    r->scale = alpi_light_scale(r->task, r->mean);
+    r->map_scale = alpi_light_scale(r->task, map_mean);
+    r->direct_error = r->scale > 0.0 ? sqrt(d[1]) / r->scale : 0.0;
+    r->bounced_error = r->map_scale > 0.0 ? sqrt(b[1]) / r->map_scale : 0.0;
     r->bounced_rms = sqrt(b[2]);
     const double solved =
         r->fixed == NULL
             ? alpi_light_solved_error(r->solution, r->mean, r->bounced_rms, r->solved_noise)
             : 0.0;
-    r->solved_error = r->map_mean > 0.0 ? solved * r->mean / r->map_mean : 0.0;
-    r->map = (alpi_light_error){.over_mean = {(double)NAN, (double)NAN}};
+    r->solved_error = r->map_scale > 0.0 ? solved * r->mean / r->map_scale : 0.0;
+    r->map = (alpi_light_error){.over_scale = {(double)NAN, (double)NAN}};
     return ALP_OK;
 }
 
 double alpi_light_round_solved_share(const alpi_light_round_state *r)
 {
-    return r->bounced_rms > 0.0 ? r->solved_error * r->map_mean / r->bounced_rms : 0.0;
+    return r->bounced_rms > 0.0 ? r->solved_error * r->map_scale / r->bounced_rms : 0.0;
 }
 
 alp_result alpi_light_round_look(alpi_light_round_state *r)
@@ -90,8 +92,7 @@ alp_result alpi_light_round_look(alpi_light_round_state *r)
     const alpi_light_task *t = r->task;
     ALP_TRY(alpi_light_peek(r->job, t, r->solution, (const float(*)[3])r->skies,
                             alpi_light_round_solved_share(r), r->fresh));
-    return alpi_light_find_error(r->job->context, r->fresh, t->receivers->count, t->order, t->count,
-                                 &r->map);
+    return alpi_light_find_error(r->job->context, r->fresh, t, &r->map);
 }
 
 // --- what comes next -----------------------------------------------------------------------------
@@ -142,7 +143,7 @@ static alp_result plan_for_worst(alpi_light_round_state *r, alpi_light_plan *p)
     const double limit = ALPI_P99_LIMIT * (double)r->job->options.light.error;
     *p = (alpi_light_plan){0};
     ALP_TRY(alpi_light_round_look(r));
-    if (!(r->map.over_mean.p99 > limit)) { // also where it is dark
+    if (!(r->map.over_scale.p99 > limit)) { // also where it is dark
         return ALP_OK;
     }
     const bool direct = r->job->options.light.direct != ALP_DIRECT_OFF;
@@ -165,7 +166,7 @@ bool alpi_light_round_plan_all(const alpi_light_round_state *r, alpi_light_plan 
     if (!(hypot(r->direct_error, r->bounced_error) > aim)) {
         return false;
     }
-    const double half = sqrt(0.5) * aim * r->mean; // about what direct light gets
+    const double half = sqrt(0.5) * aim * r->scale; // about what direct light gets
     const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
     const alpi_light_noise noise = {r->direct_error, r->bounced_error, noisy};
     *p = cheapest(r, &noise, aim);

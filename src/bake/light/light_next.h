@@ -26,19 +26,21 @@ typedef struct alpi_light_round_state {
     alpi_held_out *held_out;             // by the rays of the last round
     alpi_reference_value *held;          // [held_out->count] by those of all rounds
     alpi_light_direct direct;
-    uint32_t rays;          // of a texel so far, but of those that got more alone
-    uint32_t *rays_of;      // [texels] of each
-    alpi_light_worst worst; // rays of this round: of the list; count 0: of all
-    uint32_t number;        // of the round
-    uint32_t most_rays;     // of any texel so far
-    float factor;           // alpi_bounced_report, of the last round of all texels
-    double sending;         // texels that send rays in a round of all; a guess before there is one
-    double rays_power;      // of rays, that the error of bounced light falls with
-    double ray_seconds;     // of a ray more of a texel that sends any
-    double mean, map_mean;  // of all light, and of that of the map: see alpi_light_round_measure
-    double direct_error, bounced_error; // root mean squares over a mean
+    uint32_t rays;           // of a texel so far, but of those that got more alone
+    uint32_t *rays_of;       // [texels] of each
+    alpi_light_worst worst;  // rays of this round: of the list; count 0: of all
+    uint32_t number;         // of the round
+    double ray_limit;        // rays that light may take
+    uint32_t most_rays;      // of any texel so far
+    float factor;            // alpi_bounced_report, of the last round of all texels
+    double sending;          // texels that send rays in a round of all; a guess before there is one
+    double rays_power;       // of rays, that the error of bounced light falls with
+    double ray_seconds;      // of a ray more of a texel that sends any
+    double mean;             // of all light
+    double scale, map_scale; // what errors are relative to: see alpi_light_round_measure
+    double direct_error, bounced_error; // root mean squares over a scale
     double bounced_rms;                 // of bounced light, a soft sky's apart
-    double solved_error;                // of the solution that rays meet, over a mean too
+    double solved_error;                // of the solution that rays meet, over a scale too
     double solved_noise;                // 1 / √ rays that a block of it is known by, on average
     alpi_light_error map;               // as the map would be stated; see alpi_light_round_look
     bool for_worst;                     // the next round is for the worst texels alone
@@ -48,8 +50,8 @@ typedef struct alpi_light_round_state {
 /// The most rays of a texel.
 uint32_t alpi_light_round_most_rays(const alp_light_options *options);
 
-/// Finds the errors so far. They are over the mean of what the map will hold. Where that is bounced
-/// light alone, direct light is what others reflect, and errs over the mean of all.
+/// Finds the errors so far, over alpi_light_scale of what the map will hold. Where that is bounced
+/// light alone, direct light is what others reflect, and errs over the scale of all.
 /// @param list [count] texels whose bounced light is known: those of the task, or some of them
 /// @return ALP_OK; CANCELLED
 alp_result alpi_light_round_measure(alpi_light_round_state *round, const uint32_t *list,

@@ -193,6 +193,30 @@ static alp_result add_bounced(alpi_light_round_state *r, uint32_t rays)
 
 // --- what comes next -----------------------------------------------------------------------------
 
+/// The rays that are left of those. A sample of direct light counts as one even where it aims at
+/// nothing and traces none.
+static double rays_left(const alpi_light_round_state *r)
+{
+    const double sent = (double)(r->job->report.rays - r->solution->rays);
+    return fmax(r->ray_limit - sent - r->direct.drawn, 0.0);
+}
+
+/// Cuts a round to the rays that are left. @param listed, sending texels that get either
+static void keep_ray_limit(alpi_light_round_state *r, double listed, double sending, double *direct,
+                           double *rays)
+{
+    const double left = rays_left(r);
+    const double wanted = listed * *direct + sending * *rays;
+    if (wanted > left) {
+        const double share = left / wanted;
+        *direct = share * *direct >= 0.125 * alpi_light_typical_samples(&r->direct)
+                      ? share * *direct
+                      : 0.0;
+        *rays = share * *rays >= 0.125 * r->rays ? share * *rays : 0.0;
+        r->job->report.light_bounded = true;
+    }
+}
+
 /// As many of `samples` as there is time for; 0 where they would be too few to help those there
 /// are.
 static double affordable(const alpi_light_round_state *r, double samples, double seconds_each,
@@ -220,24 +244,31 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
         return ALP_OK;
     }
     r->number++;
-    const double direct_asked = direct, rays_asked = rays;
     const double listed = fmax(p.noisy * (double)r->task->count, 1.0); // texels, about
+    uint32_t count;
+    (void)senders(r, &count);
+    const double sending = fmin(count, r->sending);
+    keep_ray_limit(r, listed, sending, &direct, &rays);
+    if (direct <= 0.0 && rays <= 0.0) {
+        *done = true;
+        return ALP_OK;
+    }
+    const double direct_asked = direct, rays_asked = rays;
     bool dealt = false;
     const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
     direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
     if (direct > 0.0) {
-        const alpi_light_goal goal = {.wanted = p.for_direct * r->mean,
+        const alpi_light_goal goal = {.wanted = p.for_direct * r->scale,
                                       .each = r->for_worst,
                                       .among = r->for_worst ? r->worst.marks : NULL,
-                                      .most = isinf(r->task->clock->deadline) ? HUGE_VAL
-                                                                              : direct * listed,
+                                      .most = isinf(r->task->clock->deadline) &&
+                                                      !r->job->report.light_bounded
+                                                  ? rays_left(r)
+                                                  : direct * listed,
                                       .seed = alpi_light_round_seed(r, true)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
-    uint32_t count;
-    (void)senders(r, &count);
-    const double sending = fmin(count, r->sending);
     rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
     if (rays > 0.0) {
         alpi_light_clock_part(r->task->clock, true, 0.0);
@@ -250,11 +281,11 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
         *done = r->cut_off = true;
     }
     *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
-    const double before = r->direct_error * r->mean;
+    const double before = r->direct_error * r->scale;
     ALP_TRY(measure(r));
     if (direct > 0.0 && !r->for_worst) {
         r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
-                                           r->direct_error * r->mean / before);
+                                           r->direct_error * r->scale / before);
     }
     return ALP_OK;
 }
@@ -355,11 +386,11 @@ static bool may_be_dropped(const alpi_light_round_state *r)
 static alp_result warn_of_error(alpi_light_round_state *r)
 {
     const bool wanted = r->job->options.light.error > 0.0f;
-    if (r->cut_off || (wanted && isnan(r->map.over_mean.p99))) {
+    if (r->cut_off || (wanted && isnan(r->map.over_scale.p99))) {
         ALP_TRY(alpi_light_round_look(r));
     }
     r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
-    alpi_light_warn(r->job, &r->map.over_mean, r->cut_off, r->most_rays, r->direct.most);
+    alpi_light_warn(r->job, &r->map.over_scale, r->cut_off, r->most_rays, r->direct.most);
     return ALP_OK;
 }
 
@@ -415,6 +446,7 @@ alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const al
                              alpi_radiosity *solution)
 {
     alpi_light_round_state r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
+    r.ray_limit = alpi_light_ray_limit(job, task->count);
     alp_result result = run_rounds(&r);
     release_rounds(&r);
     if (result == ALP_OK && job->options.light.denoise) {

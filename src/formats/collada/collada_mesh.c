@@ -79,11 +79,23 @@ static alp_result read_array(alpi_collada_reader *reader, xmlNode *element,
         ALP_TRY(alpi_collada_grow(reader->context, &reader->arrays, &reader->array_capacity,
                                   reader->array_count + 1, sizeof *reader->arrays));
         alpi_collada_array *made = &reader->arrays[reader->array_count++];
-        *made = (alpi_collada_array){0}; // released with the reader, also after a failure
+        *made = (alpi_collada_array){.element =
+                                         element}; // released with the reader, also after a failure
         ALP_TRY(alpi_collada_floats(reader->document, element, &made->values, &made->count));
         *slot = reader->array_count;
     }
     *array = &reader->arrays[*slot - 1];
+    return ALP_OK;
+}
+
+alp_result alpi_collada_exact_values(alpi_collada_reader *reader, const alpi_collada_source *source,
+                                     const double **values)
+{
+    alpi_collada_array *array = &reader->arrays[source->array];
+    if (array->exact == NULL) {
+        ALP_TRY(alpi_collada_exact(reader->document, array->element, &array->exact, &array->count));
+    }
+    *values = array->exact;
     return ALP_OK;
 }
 
@@ -107,6 +119,7 @@ static alp_result read_source(alpi_collada_reader *reader, xmlNode *element, uin
     const alpi_collada_array *values = NULL;
     ALP_TRY(read_array(reader, array, &values));
     *index = reader->source_count++;
+    source->array = (uint32_t)(values - reader->arrays);
     source->values = values->values; // stays where it is when the list of arrays grows
     const uint32_t stated = source->count;
     limit_count(source, values->count);

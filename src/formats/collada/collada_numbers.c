@@ -162,15 +162,20 @@ static alp_result fail_word(const alpi_collada_document *d, const xmlNode *node,
                              (int)(length < 40 ? length : 40), p, lines, wanted);
 }
 
-alp_result alpi_collada_floats(const alpi_collada_document *d, const xmlNode *node, float **values,
-                               size_t *count)
+static size_t count_numbers(const xmlNode *node)
 {
     size_t words = 0;
-    *count = 0;
     for (const xmlNode *t = text_from(node->children); t != NULL; t = text_from(t->next)) {
         words += count_words((const char *)t->content);
     }
-    ALPI_TRY_NEW(d->context, *values, words);
+    return words;
+}
+
+/// All numbers of an element's text, in the one array or the other.
+static alp_result read_numbers(const alpi_collada_document *d, const xmlNode *node, float *singles,
+                               double *doubles, size_t *count)
+{
+    *count = 0;
     for (const xmlNode *t = text_from(node->children); t != NULL; t = text_from(t->next)) {
         const char *p = skip_space((const char *)t->content);
         while (*p != '\0') {
@@ -178,10 +183,30 @@ alp_result alpi_collada_floats(const alpi_collada_document *d, const xmlNode *no
             if (!alpi_text_number(&p, &value)) {
                 return fail_word(d, node, (const char *)t->content, p, "number");
             }
-            (*values)[(*count)++] = (float)value;
+            if (singles != NULL) {
+                singles[(*count)++] = (float)value;
+            } else {
+                doubles[(*count)++] = value;
+            }
         }
     }
     return ALP_OK;
+}
+
+alp_result alpi_collada_floats(const alpi_collada_document *d, const xmlNode *node, float **values,
+                               size_t *count)
+{
+    *count = 0;
+    ALPI_TRY_NEW(d->context, *values, count_numbers(node));
+    return read_numbers(d, node, *values, NULL, count);
+}
+
+alp_result alpi_collada_exact(const alpi_collada_document *d, const xmlNode *node, double **values,
+                              size_t *count)
+{
+    *count = 0;
+    ALPI_TRY_NEW(d->context, *values, count_numbers(node));
+    return read_numbers(d, node, NULL, *values, count);
 }
 
 alp_result alpi_collada_doubles(const alpi_collada_document *d, const xmlNode *node, size_t count,

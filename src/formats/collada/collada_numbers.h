@@ -16,6 +16,9 @@ bool alpi_text_number(const char **at, double *value);
 /// @return ALP_OK; INVALID_DATA (the word that is no number, with its line); OUT_OF_MEMORY
 alp_result alpi_collada_floats(const alpi_collada_document *document, const xmlNode *node,
                                float **values, size_t *count);
+/// The same in double.
+alp_result alpi_collada_exact(const alpi_collada_document *document, const xmlNode *node,
+                              double **values, size_t *count);
 /// Exactly `count` numbers, which become doubles.
 alp_result alpi_collada_doubles(const alpi_collada_document *document, const xmlNode *node,
                                 size_t count, double *values);

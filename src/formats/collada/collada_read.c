@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "formats/collada/collada_scene.h"
+#include "scene/origin.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,6 +30,7 @@ void alpi_collada_reader_destroy(alpi_collada_reader *r)
 {
     for (uint32_t i = 0; i < r->array_count; i++) {
         alpi_release(r->context, r->arrays[i].values);
+        alpi_release(r->context, r->arrays[i].exact);
     }
     for (uint32_t m = 0; m < r->mesh_count; m++) {
         for (uint32_t p = 0; p < r->meshes[m].part_count; p++) {
@@ -313,6 +315,70 @@ static alp_result fill_surfaces(alpi_collada_reader *reader, alpi_collada_origin
     return ALP_OK;
 }
 
+// --- far from the origin -------------------------------------------------------------------------
+
+/// Positions of the surface from the digits of its document.
+static alp_result refill_positions(const filling *f)
+{
+    const alpi_collada_source *source = source_of(f, ALPI_COLLADA_POSITION);
+    alp_scene *scene = f->reader->scene;
+    const mat4 *world = &f->placement->world;
+    const double *values = NULL;
+    ALP_TRY(alpi_collada_exact_values(f->reader, source, &values));
+    for (uint32_t i = 0; i < f->surface->vertex_count; i++) {
+        const double *at =
+            values + source->first + (size_t)index_of(f, i, ALPI_COLLADA_POSITION) * source->stride;
+        double p[3] = {0.0, 0.0, 0.0};
+        for (uint32_t k = 0; k < 3 && k < source->components; k++) {
+            p[k] = at[source->place[k]];
+        }
+        for (int k = 0; k < 3; k++) {
+            scene->positions[f->surface->first_vertex + i][k] =
+                (float)(world->m[k] * p[0] + world->m[4 + k] * p[1] + world->m[8 + k] * p[2] +
+                        world->m[12 + k]);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result refill_surfaces(alpi_collada_reader *reader)
+{
+    uint32_t surface = 0;
+    for (uint32_t i = 0; i < reader->placement_count; i++) {
+        const alpi_collada_mesh *mesh = &reader->meshes[reader->placements[i].mesh];
+        for (uint32_t p = 0; p < mesh->part_count; p++) {
+            if (mesh->parts[p].triangle_count == 0) {
+                continue;
+            }
+            const filling f = {reader, &reader->placements[i], &mesh->parts[p],
+                               &reader->scene->surfaces[surface++]};
+            ALP_TRY(refill_positions(&f));
+            if (f.surface->normals_generated) {
+                fill_flat_normals(&f);
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+/// Takes the scene's origin off the transforms where vertices are far away, and fills in what they
+/// moved.
+static alp_result move_to_origin(alpi_collada_reader *reader)
+{
+    double step[3];
+    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(reader->scene, step);
+         round++) {
+        for (uint32_t i = 0; i < reader->placement_count; i++) {
+            alpi_origin_move(&reader->placements[i].world, step);
+        }
+        for (uint32_t i = 0; i < reader->fixture_count; i++) {
+            alpi_origin_move(&reader->fixtures[i].world, step);
+        }
+        ALP_TRY(refill_surfaces(reader));
+    }
+    return ALP_OK;
+}
+
 // --- all together --------------------------------------------------------------------------------
 
 static void tell_oddities(const alpi_collada_reader *r)
@@ -364,6 +430,7 @@ static alp_result fill_scene(alpi_collada_reader *reader, alpi_collada_origin *o
     ALP_TRY(alpi_collada_read_asset(reader));
     ALP_TRY(alpi_collada_read_nodes(reader));
     ALP_TRY(fill_surfaces(reader, origin));
+    ALP_TRY(move_to_origin(reader));
     ALP_TRY(alpi_collada_read_images(reader));
     ALP_TRY(alpi_collada_read_fixtures(reader));
     tell_oddities(reader);

@@ -20,12 +20,15 @@
 
 /// A <float_array>; sources may share it.
 typedef struct alpi_collada_array {
+    const xmlNode *element;
     float *values;
+    double *exact; // the same in double, of a scene far from the origin; else NULL
     size_t count;
 } alpi_collada_array;
 
 /// A <source> of floats: component k of element i is values[first + i * stride + place[k]].
 typedef struct alpi_collada_source {
+    uint32_t array;
     const float *values; // of its array
     uint32_t count, stride, first;
     uint32_t components, place[4];
@@ -183,6 +186,9 @@ typedef struct alpi_collada_reader {
 
 /// The mesh of a <geometry>, read at its first use. ALPI_NONE: it is no mesh.
 alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry, uint32_t *mesh);
+/// The numbers of a source's array in double, read at their first use and owned by the reader.
+alp_result alpi_collada_exact_values(alpi_collada_reader *reader, const alpi_collada_source *source,
+                                     const double **values);
 /// The inputs of a primitive element, with their sources.
 alp_result alpi_collada_read_inputs(alpi_collada_reader *reader, xmlNode *element,
                                     alpi_collada_inputs *inputs);

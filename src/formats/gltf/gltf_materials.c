@@ -317,3 +317,23 @@ alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)
     }
     return ALP_OK;
 }
+
+void alpi_gltf_check_sets(const alpi_gltf_reader *reader, const alpi_surface *surface,
+                          const size_t accessors[ALPI_UV_SLOT_COUNT])
+{
+    if (surface->material == ALPI_NONE) {
+        return;
+    }
+    const alpi_material *m = &reader->scene->materials[surface->material];
+    const alpi_texture *textures[] = {&m->base_color_texture, &m->metallic_texture,
+                                      &m->emission_texture, &m->occlusion_texture,
+                                      &m->transmission_texture};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        if (textures[i]->image != ALPI_NONE && accessors[textures[i]->uv_set] == ALPI_GLTF_NONE) {
+            alpi_warn(reader->context, "no-uv", surface->name,
+                      "its material \"%s\" reads a texture by TEXCOORD_%u, which it does not have",
+                      m->name, textures[i]->uv_set);
+            return;
+        }
+    }
+}

@@ -7,6 +7,7 @@
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_pose.h"
 #include "formats/gltf/gltf_tree.h"
+#include "scene/origin.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -511,6 +512,33 @@ static alp_result fill_surface(const plan *p, const part *from, const alpi_surfa
     return p->has_colors ? fill_colors(p, from, surface) : ALP_OK;
 }
 
+// --- far from the origin ------------------------------------------------------------------------
+
+/// Takes the scene's origin off the transforms where vertices are far, and fills in what they
+/// moved.
+static alp_result move_to_origin(plan *p)
+{
+    alpi_gltf_reader *reader = p->reader;
+    alp_scene *scene = reader->scene;
+    double step[3];
+    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(scene, step); round++) {
+        for (uint32_t i = 0; i < reader->order_count; i++) {
+            alpi_origin_move(&reader->world[reader->order[i]], step);
+        }
+        for (size_t i = 0; i < p->placement_count; i++) {
+            alpi_origin_move(&p->placements[i], step);
+        }
+        reader->posing = 0; // once more, within the same limit
+        scene->rounded_at = 0.0f;
+        for (uint32_t i = 0; p->parts != NULL && i < scene->surface_count; i++) {
+            alpi_origin_note_rounding(scene, world_of(p, &p->parts[i]));
+            ALP_TRY(fill_positions(p, &p->parts[i], &scene->surfaces[i]));
+            ALP_TRY(fill_normals(p, &p->parts[i], &scene->surfaces[i]));
+        }
+    }
+    return ALP_OK;
+}
+
 // --- all together -------------------------------------------------------------------------------
 
 static void tell_oddities(const plan *p)
@@ -546,26 +574,6 @@ static void tell_oddities(const plan *p)
     }
 }
 
-/// A texture on a coordinate set that the primitive lacks reads one texel everywhere: say so.
-static void check_texture_sets(const plan *p, const alpi_surface *surface, const part *from)
-{
-    if (surface->material == ALPI_NONE) {
-        return;
-    }
-    const alpi_material *m = &p->reader->scene->materials[surface->material];
-    const alpi_texture *textures[] = {&m->base_color_texture, &m->metallic_texture,
-                                      &m->emission_texture, &m->occlusion_texture,
-                                      &m->transmission_texture};
-    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
-        if (textures[i]->image != ALPI_NONE && from->uvs[textures[i]->uv_set] == ALPI_GLTF_NONE) {
-            alpi_warn(p->reader->context, "no-uv", surface->name,
-                      "its material \"%s\" reads a texture by TEXCOORD_%u, which it does not have",
-                      m->name, textures[i]->uv_set);
-            return;
-        }
-    }
-}
-
 static alp_result read_surfaces(plan *p)
 {
     alp_scene *scene = p->reader->scene;
@@ -575,8 +583,9 @@ static alp_result read_surfaces(plan *p)
     ALP_TRY(allocate_arrays(p));
     for (uint32_t s = 0; p->parts != NULL && s < scene->surface_count; s++) {
         ALP_TRY(fill_surface(p, &p->parts[s], &scene->surfaces[s]));
-        check_texture_sets(p, &scene->surfaces[s], &p->parts[s]);
+        alpi_gltf_check_sets(p->reader, &scene->surfaces[s], p->parts[s].uvs);
     }
+    ALP_TRY(move_to_origin(p));
     tell_oddities(p);
     return ALP_OK;
 }

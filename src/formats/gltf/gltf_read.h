@@ -32,6 +32,10 @@ alp_result alpi_gltf_read_texture(const alpi_gltf_reader *reader, json_t *object
 /// Makes the texture of a map ("occlusionTexture") blended where the extras of its material name
 /// three slots for it.
 void alpi_gltf_blend_texture(json_t *material, const char *map, alpi_texture *texture);
+/// Warns ("no-uv") where the material of a surface reads a texture by a coordinate set that its
+/// primitive lacks: it is one texel everywhere. @param accessors of the sets
+void alpi_gltf_check_sets(const alpi_gltf_reader *reader, const alpi_surface *surface,
+                          const size_t accessors[ALPI_UV_SLOT_COUNT]);
 /// gltf_mesh.c: surfaces, vertices and triangles; marks the materials that they use.
 alp_result alpi_gltf_read_meshes(alpi_gltf_reader *reader);
 /// The attribute whose coordinates are kept in a slot.

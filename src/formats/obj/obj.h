@@ -34,8 +34,8 @@ typedef struct alpi_obj_surface {
 typedef struct alpi_obj {
     alp_context *context;
     const char *path;
-    char *folder; // with a slash, or ""
-    float (*positions)[3];
+    char *folder;           // with a slash, or ""
+    double (*positions)[3]; // of the file; each rounds to the float nearest to its digits
     float (*normals)[3];
     float (*uvs)[2];        // v = 0 at the top, as everywhere in the scene
     uint32_t (*corners)[3]; // position, uv, normal: from 0, ALPI_NONE = not given

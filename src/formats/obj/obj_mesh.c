@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "formats/polygon/polygon.h"
+#include "scene/origin.h"
 
 #include <string.h>
 
@@ -128,6 +129,14 @@ static alp_result resize(builder *b, size_t length)
     return ALP_OK;
 }
 
+/// A position of the file in the scene.
+static void place(const builder *b, uint32_t position, float placed[3])
+{
+    for (int k = 0; k < 3; k++) {
+        placed[k] = (float)(b->obj->positions[position][k] - b->scene->origin[k]);
+    }
+}
+
 /// A vertex of this corner; without a normal it gets that of its triangle at the end.
 static alp_result add_vertex(builder *b, const uint32_t corner[3], uint32_t *vertex)
 {
@@ -137,7 +146,7 @@ static alp_result add_vertex(builder *b, const uint32_t corner[3], uint32_t *ver
         ALP_TRY(resize(b, b->vertex_capacity < 64 ? 64 : 2 * b->vertex_capacity));
     }
     const uint32_t v = *vertex = s->vertex_count++;
-    memcpy(s->positions[v], o->positions[corner[0]], sizeof *s->positions);
+    place(b, corner[0], s->positions[v]);
     memset(s->normals[v], 0, sizeof *s->normals);
     if (corner[2] != ALPI_NONE) {
         memcpy(s->normals[v], o->normals[corner[2]], sizeof *s->normals);
@@ -197,7 +206,7 @@ static alp_result cut_face(builder *b, const uint32_t (*corners)[3], uint32_t si
         return ALP_OK;
     }
     for (uint32_t i = 0; i < size; i++) {
-        memcpy(b->points[i], b->obj->positions[corners[i][0]], sizeof *b->points);
+        place(b, corners[i][0], b->points[i]);
     }
     ALP_TRY(alpi_polygon_triangulate(&b->scratch, size, (const float(*)[3])b->points, b->parts,
                                      &clean));
@@ -282,11 +291,23 @@ static alp_result add_surface(builder *b, uint32_t index, const uint32_t *scene_
     return ALP_OK;
 }
 
+/// By the vertices that faces use.
+static void choose_origin(builder *b)
+{
+    const alpi_obj *o = b->obj;
+    alpi_world_box box = alpi_world_box_empty();
+    for (uint32_t c = 0; c < o->corner_count; c++) {
+        alpi_world_box_add(&box, o->positions[o->corners[c][0]]);
+    }
+    alpi_origin_choose(&box, b->scene->origin);
+}
+
 static alp_result build(builder *b, const uint32_t *scene_materials)
 {
     const alpi_obj *o = b->obj;
     uint32_t *primitives = NULL; // of each object so far
     ALP_TRY(check_corners(o));
+    choose_origin(b);
     ALP_TRY(allocate(b));
     ALP_TRY(sort_faces(b));
     ALPI_TRY_NEW(o->context, primitives, o->objects.count);
@@ -299,11 +320,26 @@ static alp_result build(builder *b, const uint32_t *scene_materials)
                                                           : result;
 }
 
+static void note_materials(const alpi_obj *o)
+{
+    uint32_t without = 0;
+    for (uint32_t s = 0; s < o->surface_count; s++) {
+        without += o->surfaces[s].material == ALPI_NONE;
+    }
+    if (without > 0) {
+        alpi_note(o->context, "no-material", o->path,
+                  "surfaces without a material, read as a grey of albedo 0.5: %u", without);
+    }
+}
+
 alp_result alpi_obj_fill_meshes(const alpi_obj *obj, const uint32_t *scene_materials,
                                 alp_scene *scene)
 {
     builder b = {.obj = obj, .scene = scene, .scratch = {.context = obj->context}};
     alp_result result = build(&b, scene_materials);
+    if (result == ALP_OK) {
+        note_materials(obj);
+    }
     if (result == ALP_OK && scene->triangle_count == 0) {
         alpi_warn(obj->context, "no-triangles", obj->path,
                   "%u vertices, but no faces: there is nothing to bake", obj->position_count);

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/obj/obj_scene.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,6 +45,25 @@ static alp_result grow(const parser *p, void **items, size_t *capacity, uint32_t
     return alpi_grow(p->obj->context, items, capacity, (size_t)count + 1, size);
 }
 
+/// A coordinate in double that rounds to the float nearest to its digits, also where rounding twice
+/// would give the one beside it: its neighbour then.
+static alp_result take_coordinate(parser *p, double *value)
+{
+    enum { LOST = 29 }; // bits that a double has more than a float
+    alpi_obj_text again = p->text;
+    uint64_t bits;
+    float single = 0.0f;
+    ALP_TRY(alpi_obj_take_double(&p->text, "v", value));
+    memcpy(&bits, value, sizeof bits);
+    if ((bits & ((1u << LOST) - 1u)) == 1u << (LOST - 1)) { // halfway between two floats
+        ALP_TRY(alpi_obj_take_float(&again, "v", &single));
+        if ((float)*value != single) {
+            *value = nextafter(*value, (double)single);
+        }
+    }
+    return ALP_OK;
+}
+
 static alp_result read_position(parser *p)
 {
     alpi_obj *o = p->obj;
@@ -51,9 +71,9 @@ static alp_result read_position(parser *p)
     ALP_TRY(grow(p, &items, &o->position_capacity, o->position_count, sizeof *o->positions,
                  "vertices"));
     o->positions = items;
-    float *value = o->positions[o->position_count++];
+    double *value = o->positions[o->position_count++];
     for (int k = 0; k < 3; k++) { // what follows is a weight or a colour
-        ALP_TRY(alpi_obj_take_float(&p->text, "v", &value[k]));
+        ALP_TRY(take_coordinate(p, &value[k]));
     }
     return ALP_OK;
 }

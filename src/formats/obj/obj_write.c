@@ -182,6 +182,38 @@ static void print_v(alpi_bytes *text, float v)
     alpi_bytes_number(text, turned, digits);
 }
 
+/// A coordinate far from the origin, with as many digits as bring the scene's back: the digits that
+/// its file had.
+static void print_far(alpi_bytes *text, float coordinate, double origin)
+{
+    const double value = origin + (double)coordinate;
+    int digits = 7;
+    for (char number[40]; digits < 17; digits++) {
+        snprintf(number, sizeof number, "%.*g", digits, value);
+        if ((float)(strtod(number, NULL) - origin) == coordinate) {
+            break;
+        }
+    }
+    alpi_bytes_number(text, value, digits);
+}
+
+static void print_positions(alpi_bytes *text, const double origin[3], const rows *r)
+{
+    for (uint32_t i = 0; i < r->different; i++) {
+        const float *row = r->values + (size_t)r->firsts[i] * r->components;
+        alpi_bytes_add(text, "v", 1);
+        for (uint32_t k = 0; k < 3; k++) {
+            alpi_bytes_add(text, " ", 1);
+            if (origin[k] != 0.0) {
+                print_far(text, row[k], origin[k]);
+            } else {
+                alpi_bytes_float(text, row[k]);
+            }
+        }
+        alpi_bytes_add(text, "\n", 1);
+    }
+}
+
 static void print_rows(alpi_bytes *text, const char *what, const rows *r)
 {
     for (uint32_t i = 0; i < r->different; i++) {
@@ -266,7 +298,7 @@ static void print_name(alpi_obj_writer *w, const char *name)
 static alp_result write_part(alpi_obj_writer *w, part *p)
 {
     ALP_TRY(fill_part(w, p));
-    print_rows(&w->obj, "v", &p->positions);
+    print_positions(&w->obj, w->scene->origin, &p->positions);
     print_rows(&w->obj, "vt", &p->uvs);
     print_rows(&w->obj, "vn", &p->normals); // none where they were generated
     for (uint32_t page = 0, next; page != ALPI_NONE; page = next) {

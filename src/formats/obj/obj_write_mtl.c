@@ -113,8 +113,8 @@ static void print_colors(alpi_obj_writer *w, alpi_obj_use use, const alpi_materi
 {
     const bool lit = alpi_obj_is_lit(w, use);
     float color[3], emission[3];
-    for (int k = 0; k < 3; k++) { // what is metal has no diffuse colour
-        color[k] = lit ? 0.0f : m->base_color[k] * (1.0f - m->metallic);
+    for (int k = 0; k < 3; k++) {
+        color[k] = lit ? 0.0f : m->base_color[k] * alpi_scene_diffuse_share(w->scene, m->metallic);
         emission[k] = m->emission[k];
     }
     if (lit) {

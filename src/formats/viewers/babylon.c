@@ -157,6 +157,13 @@ static void print_vertices(writer *w, const alpi_lightmap_part *part)
     print_uvs(w, part, "uvs3", &material.emission_texture);
 }
 
+static void print_point(writer *w, const char *name, const float point[3])
+{
+    alpi_bytes_print(&w->text, ",\"%s\":[", name);
+    alpi_lightmap_print_point(&w->text, w->scene, point);
+    alpi_bytes_print(&w->text, "]");
+}
+
 static void print_meshes(writer *w)
 {
     alpi_bytes *text = &w->text;
@@ -166,11 +173,10 @@ static void print_meshes(writer *w)
         const char *name = w->scene->surfaces[part->surface].name;
         alpi_bytes_print(text, "%s{\"id\":\"mesh %u\",\"name\":", alpi_lightmap_comma(i), i);
         alpi_bytes_quote(text, name != NULL ? name : "");
-        alpi_bytes_print(text,
-                         ",\"materialId\":\"material %u\",\"position\":[0,0,0],"
-                         "\"rotation\":[0,0,0],\"scaling\":[1,1,1],\"isVisible\":true,"
-                         "\"isEnabled\":true",
-                         part->slot);
+        alpi_bytes_print(text, ",\"materialId\":\"material %u\"", part->slot);
+        print_point(w, "position", (const float[3]){0.0f, 0.0f, 0.0f});
+        alpi_bytes_print(text, ",\"rotation\":[0,0,0],\"scaling\":[1,1,1],\"isVisible\":true,"
+                               "\"isEnabled\":true");
         print_vertices(w, part);
         alpi_bytes_print(text, ",\"indices\":[");
         // In a right-handed scene too triangles of Babylon.js wind clockwise.
@@ -193,8 +199,8 @@ static void print_cameras(writer *w)
         alpi_bytes_print(text,
                          "%s{\"type\":\"FreeCamera\",\"id\":\"camera %u\",\"name\":\"camera %u\"",
                          alpi_lightmap_comma(i), i, i);
-        print_floats(text, "position", camera->position, 3);
-        print_floats(text, "target", camera->target, 3);
+        print_point(w, "position", camera->position);
+        print_point(w, "target", camera->target);
         print_floats(text, "upVector", camera->up, 3);
         alpi_lightmap_print_float(text, "fov", camera->vertical_fov);
         alpi_lightmap_print_float(text, "minZ", far / 10000.0f);

@@ -242,6 +242,19 @@ void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t co
     }
 }
 
+void alpi_lightmap_print_point(alpi_bytes *text, const alp_scene *scene, const float point[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double origin = scene->origin[k];
+        alpi_bytes_print(text, "%s", k > 0 ? "," : "");
+        if (origin != 0.0) {
+            alpi_bytes_number(text, origin + (double)point[k], 17);
+        } else {
+            alpi_bytes_float(text, point[k]);
+        }
+    }
+}
+
 void alpi_lightmap_print_float(alpi_bytes *text, const char *name, float value)
 {
     alpi_bytes_print(text, ",\"%s\":", name);
@@ -316,7 +329,8 @@ vec3 alpi_lightmap_albedo(const alp_scene *scene, const alpi_material *material)
     const float most = alpi_lightmap_has_image(scene, &material->base_color_texture) ? 1.0f : 0.95f;
     const float metal =
         alpi_lightmap_has_image(scene, &material->metallic_texture) ? 0.0f : material->metallic;
-    vec3 albedo = vec3_scale(vec3_load(material->base_color), 1.0f - metal);
+    vec3 albedo =
+        vec3_scale(vec3_load(material->base_color), alpi_scene_diffuse_share(scene, metal));
     return vec3_min(albedo, (vec3){most, most, most});
 }
 
@@ -324,7 +338,7 @@ void alpi_lightmap_warn_of_metal(const alpi_lightmap_parts *parts)
 {
     const alp_scene *scene = parts->scene;
     uint32_t last = ALPI_NONE, count = 0;
-    for (uint32_t m = 0; m < scene->material_count; m++) {
+    for (uint32_t m = 0; m < scene->material_count && scene->metals_black; m++) {
         const alpi_material *material = &scene->materials[m];
         if (alpi_lightmap_has_image(scene, &material->metallic_texture) &&
             material->metallic > 0.0f) {

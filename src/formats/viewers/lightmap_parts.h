@@ -52,6 +52,8 @@ void alpi_lightmap_print_light_uvs(alpi_bytes *text, const alpi_lightmap_parts *
 /// @param clockwise seen from outside, against the scene's order
 void alpi_lightmap_print_indices(alpi_bytes *text, const alpi_lightmap_parts *parts,
                                  const alpi_lightmap_part *part, bool clockwise);
+/// A point of the scene in the world of its file: three numbers with commas between.
+void alpi_lightmap_print_point(alpi_bytes *text, const alp_scene *scene, const float point[3]);
 /// `count` numbers with commas between, each as short as brings the float back.
 void alpi_lightmap_print_floats(alpi_bytes *text, const float *values, size_t count);
 /// A member of an object that is not its first.

@@ -289,8 +289,22 @@ static void print_camera(writer *w, uint32_t index)
     alpi_lightmap_print_float(&w->text, "near", far / 10000.0f);
     alpi_lightmap_print_float(&w->text, "far", far);
     alpi_bytes_print(&w->text, ",\"matrix\":[");
-    alpi_lightmap_print_floats(&w->text, matrix, 16);
-    alpi_bytes_print(&w->text, "]}");
+    alpi_lightmap_print_floats(&w->text, matrix, 12);
+    alpi_bytes_print(&w->text, ",");
+    alpi_lightmap_print_point(&w->text, w->scene, matrix + 12);
+    alpi_bytes_print(&w->text, ",1]}");
+}
+
+/// The matrix of a mesh whose vertices are far from the origin of the file; else nothing.
+static void print_origin(writer *w)
+{
+    static const float zero[3] = {0.0f, 0.0f, 0.0f};
+    const double *origin = w->scene->origin;
+    if (origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0) {
+        alpi_bytes_print(&w->text, ",\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,");
+        alpi_lightmap_print_point(&w->text, w->scene, zero);
+        alpi_bytes_print(&w->text, ",1]");
+    }
 }
 
 static void print_objects(writer *w)
@@ -303,8 +317,10 @@ static void print_objects(writer *w)
         alpi_bytes_print(
             text, "%s{\"uuid\":\"mesh %u\",\"type\":\"Mesh\",\"name\":", alpi_lightmap_comma(i), i);
         alpi_bytes_quote(text, name != NULL ? name : "");
-        alpi_bytes_print(text, ",\"geometry\":\"geometry %u\",\"material\":\"material %u\"}", i,
+        alpi_bytes_print(text, ",\"geometry\":\"geometry %u\",\"material\":\"material %u\"", i,
                          part->slot);
+        print_origin(w);
+        alpi_bytes_print(text, "}");
     }
     for (uint32_t i = 0; i < w->scene->camera_count; i++) {
         alpi_bytes_print(text, "%s", alpi_lightmap_comma(w->parts.part_count + i));

@@ -27,7 +27,8 @@ static bool is_even(const alpi_patches *p, uint32_t texel)
     const alpi_material *m = material != ALPI_NONE ? &scene->materials[material] : NULL;
     const bool textured =
         m != NULL &&
-        (m->base_color_texture.image != ALPI_NONE || m->metallic_texture.image != ALPI_NONE ||
+        (m->base_color_texture.image != ALPI_NONE ||
+         (scene->metals_black && m->metallic_texture.image != ALPI_NONE) ||
          m->emission_texture.image != ALPI_NONE || m->transmission_texture.image != ALPI_NONE);
     bool even = scene->colors == NULL && !textured;
     for (uint32_t k = t->piece_first[texel]; k < t->piece_first[texel + 1] && even; k++) {

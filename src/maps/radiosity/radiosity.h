@@ -33,6 +33,7 @@ typedef struct alpi_radiosity_options {
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     uint32_t bounces;              // ≥ 1, at most; above PASS_LIMIT: as many as it takes
     double tolerance; // passes end where those that are left would bring less, over all light
+    double ray_limit; // of the passes; 0: none
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     bool directional;        // direct light is wanted by its direction
@@ -80,6 +81,8 @@ typedef struct alpi_radiosity {
     float
         changes[ALPI_RADIOSITY_CHANGES]; // |Eₖ − Eₖ₋₁| over all light, by area; of the first passes
     bool kept;                           // rays were traced once
+    double missing;                      // light of later bounces over all light, about, where the
+                                         // passes ended by ray_limit; else 0
     bool backs_dropped;                  // direct light of backs is known no more
     uint64_t rays;
     double direct_seconds; // that direct light took

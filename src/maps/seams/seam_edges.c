@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "scene/adjacency.h"
 #include "scene/double3.h"
 
 #include <math.h>

@@ -5,19 +5,36 @@
 #include "base/tasks.h"
 #include "maps/lookup.h"
 #include "maps/seams/seam_edges.h"
+#include "maps/seams/seam_sight.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { SAMPLES_PER_TEXEL = 2, SAMPLES_PER_TICK = 1 << 12 };
+enum { SAMPLES_PER_TEXEL = 2, SAMPLES_PER_TICK = 1 << 12, QUEUE = 1 << 10 };
 
 // --- samples -------------------------------------------------------------------------------------
 
+/// A place where two edges meet.
+typedef struct candidate {
+    uint32_t triangles[2];
+    double at[2][2]; // weights of corners 1 and 2
+    float sizes[2];  // metres and texels that it stands for
+    uint32_t pair;
+} candidate;
+
+/// Candidates wait in a queue, so that their rays are traced many at a time.
 typedef struct builder {
     const alp_lightmap *lightmap;
+    const alpi_tracer *tracer;
     alpi_seams *seams;
     uint32_t *places; // [pixels of all pages] place in seams->pixels + 1; 0: none yet
-    size_t sample_room, first_room, span_room, texel_room, weight_room, pixel_room;
+    uint8_t *known;   // [pixels of all pages / 8 + 1] bits: a texel that is seen and has a value
+    size_t sample_room, first_room, span_room, pair_room, triangle_room;
+    size_t texel_room, weight_room, pixel_room;
+    candidate *queue;   // [QUEUE]
+    alpi_sight *sights; // [QUEUE]
+    uint32_t queued, pairs, last_pair;
 } builder;
 
 /// A point of an edge: weights of corners 1 and 2 of its triangle.
@@ -88,24 +105,22 @@ static bool is_idle(const alpi_seams *s, uint32_t begin, uint32_t end)
     return true;
 }
 
-static alp_result add_sample(builder *b, const alpi_seam_pair *pair, double share,
-                             const float sizes[2])
+/// Whether a side reads any texel that is seen and has a value of its own.
+static bool is_known(const builder *b, const alpi_lookup *lookup)
+{
+    const double least = 1e-3; // of a weight
+    for (uint32_t i = 0; i < lookup->count; i++) {
+        const size_t at = lookup->texels[i];
+        if (lookup->weights[i] > least && (b->known[at / 8] >> at % 8 & 1) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static alp_result reserve_sample(builder *b)
 {
     alpi_seams *s = b->seams;
-    const alp_lightmap *l = b->lightmap;
-    alpi_lookup sides[2];
-    vec3 normals[2];
-    for (int i = 0; i < 2; i++) {
-        double at[2];
-        const uint32_t triangle = pair->edges[i].half_edge / 3;
-        point_on_edge(&pair->edges[i], pair->begins[i] + share * (pair->ends[i] - pair->begins[i]),
-                      at);
-        normals[i] = normal_at(l->scene, triangle, at);
-        alpi_lookup_at(l, triangle, at[0], at[1], &sides[i]);
-    }
-    if (!((double)vec3_dot(normals[0], normals[1]) >= ALPI_SEAM_COSINE)) {
-        return ALP_OK;
-    }
     const uint32_t sample = s->sample_count;
     ALP_TRY(alpi_grow(s->context, (void **)&s->first, &b->first_room, (size_t)sample + 2,
                       sizeof *s->first));
@@ -113,20 +128,89 @@ static alp_result add_sample(builder *b, const alpi_seam_pair *pair, double shar
                       sizeof *s->lengths));
     ALP_TRY(alpi_grow(s->context, (void **)&s->spans, &b->span_room, (size_t)sample + 1,
                       sizeof *s->spans));
-    const uint32_t begin = s->first[sample];
-    s->first[sample + 1] = begin;
-    if (begin > UINT32_MAX - 2 * ALPI_LOOKUP_LIMIT) {
+    ALP_TRY(alpi_grow(s->context, (void **)&s->pairs, &b->pair_room, (size_t)sample + 1,
+                      sizeof *s->pairs));
+    ALP_TRY(alpi_grow(s->context, (void **)&s->triangles, &b->triangle_room, (size_t)sample + 1,
+                      sizeof *s->triangles));
+    if (s->first[sample] > UINT32_MAX - 2 * ALPI_LOOKUP_LIMIT) {
         return alpi_fail(s->context, ALP_ERROR_LIMIT,
                          "%s: the samples along its seams are more than 2^32; use fewer texels",
-                         l->scene->name);
+                         b->lightmap->scene->name);
     }
+    return ALP_OK;
+}
+
+static alp_result add_sample(builder *b, const candidate *c)
+{
+    alpi_seams *s = b->seams;
+    alpi_lookup sides[2];
+    for (int i = 0; i < 2; i++) {
+        alpi_lookup_at(b->lightmap, c->triangles[i], c->at[i][0], c->at[i][1], &sides[i]);
+        if (!is_known(b, &sides[i])) {
+            return ALP_OK;
+        }
+    }
+    ALP_TRY(reserve_sample(b));
+    const uint32_t sample = s->sample_count, begin = s->first[sample];
+    s->first[sample + 1] = begin;
     ALP_TRY(add_side(b, begin, &sides[0], 1.0));
     ALP_TRY(add_side(b, begin, &sides[1], -1.0));
     if (!is_idle(s, begin, s->first[sample + 1])) {
-        s->lengths[sample] = sizes[0];
-        s->spans[sample] = sizes[1];
-        s->length += (double)sizes[0];
+        s->lengths[sample] = c->sizes[0];
+        s->spans[sample] = c->sizes[1];
+        s->pairs[sample] = c->pair;
+        memcpy(s->triangles[sample], c->triangles, sizeof c->triangles);
+        s->length += (double)c->sizes[0];
+        s->count += c->pair != b->last_pair ? 1 : 0;
+        b->last_pair = c->pair;
         s->sample_count++;
+    }
+    return ALP_OK;
+}
+
+/// Adds the candidates of the queue whose sides see each other.
+static alp_result empty_queue(builder *b)
+{
+    if (b->tracer != NULL && b->queued > 0) {
+        ALP_TRY(alpi_sight_trace(b->tracer, b->seams->context, b->sights, b->queued));
+    }
+    for (uint32_t i = 0; i < b->queued; i++) {
+        if (b->sights[i].blocked) {
+            b->seams->blocked++;
+        } else {
+            ALP_TRY(add_sample(b, &b->queue[i]));
+        }
+    }
+    b->queued = 0;
+    return ALP_OK;
+}
+
+/// Queues a place of a pair of edges, unless it is at a crease.
+static alp_result queue_sample(builder *b, const alpi_seam_pair *pair, double share,
+                               const float sizes[2])
+{
+    const alp_scene *scene = b->lightmap->scene;
+    if (b->queued == QUEUE) {
+        ALP_TRY(empty_queue(b));
+    }
+    candidate *c = &b->queue[b->queued];
+    *c = (candidate){.sizes = {sizes[0], sizes[1]}, .pair = b->pairs};
+    uint32_t half_edges[2];
+    double shares[2];
+    float texels[2];
+    vec3 normals[2];
+    for (int i = 0; i < 2; i++) {
+        half_edges[i] = pair->edges[i].half_edge;
+        texels[i] = pair->edges[i].texel;
+        shares[i] = pair->begins[i] + share * (pair->ends[i] - pair->begins[i]);
+        c->triangles[i] = half_edges[i] / 3;
+        point_on_edge(&pair->edges[i], shares[i], c->at[i]);
+        normals[i] = normal_at(scene, c->triangles[i], c->at[i]);
+    }
+    if ((double)vec3_dot(normals[0], normals[1]) >= ALPI_SEAM_COSINE) {
+        b->sights[b->queued++] = b->tracer != NULL
+                                     ? alpi_sight_aim(scene, half_edges, shares, texels)
+                                     : (alpi_sight){.aimed = false};
     }
     return ALP_OK;
 }
@@ -134,21 +218,38 @@ static alp_result add_sample(builder *b, const alpi_seam_pair *pair, double shar
 static alp_result add_pair(void *user, const alpi_seam_pair *pair)
 {
     builder *b = user;
-    const uint32_t before = b->seams->sample_count;
     const double texel = (double)fminf(pair->edges[0].texel, pair->edges[1].texel);
     const double texels = pair->length / texel;
     const double rounding = 1e-3, most = 1 << 20; // no page is as wide
     const uint32_t count =
         (uint32_t)fmin(fmax(ceil(SAMPLES_PER_TEXEL * texels - rounding), 1.0), most);
     const float sizes[2] = {(float)(pair->length / count), (float)(texels / count)};
+    b->pairs++;
     for (uint32_t i = 0; i < count; i++) {
         if (i % SAMPLES_PER_TICK == SAMPLES_PER_TICK - 1) {
             ALP_TRY(alpi_tick(b->seams->context, "seams", 0, 1));
         }
-        ALP_TRY(add_sample(b, pair, (i + 0.5) / count, sizes));
+        ALP_TRY(queue_sample(b, pair, (i + 0.5) / count, sizes));
     }
-    b->seams->count += b->seams->sample_count > before ? 1 : 0;
     return ALP_OK;
+}
+
+static size_t pixel_of(const alp_lightmap *l, uint32_t texel)
+{
+    const size_t page_size = (size_t)l->width * l->height;
+    const uint16_t *pixel = l->texels.pixels[texel];
+    return l->texels.pages[texel] * page_size + (size_t)pixel[1] * l->width + pixel[0];
+}
+
+static void mark_known(const builder *b)
+{
+    const alp_lightmap *l = b->lightmap;
+    for (uint32_t t = 0; t < l->texels.count; t++) {
+        const size_t at = pixel_of(l, t);
+        if (l->states[t] != ALPI_TEXEL_OPEN && (l->texels.flags[t] & ALPI_TEXEL_HIDDEN) == 0) {
+            b->known[at / 8] |= (uint8_t)(1u << at % 8);
+        }
+    }
 }
 
 /// Which texels of the footprints have a value of their own.
@@ -156,15 +257,12 @@ static alp_result find_owners(const builder *b)
 {
     const alp_lightmap *l = b->lightmap;
     alpi_seams *s = b->seams;
-    const size_t page_size = (size_t)l->width * l->height;
     ALPI_TRY_NEW(s->context, s->owners, s->pixel_count);
     for (uint32_t i = 0; i < s->pixel_count; i++) {
         s->owners[i] = ALPI_NONE;
     }
     for (uint32_t t = 0; t < l->texels.count; t++) {
-        const uint16_t *pixel = l->texels.pixels[t];
-        const uint32_t place =
-            b->places[l->texels.pages[t] * page_size + (size_t)pixel[1] * l->width + pixel[0]];
+        const uint32_t place = b->places[pixel_of(l, t)];
         if (place > 0 && l->states[t] != ALPI_TEXEL_OPEN) {
             s->owners[place - 1] = t;
         }
@@ -175,30 +273,34 @@ static alp_result find_owners(const builder *b)
 static alp_result build(builder *b)
 {
     const alp_lightmap *l = b->lightmap;
+    const size_t pixels = (size_t)l->page_count * l->height * l->width;
+    ALPI_TRY_NEW(l->context, b->places, pixels);
+    ALPI_TRY_NEW(l->context, b->known, pixels / 8 + 1);
+    ALPI_TRY_NEW(l->context, b->queue, QUEUE);
+    ALPI_TRY_NEW(l->context, b->sights, QUEUE);
+    mark_known(b);
+    ALP_TRY(alpi_grow(l->context, (void **)&b->seams->first, &b->first_room, 1,
+                      sizeof *b->seams->first));
     alpi_seam_edges edges;
     ALP_TRY(alpi_seam_edges_create(l, &edges));
-    b->places = ALPI_NEW(l->context, uint32_t, (size_t)l->page_count * l->height * l->width);
-    alp_result result = b->places != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    alp_result result = alpi_seam_pairs_visit(l->scene, &edges, add_pair, b);
     if (result == ALP_OK) {
-        result = alpi_grow(l->context, (void **)&b->seams->first, &b->first_room, 1,
-                           sizeof *b->seams->first);
+        result = empty_queue(b);
     }
-    if (result == ALP_OK) {
-        result = alpi_seam_pairs_visit(l->scene, &edges, add_pair, b);
-    }
-    if (result == ALP_OK) {
-        result = find_owners(b);
-    }
-    alpi_release(l->context, b->places);
     alpi_seam_edges_destroy(&edges);
-    return result;
+    return result == ALP_OK ? find_owners(b) : result;
 }
 
-alp_result alpi_seams_create(const alp_lightmap *lightmap, alpi_seams *seams)
+alp_result alpi_seams_create(const alp_lightmap *lightmap, const alpi_tracer *tracer,
+                             alpi_seams *seams)
 {
     *seams = (alpi_seams){.context = lightmap->context};
-    builder b = {.lightmap = lightmap, .seams = seams};
+    builder b = {.lightmap = lightmap, .tracer = tracer, .seams = seams};
     const alp_result result = build(&b);
+    alpi_release(lightmap->context, b.places);
+    alpi_release(lightmap->context, b.known);
+    alpi_release(lightmap->context, b.queue);
+    alpi_release(lightmap->context, b.sights);
     if (result != ALP_OK) {
         alpi_seams_destroy(seams);
     }
@@ -210,6 +312,8 @@ void alpi_seams_destroy(alpi_seams *seams)
     if (seams->context != NULL) {
         alpi_release(seams->context, seams->lengths);
         alpi_release(seams->context, seams->spans);
+        alpi_release(seams->context, seams->pairs);
+        alpi_release(seams->context, seams->triangles);
         alpi_release(seams->context, seams->first);
         alpi_release(seams->context, seams->texels);
         alpi_release(seams->context, seams->weights);

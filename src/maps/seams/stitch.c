@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "maps/seams/jumps.h"
 
 #include <math.h>
 #include <string.h>
@@ -89,6 +90,23 @@ static void find_holds(const alpi_stitch *stitch)
     }
 }
 
+/// Copies the samples' lengths in texels; those of jumps become 0.
+static alp_result find_spans(const alpi_stitch *stitch, float *const *pages)
+{
+    const alpi_seams *s = stitch->seams;
+    uint8_t *jumps = ALPI_NEW(s->context, uint8_t, s->sample_count);
+    alp_result result = jumps != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    if (result == ALP_OK) {
+        result = alpi_jumps_find(stitch->lightmap, s, pages, stitch->errors,
+                                 LEAST_ERROR * stitch->mean, jumps);
+    }
+    for (uint32_t i = 0; i < s->sample_count && result == ALP_OK; i++) {
+        stitch->spans[i] = jumps[i] ? 0.0f : s->spans[i];
+    }
+    alpi_release(s->context, jumps);
+    return result;
+}
+
 alp_result alpi_stitch_create(const alp_lightmap *lightmap, const alpi_seams *seams,
                               float *const *pages, const float *texel_errors,
                               float *const *error_pages, alpi_stitch *stitch)
@@ -98,13 +116,18 @@ alp_result alpi_stitch_create(const alp_lightmap *lightmap, const alpi_seams *se
     stitch->mean = fmax(alpi_seams_map_mean(lightmap, pages), black);
     stitch->errors = ALPI_NEW(seams->context, float, seams->pixel_count);
     stitch->holds = ALPI_NEW(seams->context, float, seams->pixel_count);
-    if (stitch->errors == NULL || stitch->holds == NULL) {
+    stitch->spans = ALPI_NEW(seams->context, float, seams->sample_count);
+    if (stitch->errors == NULL || stitch->holds == NULL || stitch->spans == NULL) {
         alpi_stitch_destroy(stitch);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     find_errors(stitch, texel_errors, error_pages);
     find_holds(stitch);
-    return ALP_OK;
+    const alp_result result = find_spans(stitch, pages);
+    if (result != ALP_OK) {
+        alpi_stitch_destroy(stitch);
+    }
+    return result;
 }
 
 void alpi_stitch_destroy(alpi_stitch *stitch)
@@ -112,6 +135,7 @@ void alpi_stitch_destroy(alpi_stitch *stitch)
     if (stitch->seams != NULL) {
         alpi_release(stitch->seams->context, stitch->errors);
         alpi_release(stitch->seams->context, stitch->holds);
+        alpi_release(stitch->seams->context, stitch->spans);
     }
     *stitch = (alpi_stitch){0};
 }
@@ -138,7 +162,7 @@ static void apply_matrix(const solver *v)
         for (uint32_t k = s->first[i]; k < s->first[i + 1]; k++) {
             difference += (double)s->weights[k] * v->direction[s->texels[k]];
         }
-        difference *= (double)s->spans[i];
+        difference *= (double)v->stitch->spans[i];
         for (uint32_t k = s->first[i]; k < s->first[i + 1]; k++) {
             v->image[s->texels[k]] += (double)s->weights[k] * difference;
         }
@@ -162,7 +186,7 @@ static void begin(const solver *v, float *const *pages, uint32_t channel)
         for (uint32_t k = s->first[i]; k < s->first[i + 1]; k++) {
             d[channel] += (double)s->weights[k] * v->change[s->texels[k]];
         }
-        const double span = (double)s->spans[i];
+        const double span = (double)v->stitch->spans[i];
         for (uint32_t k = s->first[i]; k < s->first[i + 1]; k++) {
             const double weight = (double)s->weights[k];
             v->residual[s->texels[k]] -= span * weight * d[channel];

@@ -33,6 +33,7 @@ typedef struct alpi_stitch {
     double mean;   // of the map that it was made for, above 0
     float *errors; // [seams->pixel_count] stated standard error, 0 of gaps
     float *holds;  // [seams->pixel_count] λ
+    float *spans;  // [seams->sample_count] l_s: as in `seams`, 0 at jumps (jumps.h)
 } alpi_stitch;
 
 /// @param seams        borrowed, as the lightmap is

@@ -211,15 +211,50 @@ static uint32_t find_stopped(const validity_job *job, alpi_rays *rays, uint32_t 
     return stopped;
 }
 
+/// Whether something that no lift comes with stands over one of some points: a ledge, whose shadow
+/// a lifted point would leave. Smooth neighbours, at most 60° apart, count as the lifted surface.
+/// @param reach metres
+static bool finds_ledge(const validity_job *job, const alpi_receiver_point *points,
+                        const vec3 low[ALPI_PACKET], float reach)
+{
+    static const float RISE = 0.25f; // of the rays above the triangle, over their way along it
+    const alp_scene *scene = job->texels->atlas->scene;
+    alpi_rays rays;
+    alpi_hits hits;
+    alpi_rays_clear(&rays);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const vec3 n = points[i].geometric_normal;
+        const float angle = 2.0f * (float)ALPI_PI * (float)i / ALPI_PACKET;
+        vec3 t, b;
+        vec3_frame(n, &t, &b);
+        const vec3 along = vec3_add(vec3_scale(t, cosf(angle)), vec3_scale(b, sinf(angle)));
+        alpi_rays_set(&rays, i, vec3_mad(low[i], points[i].offset, n),
+                      vec3_normalize_or(vec3_mad(along, RISE, n), n), reach);
+    }
+    alpi_trace_nearest(job->setup->tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
+    bool found = false;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if (hits.triangle[i] != ALPI_NONE) {
+            vec3 c[3];
+            alpi_triangle_corners(scene, hits.triangle[i], c);
+            const vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 0.0f, 0.0f});
+            found = found || vec3_dot(normal, points[i].geometric_normal) < 0.5f;
+        }
+    }
+    return found;
+}
+
 /// Leaves the points of a texel on their triangles where the lift of any of eight passes through
-/// something.
+/// something, or leaves the shadow of a ledge.
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // every other cell
+    static const float LEDGE_REACH = 16.0f;                                 // lifts
     alpi_receiver_point lifted[ALPI_PACKET];
     vec3 low[ALPI_PACKET];
     float square[ALPI_PACKET][2];
     alpi_rays rays;
+    float most = 0.0f; // metres
     bool any = false;
     alpi_rays_clear(&rays);
     find_middles(chosen, ALPI_PACKET, square);
@@ -228,12 +263,15 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
         const alpi_receiver_point *point = &lifted[i];
         const vec3 from = vec3_mad(low[i], point->offset, point->geometric_normal);
         const vec3 to = vec3_add(from, vec3_sub(point->position, low[i]));
-        if (vec3_length(vec3_sub(to, from)) > point->offset) { // else it meets its own surface
+        const float lift = vec3_length(vec3_sub(to, from));
+        most = fmaxf(most, lift);
+        if (lift > point->offset) { // else it meets its own surface
             aim_between(from, to, i, &rays);
             any = true;
         }
     }
-    if (any && find_stopped(job, &rays, 1) != 0) {
+    if (any &&
+        (find_stopped(job, &rays, 1) != 0 || finds_ledge(job, lifted, low, LEDGE_REACH * most))) {
         job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     }
 }

@@ -6,6 +6,8 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "scene/double3.h"
+#include "scene/sides.h"
 
 #include <math.h>
 #include <string.h>
@@ -214,22 +216,23 @@ alpi_receiver_point alpi_vertex_map_point(const alp_scene *scene, uint32_t trian
                                           double b2)
 {
     const double weights[3] = {1.0 - b1 - b2, b1, b2};
-    double position[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0};
+    double position[3] = {0.0, 0.0, 0.0};
+    double3 normal = {0.0, 0.0, 0.0};
+    vec3 c[3], normals[3];
+    alpi_triangle_corners(scene, triangle, c);
+    alpi_sides_corner_normals(scene, triangle, normals);
     for (int k = 0; k < 3; k++) {
         uint32_t vertex = scene->triangles[triangle][k];
         for (int axis = 0; axis < 3; axis++) {
             position[axis] += weights[k] * (double)scene->positions[vertex][axis];
-            normal[axis] += weights[k] * (double)scene->normals[vertex][axis];
         }
+        normal = double3_add(normal, double3_scale(double3_from(normals[k]), weights[k]));
     }
-    vec3 c[3];
-    alpi_triangle_corners(scene, triangle, c);
     alpi_receiver_point point = {
         .position = {(float)position[0], (float)position[1], (float)position[2]},
-        .geometric_normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f}),
+        .geometric_normal = alpi_sides_normal(scene, triangle),
     };
-    point.shading_normal = vec3_normalize_or(
-        (vec3){(float)normal[0], (float)normal[1], (float)normal[2]}, point.geometric_normal);
+    point.shading_normal = vec3_normalize_or(double3_to_vec3(normal), point.geometric_normal);
     if (!(vec3_dot(point.shading_normal, point.geometric_normal) > 0.0f)) {
         point.shading_normal = point.geometric_normal; // as at texels: not into the surface
     }

@@ -40,6 +40,13 @@ void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting); // NU
 /// Whether there is no light at all.
 bool alpi_lighting_is_dark(const alpi_lighting *lighting);
 
+/// Refuses a scene that no light reaches by any option: without a lamp that shines, emission and
+/// sky. Cost: lights of the file and of the options answer at once; otherwise emission and sky are
+/// collected.
+/// @return ALP_OK; INVALID_ARGUMENT (no light); OUT_OF_MEMORY; a fault of the options
+alp_result alpi_lighting_refuse_darkness(const alp_scene *scene,
+                                         const alp_lighting_options *options);
+
 /// Warns ("no-light") where there is none.
 void alpi_lighting_warn(const alp_scene *scene, const alpi_lighting *lighting);
 

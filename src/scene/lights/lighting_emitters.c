@@ -6,11 +6,13 @@
 #include "scene/lights/lighting.h"
 #include "scene/lights/lighting_dark.h"
 
-/// Looks at a texture, in squares over the triangle.
-enum { LOOKS_ACROSS = 4 };
-/// Share of the material's own emission that a triangle has at least in draws, whatever the looks
-/// found: they may have missed the only bright place.
-static const double LEAST_SHARE = 1.0 / 64.0;
+#include <math.h>
+
+/// Samples of a texture along each of two sides of a triangle: as many as it has texels there.
+enum { FEWEST_ACROSS = 4, MOST_ACROSS = 64 };
+/// Samples that a triangle has at least in draws as if they were fully bright, whatever they found:
+/// they may have missed the only bright place.
+static const double LEAST_SAMPLES = 0.25;
 
 static double channel_mean(vec3 v)
 {
@@ -24,6 +26,28 @@ static const alpi_material *emissive_material(const alp_scene *scene, uint32_t s
     bool emits =
         m != NULL && (m->emission[0] > 0.0f || m->emission[1] > 0.0f || m->emission[2] > 0.0f);
     return emits ? m : NULL;
+}
+
+/// How many samples across a triangle find each texel of its emission texture.
+static int count_across(const alp_scene *scene, uint32_t triangle, const alpi_texture *texture)
+{
+    if (texture->image == ALPI_NONE || scene->images[texture->image] == NULL) {
+        return FEWEST_ACROSS;
+    }
+    const alp_image_info *size = &scene->images[texture->image]->info;
+    vec2 uv[3];
+    for (int k = 0; k < 3; k++) {
+        uv[k] = alpi_texture_transform(texture, alpi_triangle_uv(scene, triangle, texture->uv_set,
+                                                                 k == 1 ? 1.0f : 0.0f,
+                                                                 k == 2 ? 1.0f : 0.0f));
+    }
+    double longest = 0.0; // texels
+    for (int k = 0; k < 3; k++) {
+        const vec2 from = uv[k], to = uv[(k + 1) % 3];
+        longest = fmax(longest, hypot((double)(to.x - from.x) * size->width,
+                                      (double)(to.y - from.y) * size->height));
+    }
+    return longest < MOST_ACROSS ? (int)fmax(ceil(longest), FEWEST_ACROSS) : MOST_ACROSS;
 }
 
 /// Mean of the emission over a triangle, in the middle of cells of equal area.
@@ -40,14 +64,15 @@ static double mean_radiance(const alp_scene *scene, uint32_t triangle, const alp
     if (plain) {
         return full;
     }
-    for (int i = 0; i < LOOKS_ACROSS * LOOKS_ACROSS; i++) {
-        int column = i % LOOKS_ACROSS, row = i / LOOKS_ACROSS;
-        float root = sqrtf(((float)column + 0.5f) / LOOKS_ACROSS);
-        float y = ((float)row + 0.5f) / LOOKS_ACROSS;
+    const int across = count_across(scene, triangle, &m->emission_texture);
+    const double count = (double)across * across;
+    for (int i = 0; i < across * across; i++) {
+        const float root = sqrtf(((float)(i % across) + 0.5f) / (float)across);
+        const float y = ((float)(i / across) + 0.5f) / (float)across;
         sum += channel_mean(
             alpi_surface_emission(scene, triangle, root * (1.0f - y), root * y, normal));
     }
-    return fmax(sum / (LOOKS_ACROSS * LOOKS_ACROSS), LEAST_SHARE * full);
+    return fmax(sum, LEAST_SAMPLES * full) / count;
 }
 
 double alpi_emitters_radiance(const alp_scene *scene, uint32_t triangle)

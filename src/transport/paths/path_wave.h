@@ -43,6 +43,7 @@ typedef struct alpi_path_wave {
     alpi_wave_vec own;                   // brought by the first vertex
     alpi_wave_vec tail;                  // by later ones: shared out
     float share[ALPI_WAVE][ALPI_PACKET]; // of a tail, of each lane of its block
+    float whole[ALPI_WAVE];              // largest throughput that roulette compares with
     float covered[ALPI_WAVE];            // share of its view, if from the eye, that something fills
     // Rays on their way.
     alpi_rays rays[ALPI_WAVE_PACKETS];

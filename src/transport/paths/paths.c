@@ -186,11 +186,17 @@ static void escape(const alpi_reference *r, alpi_path_wave *w, uint32_t i)
     add_met(r, w, i, sky, ALPI_NONE, INFINITY);
 }
 
-/// Ends a weak path by chance; those that go on make up for it.
-static bool play_roulette(const alpi_path_wave *w, uint32_t i, vec3 *throughput)
+/// Ends a weak path by chance; those that go on make up for it. Paths from the eye play from the
+/// second surface on: a dark first surface makes the pixel dark, so its paths are not weak.
+static bool play_roulette(alpi_path_wave *w, uint32_t i, vec3 *throughput)
 {
     const float most = fmaxf(throughput->x, fmaxf(throughput->y, throughput->z));
-    const float survival = most / (ROULETTE_SHARE * w->first);
+    float *whole = &w->whole[w->slot[i]];
+    if (w->depth[i] < 0) {
+        *whole = most;
+        return true;
+    }
+    const float survival = most / (ROULETTE_SHARE * *whole);
     if (survival < 1.0f) {
         *throughput = vec3_scale(*throughput, 1.0f / survival);
         return w->v[i] < survival;
@@ -430,6 +436,7 @@ static void ready(alpi_path_wave *w)
     for (uint32_t i = 0; i < w->count; i++) {
         w->share[i][i - w->block[i]] = 1.0f;
         w->covered[i] = 1.0f;
+        w->whole[i] = w->first;
     }
     for (uint32_t i = 0; i < ALPI_WAVE_PACKETS; i++) {
         alpi_rays_clear(&w->rays[i]);

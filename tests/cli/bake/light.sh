@@ -8,6 +8,8 @@ bake() {
 said() {
     grep '^light' | sed 's/;.*//'
 }
+# without any light: refused, and no map is written
+alpenglow bake builtin:sphere-plane --size 16 --maps ao,light --maps-dir dark -q; echo "$?"; ls dark 2>/dev/null
 bake --bounces 0 --maps-dir direct --json direct.json | said
 bake --bounces 1 --maps-dir paths --json paths.json | said
 bake --bounces 0 --maps-dir again --threads 1 -q

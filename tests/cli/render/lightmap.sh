@@ -11,6 +11,6 @@ $plain --with lightmap --samples 4 --size 32 --threads 1 -o one.exr &&
     $plain --with lightmap --samples 4 --size 32 --threads 7 -o seven.exr &&
     cmp one.exr seven.exr && echo "same bits"
 alpenglow render builtin:sphere-plane --resolution 16x12 --with lightmap --size 16 -o dark.exr 2>&1 |
-    grep -c "there is no light"
+    grep -c "nothing lights the scene"; ls dark.exr 2>/dev/null || true
 alpenglow render builtin:furnace --resolution 16x12 --samples 2 --size 16 --texel-samples 8 -q \
     --with lightmap -o picture.png && head -c 4 picture.png | tail -c 3; echo

@@ -19,6 +19,12 @@ bake --bounces 1001
 bake --bounces many
 bake --samples 0
 bake --samples 65537
+try bake scene.glb -o out.glb --metals black
+bake --metals shiny
+bake --metals black
+try bake scene.glb --maps-dir maps --ao-bleed --metals black
+render --with ao --metals black
+render --with constant --metals black
 render --with ao --sky 1,1,1
 render --with constant --bounces 3
 render --with reference --size 64

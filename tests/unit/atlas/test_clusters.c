@@ -5,6 +5,7 @@
 #include "base/memory.h"
 
 #include "atlas/fold.h"
+#include "scene/adjacency.h"
 
 static alpi_clusters clusters_of(alp_context *context, const alp_scene *scene, float max_angle)
 {

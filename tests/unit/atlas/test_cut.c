@@ -5,6 +5,7 @@
 
 #include "atlas/box.h"
 #include "base/memory.h"
+#include "scene/adjacency.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -41,10 +41,26 @@ static void into_the_middle(const float at[3], float out[3])
     }
 }
 
-static void out_but_upside_down(const float at[3], float out[3])
+/// A square of 2 m whose normals are those of a ball, at its corners so many degrees from upright.
+static alp_scene *tilted_plate(alp_context *context, double degrees)
 {
-    out_of_the_middle(at, out);
-    out[1] = -out[1];
+    const float up = (float)cos(degrees * acos(-1.0) / 180.0);
+    const float out = (float)(sin(degrees * acos(-1.0) / 180.0) * sqrt(0.5));
+    float positions[4][3], normals[4][3];
+    for (int k = 0; k < 4; k++) {
+        const float x = k == 1 || k == 2 ? 1.0f : -1.0f, z = k < 2 ? 1.0f : -1.0f;
+        memcpy(positions[k], (float[3]){x, 0.0f, z}, sizeof positions[k]);
+        memcpy(normals[k], (float[3]){out * x, up, out * z}, sizeof normals[k]);
+    }
+    const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const alp_mesh mesh = {.vertex_count = 4,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .triangle_count = 2,
+                           .indices = indices[0]};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    return scene;
 }
 
 /// Largest distance by which points of a scene's texels are lifted, m.
@@ -82,13 +98,16 @@ TEST_WITH_CONTEXT(lifts_have_a_limit, 1)
 {
     // Flat triangles stay where they are, to the bit.
     assert_true(largest_lift(context, scene_sphere(context, 12, 24), true) == 0.0);
-    // Normals averaged over creases ask for .44 m: they get an eighth of the diagonal.
-    const double most = largest_lift(context, normal_cube(context, out_of_the_middle), true);
+    // Normals of a ball 40° across ask for .49 m: they get an eighth of the diagonal.
+    const double most = largest_lift(context, tilted_plate(context, 40.0), true);
     ASSERT_NEAR(most, 0.125 * sqrt(8.0), 1e-5);
+    // Beyond 41° they describe creases: at 43° about half, from 45° on nothing is left.
+    const double less = largest_lift(context, tilted_plate(context, 43.0), true);
+    assert_true(less > 0.1 && less < 0.8 * most);
+    assert_true(largest_lift(context, tilted_plate(context, 46.0), true) == 0.0);
+    assert_true(largest_lift(context, normal_cube(context, out_of_the_middle), true) == 0.0);
     // Normals that point inside describe no surface.
     assert_true(largest_lift(context, normal_cube(context, into_the_middle), true) == 0.0);
-    // Nor do those of top and bottom here: along them points would sink.
-    assert_true(largest_lift(context, normal_cube(context, out_but_upside_down), true) > 0.1);
 }
 
 TEST_WITH_CONTEXT(a_lift_follows_its_formula, 1)
@@ -199,7 +218,7 @@ static alp_atlas *blend_of_size(alp_context *context, const alp_scene *scene, ui
 
 TEST_WITH_CONTEXT(kept_shapes_place_the_same, 2)
 {
-    alp_scene *flat = scene_cube(context), *round = normal_cube(context, out_of_the_middle);
+    alp_scene *flat = scene_cube(context), *round = tilted_plate(context, 40.0);
     alp_scene *blended = scene_sphere(context, 12, 24);
     alp_scene *fine = scene_sphere(context, 30, 60);
     assert_int_equal(count_lifted(context, flat, charts_of_size(context, flat, 64), true), 0);

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 
 #include "atlas/regions.h"
+#include "scene/adjacency.h"
 
 enum { N = 32, TRIANGLES = 2 * N * N };
 

@@ -253,7 +253,15 @@ TEST_WITH_CONTEXT(the_sun_on_a_plane, 2)
     assert_true(report.light_mean > 0.0 && report.light_relative_error < 0.2);
     // One light: a ray of each sample that faces it, and those that look for texels inside others.
     assert_true(report.light_direct && report.light_samples == 16);
+    alp_lamp away = alp_lamp_default(); // high above, it lights the sky, and no texel traces a ray
+    away.kind = ALP_LIGHT_SPOT;
+    away.position[1] = 1000.0f;
+    away.direction[1] = 1.0f;
+    away.direction[2] = 0.0f;
+    away.intensity = 1.0f;
     options.light.lighting.sun.illuminance = 0.0f;
+    options.light.lighting.lamps = &away;
+    options.light.lighting.lamp_count = 1;
     alp_bake_report darkness;
     ASSERT_OK(context, alp_bake(scene, &options, NULL, &darkness));
     assert_true(report.rays > darkness.rays &&

@@ -428,6 +428,24 @@ TEST_SLOW(soups_take_no_square_of_time)
     test_free(indices);
 }
 
+/// Double-sided boxes that are wound inwards are shown from outside, unless they are rooms.
+TEST(boxes_inside_out)
+{
+    model *m = new_model();
+    m->double_sided[0] = m->double_sided[1] = true;
+    put_box(m, 0, (vec3){0, 0, 0}, 1.0f, false);
+    put_box(m, 1, (vec3){3, 0, 0}, 1.0f, false);
+    has_only(m, ALP_FINDING_MESSAGE, 0, 0);
+    memset(m->vertices, 0, sizeof m->vertices);
+    put_box(m, 0, (vec3){0, 0, 0}, 1.0f, false);
+    put_box(m, 1, (vec3){3, 0, 0}, 1.0f, true);
+    put_quad(m, 1, (vec3){3, 2, 0}, (vec3){1, 0, 0}, (vec3){0, 0, 2});
+    ASSERT_NEAR(has_only(m, ALP_FINDING_INSIDE_OUT, 1, 0), 0.75, 1e-6); // 6 m² of 8
+    put_box(m, 2, (vec3){3.2f, 0.2f, 0.2f}, 0.5f, false);
+    has_only(m, ALP_FINDING_MESSAGE, 0, 0);
+    test_free(m);
+}
+
 TEST(any_number_of_workers_finds_the_same)
 {
     char texts[2][400];

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "maps/lightmap.h"
+#include "scene/adjacency.h"
 #include "scene/builtin/mesh_builder.h"
 
 #include <math.h>

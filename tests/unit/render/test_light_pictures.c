@@ -232,6 +232,43 @@ TEST(cornell_is_like_the_reference)
     alp_scene_destroy(scene);
 }
 
+/// Root mean square of the pixels' standard errors over the mean of a picture by the reference: a
+/// box on the ground under a clear sky with its sun. @param albedo of both
+static double noise_of_ground(float albedo)
+{
+    static picture pixels, error;
+    alpi_builder b;
+    alp_scene *scene = NULL;
+    alpi_builder_start(&b, context, "ground");
+    alpi_builder_surface(
+        &b, "ground", alpi_builder_material(&b, "grey", (vec3){albedo, albedo, albedo}, (vec3){0}));
+    alpi_builder_quad(&b, (const vec3[4]){{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
+    alpi_builder_box(&b, (vec3){-1, 0, -1}, (vec3){1, 1, 1}, ALPI_FACE_ALL);
+    alpi_builder_camera(&b, (vec3){3, 4, 5}, (vec3){0}, 0.6f); // ground and box fill it
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_render_options o = options_of(ALP_RENDER_REFERENCE, 64);
+    o.lighting.sky.kind = ALP_SKY_CLEAR;
+    o.lighting.sun.azimuth = 2.6f;
+    o.lighting.sun.elevation = 0.7f;
+    o.lighting.sun.illuminance = 6e4f;
+    draw(scene, o, pixels, error);
+    double mean = 0.0, square = 0.0;
+    for (int i = 0; i < PIXELS; i++) {
+        mean += (double)pixels[i][1] / PIXELS;
+        square += (double)error[i][1] * (double)error[i][1] / PIXELS;
+    }
+    alp_scene_destroy(scene);
+    return sqrt(square) / mean;
+}
+
+/// Noise in proportion to the mean does not grow where the first surface is dark.
+TEST(dark_materials_are_as_smooth_as_light_ones)
+{
+    const double light = noise_of_ground(0.5f), dark = noise_of_ground(0.03f);
+    print_message("noise over the mean: albedo .5 %.4f, albedo .03 %.4f\n", light, dark);
+    assert_true(dark < 1.1 * light);
+}
+
 /// A box with a lamp and a sphere of sky, or not.
 static alp_scene *make_box(bool inward, bool double_sided, bool lamp_inside)
 {
@@ -294,15 +331,22 @@ TEST(single_sided_walls_are_black_from_behind)
     alp_scene_destroy(scene);
 }
 
-TEST(without_light_all_is_black)
+TEST(without_light_pictures_are_refused)
 {
-    static picture pixels;
+    static const alp_render_method methods[] = {ALP_RENDER_REFERENCE, ALP_RENDER_RADIOSITY,
+                                                ALP_RENDER_HEMICUBE};
     alp_scene *scene = make_box(true, false, true);
-    const alp_render_options o = options_of(ALP_RENDER_RADIOSITY, 16);
-    draw(scene, o, pixels, NULL);
-    assert_black(pixels, 1.0f);
-    draw_lightmap(scene, 32, o, pixels);
-    assert_black(pixels, 1.0f);
+    alp_render_options o = options_of(ALP_RENDER_REFERENCE, 1);
+    alp_image *image = NULL;
+    for (int i = 0; i < 3; i++) {
+        o.method = methods[i];
+        assert_int_equal(alp_render(scene, &o, &image), ALP_ERROR_INVALID_ARGUMENT);
+        assert_null(image);
+        assert_non_null(strstr(alp_context_message(context), "--sky 1,1,1"));
+    }
+    o.hemicube_show = ALP_HEMICUBE_WEIGHT; // a picture of multipliers needs no light
+    ASSERT_OK(context, alp_render(scene, &o, &image));
+    alp_image_destroy(image);
     alp_scene_destroy(scene);
 }
 

@@ -49,6 +49,9 @@ TEST_WITH_CONTEXT(base_colour_is_encoded_and_metal_is_the_blue_channel, 1)
     m->metallic = 0.5f;
     m->metallic_texture = texture(); // 51 / 255 = 0.2, as it is stored
     albedo = alpi_surface_albedo(scene, 0, 0.25f, 0.25f);
+    ASSERT_NEAR(albedo.y, 0.5, 1e-6); // metals are diffuse by default
+    alp_scene_set_metals(scene, ALP_METALS_BLACK);
+    albedo = alpi_surface_albedo(scene, 0, 0.25f, 0.25f);
     ASSERT_NEAR(albedo.y, 0.5 * (1.0 - 0.5 * 0.2), 1e-6);
     alp_scene_destroy(scene);
 }

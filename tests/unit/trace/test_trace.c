@@ -159,6 +159,94 @@ TEST(random_rays_hit_what_brute_force_hits)
     }
 }
 
+/// Copies the triangles of a mesh with the other winding, before or behind them.
+static void add_reversed(test_mesh *mesh, bool before)
+{
+    const uint32_t count = mesh->triangle_count;
+    for (uint32_t t = 0; t < count; t++) {
+        const uint32_t *v = mesh->triangles[t];
+        test_mesh_triangle(mesh, v[1], v[0], v[2]);
+    }
+    for (uint32_t t = 0; t < count && before; t++) {
+        for (int k = 0; k < 3; k++) {
+            const uint32_t first = mesh->triangles[t][k];
+            mesh->triangles[t][k] = mesh->triangles[count + t][k];
+            mesh->triangles[count + t][k] = first;
+        }
+    }
+}
+
+/// A closed sphere of which each triangle is there twice, once reversed: no ray meets a back.
+TEST(fronts_are_met_before_backs_in_one_place)
+{
+    for (int variant = 0; variant < 4; variant++) {
+        alp_context *context = test_context(1);
+        test_mesh *mesh = test_mesh_start();
+        test_mesh_sphere(mesh, (double[]){0.3, -0.2, 0.1}, 0.8, 24, 12, 1.0, 1);
+        add_reversed(mesh, variant % 2 == 0);
+        alp_scene *scene = test_mesh_scene(context, mesh, variant / 2);
+        alpi_tracer *tracer = NULL;
+        ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+        uint32_t met = 0;
+        for (uint32_t packet = 0; packet < PACKETS; packet++) {
+            alpi_rays rays;
+            alpi_hits fast, slow;
+            soup_rays(&rays, packet);
+            memset(&fast, 0, sizeof fast);
+            memset(&slow, 0, sizeof slow);
+            alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &fast);
+            alpi_brute_force_nearest(scene, &rays, 0xffu, (alpi_trace_filter){0}, &slow);
+            assert_int_equal(fast.behind, 0);
+            assert_int_equal(slow.behind, 0);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                met += fast.triangle[i] != ALPI_NONE;
+            }
+        }
+        assert_true(met > PACKETS);
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
+/// Two sheets in one tilted plane, cut into different triangles, whose fronts part: the front is
+/// met from either side. A sheet further behind than rounding is met as it lies.
+TEST(only_fronts_in_the_same_place_count)
+{
+    for (int apart = 0; apart < 2; apart++) {
+        alp_context *context = test_context(1);
+        test_mesh *mesh = test_mesh_start();
+        const double lift = apart ? 1e-4 : 0.0;
+        const double u[3] = {2, 1, 0}, v[3] = {0, 1, 2}, a[3] = {-1, -1, -1};
+        const double low[3] = {a[0] - lift, a[1] + 2 * lift, a[2] - lift};
+        test_mesh_quad(mesh, a, v, u);
+        test_mesh_quad(mesh, low, u, v); // apart: behind the other
+        alp_scene *scene = test_mesh_scene(context, mesh, 0);
+        alpi_tracer *tracer = NULL;
+        ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+        uint32_t backs = 0, met = 0;
+        for (uint32_t packet = 0; packet < PACKETS; packet++) {
+            alpi_rays rays;
+            alpi_hits hits;
+            soup_rays(&rays, packet);
+            memset(&hits, 0, sizeof hits);
+            alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &hits);
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                met += hits.triangle[i] != ALPI_NONE;
+                backs += hits.behind >> i & 1u;
+            }
+        }
+        print_message("%u hits, %u of backs\n", met, backs);
+        assert_true(met > PACKETS / 2);
+        if (apart) {
+            assert_true(backs > met * 9 / 10);
+        } else {
+            assert_int_equal(backs, 0);
+        }
+        alp_scene_destroy(scene);
+        alp_context_destroy(context);
+    }
+}
+
 static alp_scene *make_octahedron(alp_context *context)
 {
     test_mesh *mesh = test_mesh_start();
@@ -324,6 +412,43 @@ TEST_WITH_CONTEXT(chosen_surfaces_alone_are_hit, 1)
     alpi_tracer_destroy(NULL);
     assert_null(scene->attachments[ALPI_ATTACHMENT_TRACER].data); // none of these stays
     alp_scene_destroy(scene);
+}
+
+/// Solids that are wound inwards have their fronts outside, as scene/sides.h says.
+TEST_WITH_CONTEXT(sides_of_a_solid_wound_inwards, 1)
+{
+    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t outwards[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    static const uint32_t inwards[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    for (int k = 0; k < 2; k++) {
+        const alp_mesh mesh = {.positions = &corners[0][0],
+                               .indices = k == 0 ? &outwards[0][0] : &inwards[0][0],
+                               .vertex_count = 4,
+                               .triangle_count = 4,
+                               .double_sided = true,
+                               .base_color = {0.5f, 0.5f, 0.5f}};
+        alp_scene *scene = NULL;
+        alpi_tracer *tracer = NULL;
+        alpi_rays rays;
+        alpi_hits fast[3], slow;
+        ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+        ASSERT_OK(context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
+        alpi_rays_clear(&rays);
+        for (int i = 0; i < ALPI_PACKET; i++) { // the first half from inside
+            const float x = i < 4 ? 0.1f : -1.0f, y = 0.1f + 0.03f * (float)i;
+            alpi_rays_set(&rays, i, (vec3){x, y, 0.1f}, (vec3){1.0f, 0.0f, 0.0f}, INFINITY);
+        }
+        alpi_trace_nearest(tracer, &rays, 0xffu, (alpi_trace_filter){0}, &fast[0]);
+        const alpi_rays *const pair[2] = {&rays, &rays};
+        const uint32_t active[2] = {0xffu, 0xffu};
+        alpi_trace_nearest_coherent_many(tracer, pair, active, 2, (alpi_trace_filter){0}, &fast[1]);
+        alpi_brute_force_nearest(scene, &rays, 0xffu, (alpi_trace_filter){0}, &slow);
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(fast[i].behind, 0x0fu);
+            same_hits(&fast[i], &slow, 0xffu);
+        }
+        alp_scene_destroy(scene);
+    }
 }
 
 TEST_WITH_CONTEXT(an_empty_scene_is_never_hit, 1)

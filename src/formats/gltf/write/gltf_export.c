@@ -67,6 +67,20 @@ static void print_number(alpi_bytes *text, const char *name, float value)
     alpi_bytes_number(text, (double)value, 9);
 }
 
+/// The translation of a node, with a comma before; nothing where it is 0.
+static void print_origin(const exporter *e, alpi_bytes *text)
+{
+    const double *origin = e->scene->origin;
+    if (origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0) {
+        alpi_bytes_print(text, ",\"translation\":[");
+        for (int k = 0; k < 3; k++) {
+            alpi_bytes_print(text, "%s", k > 0 ? "," : "");
+            alpi_bytes_number(text, origin[k], 17);
+        }
+        alpi_bytes_print(text, "]");
+    }
+}
+
 // --- geometry ------------------------------------------------------------------------------------
 
 static size_t add_view(exporter *e, const void *bytes, size_t size, uint32_t target)
@@ -200,6 +214,7 @@ static alp_result add_surfaces(exporter *e)
             alpi_bytes_print(text, ",\"mesh\":%zu", e->counts[MESHES]);
             ALP_TRY(add_mesh(e, surface));
         }
+        print_origin(e, text);
         alpi_bytes_print(text, "}");
     }
     return ALP_OK;
@@ -328,11 +343,17 @@ static void add_material(exporter *e, const alpi_material *m)
 
 // --- cameras and lights --------------------------------------------------------------------------
 
-static void print_matrix(alpi_bytes *text, vec3 position, vec3 forward, vec3 up)
+static void print_matrix(const exporter *e, alpi_bytes *text, vec3 position, vec3 forward, vec3 up)
 {
     float m[16];
     alpi_look_matrix(position, forward, up, m);
-    print_numbers(text, "matrix", m, 16);
+    alpi_bytes_print(text, "\"matrix\":[");
+    for (int i = 0; i < 16; i++) {
+        const double origin = i >= 12 && i < 15 ? e->scene->origin[i - 12] : 0.0;
+        alpi_bytes_print(text, "%s", i > 0 ? "," : "");
+        alpi_bytes_number(text, origin + (double)m[i], origin != 0.0 ? 17 : 9);
+    }
+    alpi_bytes_print(text, "]");
 }
 
 static void add_camera(exporter *e, const alp_camera *camera)
@@ -341,7 +362,7 @@ static void add_camera(exporter *e, const alp_camera *camera)
     alpi_bytes *text = begin(e, NODES);
     alpi_bytes_print(text, "{\"name\":\"camera %zu\",\"camera\":%zu,", e->counts[CAMERAS],
                      e->counts[CAMERAS]);
-    print_matrix(text, position, vec3_sub(vec3_load(camera->target), position),
+    print_matrix(e, text, position, vec3_sub(vec3_load(camera->target), position),
                  vec3_load(camera->up));
     alpi_bytes_print(text, "}");
     text = begin(e, CAMERAS);
@@ -356,7 +377,7 @@ static void add_light(exporter *e, const alpi_light *light)
     alpi_bytes *text = begin(e, NODES);
     alpi_bytes_print(text, "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":%zu}},",
                      e->counts[LIGHTS]);
-    print_matrix(text, light->position, light->direction, (vec3){0.0f, 1.0f, 0.0f});
+    print_matrix(e, text, light->position, light->direction, (vec3){0.0f, 1.0f, 0.0f});
     alpi_bytes_print(text, "}");
     text = begin(e, LIGHTS);
     const float color[3] = {light->color.x, light->color.y, light->color.z};

@@ -55,6 +55,7 @@ typedef struct alpi_gltf_plan {
     bool packed;      // only its material changes
     bool occluded;    // gets the occlusion map
     bool lit;         // gets the light
+    bool cleared;     // loses its own occlusion map, which would darken the light again
     bool in_a_copy;   // the mesh is copied for its nodes, because others use it too
     size_t piece_first, piece_count;
     size_t showing_first, showing_end; // of the first plan of a user: its nodes
@@ -104,6 +105,7 @@ typedef struct alpi_gltf_patcher {
     size_t expanded_count; // nodes whose instances became nodes
     size_t plain_count;    // primitives that were compressed and are no more
     size_t undraco_count;  // primitives of the document that lost Draco's extension
+    size_t cleared_count;  // materials of the written file that lost their occlusion map
 
     // Maps: the texture of each page, ALPI_GLTF_NONE until it is used.
     size_t *page_textures;   // [page_count]

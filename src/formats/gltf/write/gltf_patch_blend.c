@@ -14,7 +14,8 @@ static size_t keep_maps(const alpi_gltf_patcher *p, alpi_json_span maps, alpi_gl
     alpi_bytes_print(kept, "[");
     while (alpi_json_next(&cursor)) {
         const bool gone =
-            (replaced.occluded && alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
+            ((replaced.occluded || replaced.cleared) &&
+             alpi_json_key_is(text, cursor.value, OCCLUSION)) ||
             (replaced.lit && alpi_json_key_is(text, cursor.value, alpi_patcher_light_name(p)));
         if (!gone) {
             alpi_bytes_print(kept, "%s", count++ > 0 ? "," : "");

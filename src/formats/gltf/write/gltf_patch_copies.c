@@ -62,8 +62,9 @@ static bool is_replaced(const alpi_gltf_patcher *p, json_t *blend, const alpi_gl
     bool all = true;
     for (size_t i = 0; i < json_array_size(maps); i++) {
         const char *name = json_string_value(json_array_get(maps, i));
-        all &= name != NULL && ((plan->occluded && strcmp(name, "occlusionTexture") == 0) ||
-                                (plan->lit && strcmp(name, alpi_patcher_light_name(p)) == 0));
+        all &= name != NULL &&
+               (((plan->occluded || plan->cleared) && strcmp(name, "occlusionTexture") == 0) ||
+                (plan->lit && strcmp(name, alpi_patcher_light_name(p)) == 0));
     }
     return all;
 }
@@ -85,7 +86,7 @@ static json_t *strip(const alpi_gltf_patcher *p, size_t index, const alpi_gltf_p
     if (json_is_string(json_object_get(extras, "alpenglow"))) {
         json_object_del(extras, "alpenglow");
     }
-    if (plan->occluded) {
+    if (plan->occluded || plan->cleared) {
         json_object_del(material, "occlusionTexture");
     }
     if (plan->lit) {

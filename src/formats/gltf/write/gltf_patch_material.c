@@ -16,7 +16,7 @@ typedef struct need {
     size_t old;    // ALPI_GLTF_NONE = the primitive had none
     uint32_t page; // ALPI_NONE: packed into an image
     uint32_t sets[ALPI_GLTF_BLEND_SETS];
-    bool occluded, lit;
+    bool occluded, lit, cleared;
     float light_scale; // what 1 in the light's image stands for
     size_t written;
 } need;
@@ -134,13 +134,30 @@ static alpi_gltf_light_use light_use(const need *n, const char *blend)
     return (alpi_gltf_light_use){n->old, n->page, n->sets[0], n->light_scale, blend};
 }
 
+/// Takes the occlusion map from a material of the document. A material that has nothing else gets a
+/// member of its default value, because others may be added behind it.
+static void clear_occlusion(alpi_gltf_patcher *p, size_t material, alpi_edits *edits)
+{
+    static const char *const names[] = {"occlusionTexture"};
+    const alpi_json_span span = p->lists[ALPI_GLTF_MATERIALS].spans[material];
+    alpi_json_cursor cursor = alpi_json_open(p->document->text, span);
+    const bool first = alpi_json_next(&cursor);
+    const alpi_json_span member = {cursor.key.begin, cursor.value.end};
+    p->cleared_count++;
+    if (first && !alpi_json_next(&cursor)) {
+        alpi_edits_replace(edits, member, "\"doubleSided\":false");
+    } else {
+        alpi_edits_remove_all(edits, span, names, 1);
+    }
+}
+
 /// Makes a material of the document read the map. The whole occlusionTexture is replaced, so that
 /// no KHR_texture_transform of the old one remains.
 static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char *blend,
                                 alpi_edits *edits)
 {
     const bool packed = n->page == ALPI_NONE;
-    const alpi_gltf_maps replaced = {packed || n->occluded, !packed && n->lit};
+    const alpi_gltf_maps replaced = {packed || n->occluded, !packed && n->lit, n->cleared};
     if (packed || blend == NULL) {
         alpi_patcher_unblend_material(p, n->old, replaced, edits);
     }
@@ -158,6 +175,9 @@ static alp_result edit_material(alpi_gltf_patcher *p, const need *n, const char 
         alpi_edits_set(edits, p->lists[ALPI_GLTF_MATERIALS].spans[n->old], "occlusionTexture",
                        value.bytes, value.size);
         alpi_bytes_destroy(&value);
+    }
+    if (n->cleared) {
+        clear_occlusion(p, n->old, edits);
     }
     if (n->lit) {
         const alpi_gltf_light_use use = light_use(n, blend);
@@ -199,7 +219,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
     alpi_bytes sets = alpi_bytes_create(p->context);
     if (p->patch->set_uvs != NULL) {
-        const alpi_gltf_maps maps = {n->occluded, n->lit};
+        const alpi_gltf_maps maps = {n->occluded, n->lit, n->cleared};
         alpi_patcher_print_blend(p, n->old, n->sets, maps, &sets);
     }
     const char *blend = sets.size > 0 ? (const char *)sets.bytes : NULL;
@@ -279,6 +299,7 @@ static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
                            .page = piece->page,
                            .occluded = plan->occluded,
                            .lit = plan->lit,
+                           .cleared = plan->cleared,
                            .light_scale = light_scale(p, plan)};
             memcpy(wanted.sets, plan->sets, sizeof wanted.sets);
             ALP_TRY(find_material(p, all, &wanted, &piece->material));
@@ -291,6 +312,12 @@ alp_result alpi_patcher_materials(alpi_gltf_patcher *p)
 {
     needs all = {0};
     alp_result result = write_materials(p, &all);
+    if (result == ALP_OK && p->cleared_count > 0) {
+        alpi_note(p->context, "occlusion-removed", p->document->path,
+                  "%zu materials lose their own occlusion map, by which viewers would darken the "
+                  "light map again; --maps ao,light bakes one beside it",
+                  p->cleared_count);
+    }
     alpi_release(p->context, all.items);
     alpi_release(p->context, all.has_other_users);
     alpi_release(p->context, all.edited);

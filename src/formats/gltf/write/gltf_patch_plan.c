@@ -84,6 +84,17 @@ static bool gets_occlusion(const alpi_gltf_patcher *p, size_t material)
     return (p->patch->page_pngs != NULL || p->patch->vertex_values != NULL) && !keeps;
 }
 
+/// Whether the file's own occlusion map goes from a material that gets a light map. three.js would
+/// multiply the light by it, and the light is occluded already.
+static bool loses_occlusion(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
+{
+    return plan->lit && p->patch->light->form != ALPI_LIGHT_FORM_EMISSIVE &&
+           p->patch->page_pngs == NULL && p->patch->existing_ao != ALPI_EXISTING_AO_KEEP &&
+           plan->material != ALPI_GLTF_NONE &&
+           json_object_get(alpi_gltf_item(p->document, "materials", plan->material),
+                           "occlusionTexture") != NULL;
+}
+
 static alp_result find_mesh(const alpi_gltf_patcher *p, size_t node, size_t *mesh)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
@@ -130,6 +141,7 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
     plan->occluded = gets_occlusion(p, plan->material);
     plan->lit = alpi_patcher_is_lit(p, surface);
+    plan->cleared = loses_occlusion(p, plan);
     *wanted = plan->packed || plan->occluded || plan->lit;
     if (!*wanted) {
         return ALP_OK;

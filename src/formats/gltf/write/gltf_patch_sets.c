@@ -162,7 +162,8 @@ static uint64_t blended(const alpi_gltf_patcher *p, json_t *blend, alpi_gltf_map
         const bool occlusion = name != NULL && strcmp(name, "occlusionTexture") == 0;
         const bool light = name != NULL && p->patch->light != NULL &&
                            strcmp(name, alpi_patcher_light_name(p)) == 0;
-        stays |= !(occlusion && replaced.occluded) && !(light && replaced.lit);
+        stays |=
+            !(occlusion && (replaced.occluded || replaced.cleared)) && !(light && replaced.lit);
     }
     return stays ? alpi_gltf_sets_named(blend) : 0;
 }
@@ -175,7 +176,9 @@ static alp_result search_material(const alpi_gltf_patcher *p, search *s, json_t 
     json_t *blend = json_object_get(extras, ALPI_GLTF_BLEND);
     json_t *earlier = json_object_get(blend, ALPI_GLTF_EARLIER);
     s->passed[0] = blend;
-    s->passed[1] = replaced.occluded ? json_object_get(material, "occlusionTexture") : NULL;
+    s->passed[1] = replaced.occluded || replaced.cleared
+                       ? json_object_get(material, "occlusionTexture")
+                       : NULL;
     s->passed[2] = NULL;
     if (replaced.lit) {
         const char *name = alpi_patcher_light_name(p);
@@ -198,7 +201,7 @@ static alp_result search_primitive(const alpi_gltf_patcher *p, search *s, json_t
 {
     const bool maps = p->patch->vertex_values == NULL; // else materials stay as they are
     const alpi_gltf_maps replaced = {maps && (plan->packed || plan->occluded),
-                                     maps && !plan->packed && plan->lit};
+                                     maps && !plan->packed && plan->lit, maps && plan->cleared};
     json_t *variants = alpi_gltf_extension(primitive, "KHR_materials_variants");
     json_t *mappings = json_object_get(variants, "mappings");
     for (size_t i = 0; i < json_array_size(mappings); i++) {
@@ -206,7 +209,7 @@ static alp_result search_primitive(const alpi_gltf_patcher *p, search *s, json_t
         const double value = json_number_value(index);
         if (value >= 0.0 && value < (double)p->lists[ALPI_GLTF_MATERIALS].count) {
             json_t *material = alpi_gltf_item(p->document, "materials", (size_t)value);
-            ALP_TRY(search_material(p, s, material, (alpi_gltf_maps){false, false}));
+            ALP_TRY(search_material(p, s, material, (alpi_gltf_maps){0}));
         }
     }
     if (plan->material != ALPI_GLTF_NONE) {

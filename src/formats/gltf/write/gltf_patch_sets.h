@@ -30,9 +30,10 @@ typedef struct alpi_gltf_inside {
 /// Sets them; false where the outer one is there and no object.
 bool alpi_patcher_set_inside(alpi_gltf_patcher *patcher, size_t material,
                              const alpi_gltf_inside *inside, alpi_edits *edits);
-/// Maps that a bake gives a material.
+/// Maps that a bake gives a material, or takes from it.
 typedef struct alpi_gltf_maps {
     bool occluded, lit;
+    bool cleared; // occlusion goes, and none comes
 } alpi_gltf_maps;
 /// What the extras of a material say of them, a JSON object: their names in the order of the axes
 /// of the mesh, and which of its maps are read with them; and the same of bakes before, whose maps

@@ -146,10 +146,11 @@ TEST_WITH_CONTEXT(a_map_of_one_set_ends_the_blend, 2)
     quad_list(once, twice);
 }
 
-/// Light on top of the occlusion of `from`, by the one atlas or the other.
+/// Light on top of the occlusion of `from`, which stays, by the one atlas or the other.
 static void bake_light(const alp_scene *from, alp_atlas_mode mode, const char *output)
 {
     alp_bake_options options = blend_options(output);
+    options.existing_ao = ALP_EXISTING_AO_KEEP;
     options.atlas.mode = mode;
     options.overwrite = true;
     options.maps = ALP_MAP_LIGHT;
@@ -194,6 +195,26 @@ TEST_WITH_CONTEXT(light_after_occlusion_keeps_both, 2)
     alp_scene_destroy(written);
     alp_scene_destroy(scene);
     quad_list(once, twice);
+}
+
+/// Light that takes the occlusion away takes its sets from the list too.
+TEST_WITH_CONTEXT(light_in_place_of_occlusion, 2)
+{
+    const char *once = test_path(test_folder(), "once.glb");
+    const char *twice = test_path(test_folder(), "twice.glb");
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
+    alp_lightmap_destroy(bake(scene, once));
+    alp_scene *written = test_load(context, once);
+    alp_bake_options options = blend_options(twice);
+    options.maps = ALP_MAP_LIGHT;
+    options.lightmap_as = ALP_LIGHTMAP_AS_MOZ;
+    options.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    options.light.samples = 4;
+    ASSERT_OK(context, alp_bake(written, &options, NULL, NULL));
+    assert_true(file_has(twice, "\"maps\":[\"MOZ_lightmap\"]}"));
+    assert_false(file_has(twice, "occlusionTexture"));
+    alp_scene_destroy(written);
+    alp_scene_destroy(scene);
 }
 
 /// Extras that speak of another map than the one that is there: an editor kept them, and put in an

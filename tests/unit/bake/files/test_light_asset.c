@@ -61,10 +61,29 @@ static const uint8_t *byte_of(const orm_bake *p, const alp_image *image, uint32_
 /// ρE/π + Lₑ of a texel, with ρ and Lₑ as `plain` has them.
 static double radiance_of(const orm_bake *p, uint32_t texel, int k)
 {
-    static const double albedo[2][3] = {{0.8 * 0.75, 0.4 * 0.75, 0.1 * 0.75}, {0.95, 0.95, 0.95}};
+    static const double albedo[2][3] = {{0.8, 0.4, 0.1}, {0.95, 0.95, 0.95}};
     static const double emission[2][3] = {{0.05, 0.0, 0.2}, {20.0, 10.0, 5.0}};
     const uint32_t m = material_of(p, texel);
     return albedo[m][k] * (double)irradiance_of(p, texel)[k] / (double)PI + emission[m][k];
+}
+
+/// A texel beside a chart has the bytes of a covered neighbour, or of one that has them.
+static void check_padding(const orm_bake *p, const alp_image *image)
+{
+    const uint32_t width = image->info.width, height = image->info.height;
+    const float *page = p->lightmap->irradiance_pages[0];
+    const uint8_t *bytes = image->pixels;
+    for (uint32_t y = 1; y + 1 < height; y++) {
+        for (uint32_t x = 1; x + 1 < width; x++) {
+            const size_t at = (size_t)y * width + x;
+            const size_t beside[4] = {at - 1, at + 1, at - width, at + width};
+            bool same = page[4 * at + 3] > 0.0f;
+            for (int k = 0; k < 4; k++) {
+                same = same || memcmp(bytes + 3 * at, bytes + 3 * beside[k], 3) == 0;
+            }
+            assert_true(same);
+        }
+    }
 }
 
 TEST(emission_is_the_light_that_leaves)
@@ -74,18 +93,25 @@ TEST(emission_is_the_light_that_leaves)
     const alpi_texture *texture = &p.result->materials[0].emission_texture;
     const alp_image *image = p.result->images[texture->image];
     assert_int_equal(texture->uv_set, 1);
-    double most[2] = {0.0, 0.0};
+    double most[2] = {0.0, 0.0}, off = 0.0;
+    uint32_t noisy = 0;
     for (uint32_t i = 0; i < p.lightmap->texels.count; i++) {
         const uint32_t m = material_of(&p, i);
         const double strength = (double)p.result->materials[m].emission[0];
         for (int k = 0; k < 3; k++) {
             const double value = radiance_of(&p, i, k);
             most[m] = fmax(most[m], value);
-            // the stored byte is the nearest; 0.01 for sums of floats and of 2^-40
-            ASSERT_NEAR(byte_of(&p, image, i)[k],
-                        255.0 * (double)alpi_linear_to_srgb((float)(value / strength)), 0.51);
+            // dithered: noise of a step and rounding; 0.01 for sums of floats and of 2^-40
+            const double code = 255.0 * (double)alpi_linear_to_srgb((float)(value / strength));
+            ASSERT_NEAR(byte_of(&p, image, i)[k], code, 1.51);
+            off += ((double)byte_of(&p, image, i)[k] - code) / (3.0 * p.lightmap->texels.count);
+            noisy += fabs((double)byte_of(&p, image, i)[k] - code) > 0.51;
         }
     }
+    // The mean is kept, to four standard errors of half a step; a quarter rounds to another byte.
+    ASSERT_NEAR(off, 0.0, 4.0 * 0.5 / sqrt(3.0 * p.lightmap->texels.count));
+    assert_true(noisy > p.lightmap->texels.count / 4);
+    check_padding(&p, image);
     for (uint32_t m = 0; m < 2; m++) { // all of the 8 bits of each material
         ASSERT_NEAR(p.result->materials[m].emission[0], most[m], 1e-5 * most[m]);
         assert_true(p.result->materials[m].base_color[0] == 0.0f);
@@ -244,6 +270,51 @@ TEST(moz_is_irradiance_over_its_intensity)
         assert_string_equal(orm_text(&p, "asset/extras/alpenglow/light/units"),
                             over_pi ? "\"irradiance/pi\"" : "\"irradiance\"");
         assert_string_equal(orm_text(&p, "asset/extras/alpenglow/occlusion"), "");
+        orm_stop(&p);
+    }
+}
+
+// --- the file's own occlusion
+// ---------------------------------------------------------------------
+
+static const char occluded[] =
+    "[{'name':'floor','pbrMetallicRoughness':{'metallicFactor':0},'occlusionTexture':{'index':0}},"
+    "{'occlusionTexture':{'index':0,'strength':0.5}}]"; // one that has nothing else
+
+/// A viewer would darken the light again. In emission it cannot, and what is asked for stays.
+TEST(own_occlusion_goes_where_light_comes)
+{
+    static const struct {
+        alp_lightmap_as as;
+        unsigned maps;
+        alp_existing_ao existing;
+        const char *floor, *lid;
+    } cases[] = {
+        {ALP_LIGHTMAP_AS_MOZ, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "", ""},
+        {ALP_LIGHTMAP_AS_EXTRAS, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "", ""},
+        {ALP_LIGHTMAP_AS_EXTRAS, ALP_MAP_LIGHT, ALP_EXISTING_AO_KEEP, "{\"index\":0}",
+         "{\"index\":0,\"strength\":0.5}"},
+        {ALP_LIGHTMAP_AS_EMISSIVE, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "{\"index\":0}",
+         "{\"index\":0,\"strength\":0.5}"},
+        {ALP_LIGHTMAP_AS_MOZ, ALP_MAP_AO | ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE,
+         "{\"index\":1,\"texCoord\":1}", "{\"index\":1,\"texCoord\":1}"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        orm_bake p = start(occluded, cases[i].as);
+        p.options.maps = cases[i].maps;
+        p.options.existing_ao = cases[i].existing;
+        test_log_clear();
+        orm_run(&p);
+        assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), cases[i].floor);
+        assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), cases[i].lid);
+        assert_int_equal(strstr(test_log_text(), "2 materials lose their own occlusion") != NULL,
+                         cases[i].floor[0] == '\0');
+        const bool moz = cases[i].as == ALP_LIGHTMAP_AS_MOZ;
+        if (cases[i].as != ALP_LIGHTMAP_AS_EMISSIVE) {
+            assert_string_not_equal(orm_text(&p, moz ? "materials/1/extensions/MOZ_lightmap"
+                                                     : "materials/1/extras/lightmap"),
+                                    "");
+        }
         orm_stop(&p);
     }
 }

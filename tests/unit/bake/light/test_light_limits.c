@@ -57,6 +57,37 @@ TEST_WITH_CONTEXT(no_time_is_no_light, 2)
     alp_scene_destroy(scene);
 }
 
+/// A map that nothing lights is black, and is refused before the work. Lamps of 0
+/// candela and a sky of strength 0 give no light.
+TEST_WITH_CONTEXT(darkness_is_refused, 1)
+{
+    alp_scene *scene = test_load(context, "builtin:sphere-plane");
+    alp_lamp lamp = alp_lamp_default();
+    alp_bake_options o = test_light_options(16);
+    o.light.lighting.lamps = &lamp;
+    o.light.lighting.lamp_count = 1;
+    for (int both = 0; both < 2; both++) {
+        o.maps |= both ? ALP_MAP_AO : 0u;
+        assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(alp_context_message(context), "--sky 1,1,1"));
+    }
+    o.light.lighting.sky.kind = ALP_SKY_CONSTANT;
+    o.light.lighting.sky.strength = 0.0f;
+    assert_int_equal(alp_bake(scene, &o, NULL, NULL), ALP_ERROR_INVALID_ARGUMENT);
+    alp_bake_work work;
+    ASSERT_OK(context, alp_bake_estimate(scene, &o, &work)); // light may still come
+    o.light.lighting.sky.strength = 1.0f;
+    ASSERT_OK(context, alp_bake(scene, &o, NULL, NULL));
+    o.light.lighting.sky.kind = ALP_SKY_NONE;
+    lamp.position[1] = 3.0f;
+    lamp.intensity = 1.0f;
+    ASSERT_OK(context, alp_bake(scene, &o, NULL, NULL));
+    o.maps = ALP_MAP_AO; // occlusion needs no light
+    lamp.intensity = 0.0f;
+    ASSERT_OK(context, alp_bake(scene, &o, NULL, NULL));
+    alp_scene_destroy(scene);
+}
+
 /// Refuses when it is asked the `left`-th time in the light, and must not be asked then again.
 typedef struct impatience {
     int left;

@@ -123,7 +123,7 @@ TEST(worst_texels_tell_what_they_are_made_of)
     const alpi_reference_value bounced[TEXELS] = {
         {{0}, {4, 4, 4}}, {{0}, {0}}, {{0}, {4, 4, 3.9f}}};
     const uint32_t order[3] = {0, 1, 2};
-    const alpi_light_error error = {.mean = 10.0, .over_mean = {.rms = 0.1, .p99 = 0.8}};
+    const alpi_light_error error = {.mean = 10.0, .scale = 10.0, .over_scale = {.rms = 0.1, .p99 = 0.8}};
     alpi_light_whole w = {
         .values = whole, .bounced = bounced, .direct = direct, .order = order, .count = 3};
     alpi_light_noise noise;
@@ -152,7 +152,7 @@ TEST(worst_texels_are_found)
     }
     uint8_t between[TEXELS] = {0, 0, 0, 1, 0, 1};
     const uint32_t order[5] = {5, 4, 3, 1, 0}; // 2 has no light of its own
-    const alpi_light_error error = {.mean = 10.0};
+    const alpi_light_error error = {.mean = 10.0, .scale = 10.0};
     const alpi_light_whole w = {.values = whole, .bounced = bounced, .order = order, .count = 5};
     uint8_t marks[TEXELS];
     uint32_t list[5];

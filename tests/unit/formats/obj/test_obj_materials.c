@@ -85,6 +85,19 @@ TEST_WITH_CONTEXT(colours, 1)
     alp_scene_destroy(scene);
 }
 
+TEST_WITH_CONTEXT(surfaces_without_a_material_are_noted, 1)
+{
+    static const char *const objs[2] = {"mtllib a.mtl\nusemtl a\n", ""};
+    for (int i = 0; i < 2; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "%sv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", objs[i]);
+        alp_scene *scene = read_with(context, test_folder(), "newmtl a\nKd 1 1 1\n", text);
+        assert_int_equal(strstr(test_log_text(), "without a material") != NULL, i);
+        ASSERT_NEAR(alpi_surface_albedo(scene, 0, 0.3f, 0.3f).x, i == 1 ? 0.5 : 0.95, 1e-6);
+        alp_scene_destroy(scene);
+    }
+}
+
 TEST_WITH_CONTEXT(pictures, 1)
 {
     const char *folder = test_folder();

@@ -321,6 +321,27 @@ TEST(three_holds_the_scene)
     room_destroy(&r);
 }
 
+/// A wall of metal has its base colour, unless metals are black.
+TEST(three_shows_metals)
+{
+    room r;
+    room_create(&r);
+    for (int black = 0; black < 2; black++) {
+        uint32_t colored = 0;
+        for (uint32_t m = 0; m < r.scene->material_count; m++) {
+            r.scene->materials[m].metallic = 1.0f;
+        }
+        alp_scene_set_metals(r.scene, (alp_metals)black);
+        json_t *root = encode(&r, false), *materials = get(root, "materials");
+        for (size_t i = 0; i < json_array_size(materials); i++) {
+            colored += json_integer_value(get(json_array_get(materials, i), "color")) != 0;
+        }
+        assert_int_equal(colored, black ? 0 : json_array_size(materials));
+        json_decref(root);
+    }
+    room_destroy(&r);
+}
+
 TEST(three_has_the_camera)
 {
     room r;

@@ -26,7 +26,7 @@ static void set_up(fixture *f, const test_tile *tiles, uint32_t count)
     *f = (fixture){.context = test_context(1)};
     f->scene = test_tiles_scene(f->context, tiles, count, SIZE);
     f->lightmap = test_tiles_lightmap(f->scene, SIZE);
-    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, &f->seams));
+    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, NULL, &f->seams));
 }
 
 static void tear_down(fixture *f)
@@ -314,7 +314,7 @@ TEST(it_can_be_cancelled)
     const alpi_watch former =
         alpi_set_watch(f.context, (alpi_watch){.callback = stop, .user = &asked});
     alpi_seams seams;
-    assert_int_equal(alpi_seams_create(f.lightmap, &seams), ALP_ERROR_CANCELLED);
+    assert_int_equal(alpi_seams_create(f.lightmap, NULL, &seams), ALP_ERROR_CANCELLED);
     assert_null(seams.first);
     alpi_set_watch(f.context, former);
     tear_down(&f);
@@ -466,7 +466,7 @@ TEST(memory_that_ends_is_said)
     int allocations = 0;
     for (; result == ALP_ERROR_OUT_OF_MEMORY; allocations++) {
         left = allocations;
-        result = alpi_seams_create(lightmap, &seams);
+        result = alpi_seams_create(lightmap, NULL, &seams);
         if (result == ALP_OK) {
             result = alpi_seams_measure(lightmap, &seams, &page, &error);
         }

@@ -26,7 +26,7 @@ static void set_up(fixture *f, uint32_t workers, const test_tile tiles[2], test_
     *f = (fixture){.context = test_context(workers)};
     f->scene = test_tiles_scene(f->context, tiles, 2, SIZE);
     f->lightmap = test_tiles_lightmap(f->scene, SIZE);
-    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, &f->seams));
+    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, NULL, &f->seams));
     f->before = test_tiles_page(f->lightmap, tiles, 2, paint, user);
     f->page = test_tiles_page(f->lightmap, tiles, 2, paint, user);
     f->errors = calloc(f->lightmap->texels.count, sizeof *f->errors);
@@ -144,7 +144,7 @@ TEST(texels_across_an_edge_move_further)
     alp_context *context = test_context(1);
     fixture f = {.context = context, .scene = test_tiles_scene(context, tiles, 3, SIZE)};
     f.lightmap = test_tiles_lightmap(f.scene, SIZE);
-    ASSERT_OK(context, alpi_seams_create(f.lightmap, &f.seams));
+    ASSERT_OK(context, alpi_seams_create(f.lightmap, NULL, &f.seams));
     assert_int_equal(f.seams.count, 1);
     f.page = test_tiles_page(f.lightmap, tiles, 3, constant, (float[]){0.25f, 0.75f, 0.5f});
     f.errors = calloc(f.lightmap->texels.count, sizeof *f.errors);
@@ -329,7 +329,7 @@ TEST(memory_that_ends_is_said)
     const float values[2] = {0.25f, 0.75f};
     float *page = test_tiles_page(lightmap, pair, 2, constant, values);
     alpi_seams seams;
-    ASSERT_OK(context, alpi_seams_create(lightmap, &seams));
+    ASSERT_OK(context, alpi_seams_create(lightmap, NULL, &seams));
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
     int allocations = 0;
     for (; result == ALP_ERROR_OUT_OF_MEMORY; allocations++) {

@@ -44,7 +44,7 @@ static void set_up(fixture *f)
     for (uint32_t i = 0; i < count; i++) {
         f->lightmap->states[i] = ALPI_TEXEL_TRACED;
     }
-    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, &f->seams));
+    ASSERT_OK(f->context, alpi_seams_create(f->lightmap, NULL, &f->seams));
     assert_true(f->seams.sample_count > 50);
 }
 

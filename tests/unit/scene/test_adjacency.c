@@ -1,8 +1,40 @@
 // SPDX-License-Identifier: MIT
 // Neighbours: symmetric, by position, and only where the surface really goes on.
-#include "atlas_scenes.h"
+#include "scene/adjacency.h"
 
 #include "base/memory.h"
+#include "test_support.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static alp_scene *scene_of(alp_context *context, const float (*positions)[3], uint32_t vertices,
+                           const uint32_t (*indices)[3], uint32_t triangles)
+{
+    const alp_mesh mesh = {.positions = &positions[0][0],
+                           .indices = &indices[0][0],
+                           .vertex_count = vertices,
+                           .triangle_count = triangles,
+                           .base_color = {0.5f, 0.5f, 0.5f}};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    return scene;
+}
+
+/// 12 triangles that share 8 vertices.
+static alp_scene *scene_cube(alp_context *context)
+{
+    static const uint32_t indices[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
+                                            {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                            {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    float corners[8][3];
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 3; k++) {
+            corners[i][k] = (i >> k & 1) != 0 ? 1.0f : -1.0f;
+        }
+    }
+    return scene_of(context, (const float(*)[3])corners, 8, indices, 12);
+}
 
 static uint32_t links(const uint32_t neighbours[3])
 {
@@ -23,7 +55,7 @@ static uint32_t count_links(alp_context *context, const float (*corners)[3], uin
         }
     }
     alp_scene *scene =
-        scene_of(context, corners, NULL, 3 * triangles, (const uint32_t(*)[3])indices, triangles);
+        scene_of(context, corners, 3 * triangles, (const uint32_t(*)[3])indices, triangles);
     uint32_t(*neighbours)[3] = NULL, sum = 0;
     ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
     for (uint32_t t = 0; t < triangles; t++) {
@@ -54,7 +86,7 @@ TEST_WITH_CONTEXT(edges_are_matched_in_order, 1)
 {
     static const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     static const uint32_t indices[2][3] = {{0, 1, 2}, {2, 3, 0}};
-    alp_scene *scene = scene_of(context, p, NULL, 4, indices, 2);
+    alp_scene *scene = scene_of(context, p, 4, indices, 2);
     uint32_t(*neighbours)[3] = NULL;
     ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
     const uint32_t expected[2][3] = {{ALPI_NONE, ALPI_NONE, 1}, {ALPI_NONE, ALPI_NONE, 0}};
@@ -117,7 +149,7 @@ TEST_WITH_CONTEXT(a_twisted_band_breaks_once, 1)
         memcpy(indices[2 * i], two, sizeof two);
     }
     alp_scene *scene =
-        scene_of(context, (const float(*)[3])p, NULL, 2 * N, (const uint32_t(*)[3])indices, 2 * N);
+        scene_of(context, (const float(*)[3])p, 2 * N, (const uint32_t(*)[3])indices, 2 * N);
     uint32_t(*neighbours)[3] = NULL, sum = 0;
     ASSERT_OK(context, alpi_adjacency_create(scene, &neighbours));
     for (uint32_t t = 0; t < 2 * N; t++) {

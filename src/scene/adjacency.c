@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which triangle lies across each edge. Vertices are welded by position through a hash table, then
 // half-edges meet through a second one: linear time.
-#include "atlas/atlas.h"
+#include "scene/adjacency.h"
 
 #include "base/memory.h"
 #include "base/random.h"
