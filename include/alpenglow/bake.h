@@ -155,15 +155,15 @@ typedef struct alp_light_options {
     uint32_t bounces;  ///< at most; 0 = direct light alone; default ALP_BOUNCES_CONVERGE
     /// RAYS: wanted relative error, √(mean of squared standard errors) / mean of the map. The mean
     /// counts as more where surfaces emit more than 1,500 times of it: see
-    /// alp_bake_report.light_scale. The 99th percentile of texels' errors must be at most four times
-    /// as much. Rounds of more and more
-    /// samples run until both are reached; the last are for the texels with the largest errors.
-    /// 0 (default): `samples` in one round; with a time_limit or keep_partial in rounds that
-    /// double.
+    /// alp_bake_report.light_scale. The 99th percentile of texels' errors must be at most four
+    /// times as much. Rounds of more and more samples run until both are reached; the last are for
+    /// the texels with the largest errors. 0 (default): `samples` in one round; with a time_limit
+    /// or keep_partial in rounds that double.
     float error;
     /// With an error: rays of the light are limited too, by a number that depends on triangles and
-    /// texels alone: 1,024 a texel of at least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles. The
-    /// bake then ends with the error that it has (ray-limit). Default false.
+    /// texels alone: 1,024 a texel of at least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles, half
+    /// of that with alpha masks. The bake then ends with the error that it has (ray-limit). Default
+    /// false.
     bool bounded;
     /// [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple of 32. PATHS: paths
     /// of a texel, to a multiple of 16. Without bounces: rays to each light, to a multiple of 8.
@@ -341,8 +341,9 @@ typedef struct alp_bake_report {
     bool light_direct; ///< ALP_MAP_LIGHT without bounces
     double ao_mean;    ///< area-weighted mean accessibility
     double light_mean; ///< mean irradiance over texels and channels, W·m⁻²
-    /// Light that the errors below are relative to, W·m⁻²: E + max(0, M − 1500 E) for E = light_mean
-    /// and M the root mean square over texels of π times the radiance that surfaces emit.
+    /// Light that the errors below are relative to, W·m⁻²: E + max(0, M − 1500 E) for E =
+    /// light_mean and M the root mean square over texels of π times the radiance that surfaces
+    /// emit.
     double light_scale;
     /// √(mean of squared standard errors) over texels and channels, and the 99th percentile of a
     /// texel's, both over light_scale. NaN in the dark, and for hemicubes, which have no estimate.
