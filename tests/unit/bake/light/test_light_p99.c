@@ -123,7 +123,8 @@ TEST(worst_texels_tell_what_they_are_made_of)
     const alpi_reference_value bounced[TEXELS] = {
         {{0}, {4, 4, 4}}, {{0}, {0}}, {{0}, {4, 4, 3.9f}}};
     const uint32_t order[3] = {0, 1, 2};
-    const alpi_light_error error = {.mean = 10.0, .scale = 10.0, .over_scale = {.rms = 0.1, .p99 = 0.8}};
+    const alpi_light_error error = {
+        .mean = 10.0, .scale = 10.0, .over_scale = {.rms = 0.1, .p99 = 0.8}};
     alpi_light_whole w = {
         .values = whole, .bounced = bounced, .direct = direct, .order = order, .count = 3};
     alpi_light_noise noise;
