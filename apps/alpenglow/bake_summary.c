@@ -130,9 +130,11 @@ static void print_light(const alp_bake_options *o, const alp_bake_report *r)
                100.0 * (double)r->light_traced / (double)(r->light_traced + r->light_interpolated));
     }
     printf("; mean irradiance %.4g W/m2", r->light_mean);
-    print_stated_error(r->light_relative_error, r->light_p99_error,
-                       r->light_scale > r->light_mean ? "the light that the surfaces emit"
-                                                      : "the mean");
+    char scale[64] = "the mean";
+    if (r->light_scale > r->light_mean) {
+        snprintf(scale, sizeof scale, "%.3g W/m2, for the surfaces emit far more", r->light_scale);
+    }
+    print_stated_error(r->light_relative_error, r->light_p99_error, scale);
     const alp_light_energy *e = &r->light_energy;
     if (r->light_passes > 0 && e->known) {
         printf(

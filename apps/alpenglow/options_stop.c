@@ -25,8 +25,8 @@ static const option rows[] = {
              "99th percentile is at most four times it. --ao-samples is then the limit "
              "of rays per texel, default 65536. Half the error takes about 2.7 times "
              "the rays of occlusion, and four times those of light. Light by --gather "
-             "rays has a default of 1, unless --samples is given; it then ends after "
-             "some 1,024 rays per texel too, with the error that it has."},
+             "rays has a default of 1, unless --samples is given. That default also ends "
+             "by a limit of rays, with the error that it has then."},
     {.id = OPTION_TIME_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

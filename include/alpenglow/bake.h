@@ -160,10 +160,10 @@ typedef struct alp_light_options {
     /// the texels with the largest errors. 0 (default): `samples` in one round; with a time_limit
     /// or keep_partial in rounds that double.
     float error;
-    /// With an error: rays of the light are limited too, by a number that depends on triangles and
-    /// texels alone: 1,024 a texel of at least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles, half
-    /// of that with alpha masks. The bake then ends with the error that it has (ray-limit). Default
-    /// false.
+    /// With an error: the rays of the texels are limited too, and with panes those of the
+    /// passes, each by a number that depends on the scene and its texels alone: 1,024 a texel of at
+    /// least 2¹⁷, times ∛(2¹⁴ / T) for T > 2¹⁴ triangles, half of that with alpha masks. The bake
+    /// then ends with the error that it has (ray-limit). Default false.
     bool bounded;
     /// [1, 65536], default 256. RAYS: rays of a texel, rounded up to a multiple of 32. PATHS: paths
     /// of a texel, to a multiple of 16. Without bounces: rays to each light, to a multiple of 8.
@@ -349,7 +349,7 @@ typedef struct alp_bake_report {
     /// texel's, both over light_scale. NaN in the dark, and for hemicubes, which have no estimate.
     double light_relative_error, light_p99_error;
     uint64_t light_traced, light_interpolated; ///< texels that gathered bounced light, and others
-    uint32_t light_passes;                     ///< of radiosity, one for each bounce; else 0
+    uint32_t light_passes;                     ///< of radiosity; else 0
     uint32_t light_rounds;                     ///< of radiosity, rounds of texels' rays; else 0
     bool light_bounded; ///< the limit of rays ended light before its error, see `bounded`
     /// Mean change of the light in each of the first 64 passes, over its mean.

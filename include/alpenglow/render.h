@@ -17,6 +17,7 @@ ALP_BEGIN_DECLS
 /// AO, CONSTANT and HEMISPHERE cut BLEND at alpha ½, and take transmission as opaque.
 typedef enum alp_render_method {
     /// Accessibility from the scene's occlusion maps. Surfaces without a map trace rays per pixel.
+    /// Backs of single-sided surfaces are left out, as viewers do.
     ALP_RENDER_AO = 0,
     /// Constant ambient light of radiance 1: the albedo (alp_scene_set_metals), at most
     /// 0.95.

@@ -97,8 +97,12 @@ static void put_light(alpi_page *page, const alp_bake_report *r)
               r->light_samples);
     alpi_page_format(page, "<dt>Mean irradiance</dt><dd>%s W/m²</dd>\n",
                      alpi_significant(r->light_mean, 4).text);
+    char scale[64] = "the mean";
+    if (r->light_scale > r->light_mean) {
+        snprintf(scale, sizeof scale, "%.3g W/m², for the surfaces emit far more", r->light_scale);
+    }
     put_error(page, "Stated error of irradiance", r->light_relative_error, r->light_p99_error,
-              r->light_scale > r->light_mean ? "the light that the surfaces emit" : "the mean");
+              scale);
 }
 
 /// Where the light goes, in watts.

@@ -19,7 +19,7 @@ alpi_world_box alpi_world_box_of(const alp_scene *scene);
 /// Chooses the origin by the box of all vertices: 0 unless they are far away for their extent.
 ///   far: the centre is 8 extents away and floats there are 1e-5 extents apart, or it is 2 extents
 ///        away and they are a millimetre apart
-/// The origin is the centre, rounded to the power of two above the extent.
+/// The origin is the centre, rounded to a multiple of the power of two above the extent.
 void alpi_origin_choose(const alpi_world_box *box, double origin[3]);
 
 /// A box of vertices that were rounded far out is not exact: readers find it again after a step.

@@ -99,8 +99,8 @@ struct alp_scene {
     alp_context *context;
     char *name; // path or "builtin:…", for messages
 
-    /// Of positions, lights, cameras and bounds, in metres: file = origin + scene. 0 unless the
-    /// file's coordinates are far (origin.h).
+    /// Origin of positions, lights, cameras and bounds, in metres: file = origin + scene. 0 unless
+    /// the file's coordinates are far (origin.h).
     double origin[3];
     float rounded_at; // metres: largest coordinate that a far file holds as a float, else 0
 

@@ -83,7 +83,8 @@ static uint32_t find_nearest(const alp_scene *scene, const ray *r, alpi_trace_fi
         hit h;
         if (scene->triangle_usable[t] && intersect(scene, t, r->origin, r->direction, &h) &&
             h.distance >= r->minimum && h.distance <= nearest->distance &&
-            !(fronts && h.from_behind) && !passes(scene, t, &h, filter)) {
+            !(fronts && h.from_behind != alpi_sides_is_turned(scene, t)) &&
+            !passes(scene, t, &h, filter)) {
             *nearest = h;
             found = t;
         }
@@ -125,7 +126,8 @@ void alpi_brute_force_nearest(const alp_scene *scene, const alpi_rays *rays, uin
             (double)rays->maximum[i]};
         hit h;
         uint32_t triangle = find_nearest(scene, &r, filter, false, &h);
-        if (triangle != ALPI_NONE && h.from_behind && !filter.backs) {
+        if (triangle != ALPI_NONE && !filter.backs &&
+            h.from_behind != alpi_sides_is_turned(scene, triangle)) {
             triangle = find_front(scene, &r, filter, triangle, &h);
         }
         const bool met = triangle != ALPI_NONE;

@@ -2,6 +2,8 @@
 // What Embree asks at hits: whether they are any.
 #include "trace/embree.h"
 
+#include "scene/sides.h"
+
 #include <string.h>
 
 // RTCRayN and RTCHitN are structures of arrays of N floats, in the order of the fields of RTCRay
@@ -90,8 +92,10 @@ void alpi_embree_one_sided_filter(const struct RTCFilterFunctionNArguments *a)
 
 void alpi_embree_front_filter(const struct RTCFilterFunctionNArguments *a)
 {
+    const alp_scene *scene = ((const alpi_trace_context *)(const void *)a->context)->tracer->scene;
     for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] != 0 && is_from_behind(a, i)) {
+        if (a->valid[i] != 0 &&
+            is_from_behind(a, i) != alpi_sides_is_turned(scene, lane_triangle(a, i))) {
             a->valid[i] = 0;
         }
     }

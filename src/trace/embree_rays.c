@@ -291,6 +291,7 @@ static void prefer_fronts(const alpi_tracer *tracer, const alpi_rays *rays,
     }
     const found_lanes instead = FOUND_LANES(&found, 0);
     take_some(tracer, &instead, fronts, hits);
+    hits->behind &= ~fronts;
 }
 
 static void take(const alpi_tracer *tracer, const alpi_rays *rays, const found_lanes *lanes,
@@ -301,10 +302,10 @@ static void take(const alpi_tracer *tracer, const alpi_rays *rays, const found_l
     } else {
         take_some(tracer, lanes, active, hits);
     }
-    prefer_fronts(tracer, rays, lanes, active, context, hits);
     if (tracer->scene->sides != NULL) {
         turn_over(tracer, active, hits);
     }
+    prefer_fronts(tracer, rays, lanes, active, context, hits);
 }
 
 static void trace_nearest(const alpi_tracer *tracer, const alpi_rays *rays, uint32_t active,

@@ -92,8 +92,8 @@ typedef struct alpi_hits {
     _Alignas(32) float distance[ALPI_PACKET]; // INFINITY where nothing was hit
     uint32_t triangle[ALPI_PACKET];           // ALPI_NONE where nothing was hit
     float b1[ALPI_PACKET], b2[ALPI_PACKET];   // barycentric weights of corners 1 and 2
-    uint32_t behind; // bit i: lane i met the back of its triangle, by the tracer's rounding. Of
-                     // solids that are wound inwards (scene/sides.h) that is the front
+    uint32_t behind; // bit i: lane i met the back of its triangle, by the tracer's rounding. The
+                     // back of solids that are wound inwards is the front (scene/sides.h)
 } alpi_hits;
 
 typedef struct alpi_tracer alpi_tracer;

@@ -130,11 +130,9 @@ void alpi_light_warn(const alpi_bake_job *job, const alpi_relative_error *error,
     } else if (wanted > 0.0 && job->report.light_bounded &&
                (error->rms > wanted || error->p99 > ALPI_P99_LIMIT * wanted)) {
         alpi_note(job->context, "ray-limit", job->scene->name,
-                  "light ended after %.3g million rays, the limit of a bake without --error: the "
-                  "stated error is %.2g %%, of the worst texel in a hundred %.2g %%; --error %g "
-                  "goes on",
-                  1e-6 * (double)job->report.rays, 100.0 * stated, 100.0 * error->p99,
-                  100.0 * wanted);
+                  "light ended by the limit of rays of a bake without --error: the stated error is "
+                  "%.2g %%, of the worst texel in a hundred %.2g %%; --error %g goes on",
+                  100.0 * stated, 100.0 * error->p99, 100.0 * wanted);
     } else if (wanted > 0.0 && error->rms > wanted) {
         alpi_warn(job->context, "error-not-reached", job->scene->name,
                   "the stated error of the light is %.2g %% after %u rays per texel and %u "

@@ -65,6 +65,7 @@ static alp_result try_texels(alpi_light_round_state *r, const uint32_t *list, ui
         values[list[i]] = found[i];
     }
     r->job->report.rays += 2 * (uint64_t)count * ALPI_LIGHT_FIRST_RAYS;
+    r->sent += 2.0 * count * ALPI_LIGHT_FIRST_RAYS;
     return ALP_OK;
 }
 
@@ -88,10 +89,11 @@ static alp_result plan(alpi_light_round_state *r, alpi_light_plan *p, double *ra
 
 /// Direct light for the whole map, which the rays are shown then, and by which what is near them is
 /// farther where light differs.
-static alp_result add_direct(alpi_light_round_state *r, double wanted)
+/// @param most samples of all texels together
+static alp_result add_direct(alpi_light_round_state *r, double wanted, double most)
 {
     const alpi_light_goal goal = {
-        .wanted = wanted, .most = HUGE_VAL, .seed = alpi_light_round_seed(r, true)};
+        .wanted = wanted, .most = most, .seed = alpi_light_round_seed(r, true)};
     bool dealt;
     alpi_light_clock_part(r->task->clock, false, 1.0);
     ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
@@ -110,6 +112,8 @@ alp_result alpi_light_prepare_first(alpi_light_round_state *r, uint32_t *rays)
     alpi_light_plan p;
     double wanted;
     ALP_TRY(plan(r, &p, &wanted));
-    *rays = alpi_light_ray_count(wanted);
-    return p.direct > 0.0 ? add_direct(r, p.for_direct * r->scale) : ALP_OK;
+    // Half of the limit at most for each: later rounds see what is left of it.
+    const double most = 0.5 * r->ray_limit;
+    *rays = alpi_light_ray_count(fmax(fmin(wanted, most / r->sending), ALPI_LIGHT_FIRST_RAYS));
+    return p.direct > 0.0 ? add_direct(r, p.for_direct * r->scale, most) : ALP_OK;
 }

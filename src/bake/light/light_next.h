@@ -31,6 +31,7 @@ typedef struct alpi_light_round_state {
     alpi_light_worst worst;  // rays of this round: of the list; count 0: of all
     uint32_t number;         // of the round
     double ray_limit;        // rays that light may take
+    double sent;             // rays of bounced light so far, with those of layers
     uint32_t most_rays;      // of any texel so far
     float factor;            // alpi_bounced_report, of the last round of all texels
     double sending;          // texels that send rays in a round of all; a guess before there is one
@@ -44,6 +45,7 @@ typedef struct alpi_light_round_state {
     double solved_noise;                // 1 / √ rays that a block of it is known by, on average
     alpi_light_error map;               // as the map would be stated; see alpi_light_round_look
     bool for_worst;                     // the next round is for the worst texels alone
+    bool limited;                       // by ray_limit
     bool cut_off;                       // by the clock, or by who watches
 } alpi_light_round_state;
 

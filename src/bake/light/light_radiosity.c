@@ -143,9 +143,9 @@ static void report_solution(alpi_bake_job *job, const alpi_radiosity *solution)
 {
     if (solution->missing > 0.0) {
         job->report.light_bounded = true;
-        alpi_warn(job->context, "ray-limit", job->scene->name,
-                  "light ended after %u bounces, by the limit of rays of a bake without --error: "
-                  "of the light about %.2g %% is missing; --error %g goes on",
+        alpi_warn(job->context, "bounces-missing", job->scene->name,
+                  "bounces of light ended after %u passes, by the limit of rays of a bake without "
+                  "--error: about %.2g %% of the light is missing; --error %g goes on",
                   solution->passes, 100.0 * solution->missing,
                   100.0 * (double)job->options.light.error);
     }
@@ -237,6 +237,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
                                                (uint64_t)options.atlas.size * options.atlas.size);
     options.direct_samples = find_direct_samples(&job->options.light);
     options.kept_limit = UINT64_MAX;
+    options.ray_limit = find_pass_limit(job, t->count);
     alpi_solution *around = NULL;
     alpi_light_clock_part(t->clock, false, 1.0);
     ALP_TRY(alpi_solution_create(&options, t->progress.callback, t->progress.user, &around));

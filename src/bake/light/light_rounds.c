@@ -96,6 +96,7 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         job->report.light_interpolated = report.interpolated;
     }
     job->report.rays += report.rays;
+    r->sent += (double)report.rays * (1.0 + job->layers.light.count);
     job->report.light_rounds++;
     return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, states, r->rays_of, rays,
                                    &t->progress);
@@ -197,8 +198,7 @@ static alp_result add_bounced(alpi_light_round_state *r, uint32_t rays)
 /// nothing and traces none.
 static double rays_left(const alpi_light_round_state *r)
 {
-    const double sent = (double)(r->job->report.rays - r->solution->rays);
-    return fmax(r->ray_limit - sent - r->direct.drawn, 0.0);
+    return fmax(r->ray_limit - r->sent - r->direct.drawn, 0.0);
 }
 
 /// Cuts a round to the rays that are left. @param listed, sending texels that get either
@@ -213,7 +213,7 @@ static void keep_ray_limit(alpi_light_round_state *r, double listed, double send
                       ? share * *direct
                       : 0.0;
         *rays = share * *rays >= 0.125 * r->rays ? share * *rays : 0.0;
-        r->job->report.light_bounded = true;
+        r->limited = true;
     }
 }
 
@@ -258,14 +258,12 @@ static alp_result improve(alpi_light_round_state *r, bool *done)
     const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
     direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
     if (direct > 0.0) {
-        const alpi_light_goal goal = {.wanted = p.for_direct * r->scale,
-                                      .each = r->for_worst,
-                                      .among = r->for_worst ? r->worst.marks : NULL,
-                                      .most = isinf(r->task->clock->deadline) &&
-                                                      !r->job->report.light_bounded
-                                                  ? rays_left(r)
-                                                  : direct * listed,
-                                      .seed = alpi_light_round_seed(r, true)};
+        const alpi_light_goal goal = {
+            .wanted = p.for_direct * r->scale,
+            .each = r->for_worst,
+            .among = r->for_worst ? r->worst.marks : NULL,
+            .most = isinf(r->task->clock->deadline) && !r->limited ? rays_left(r) : direct * listed,
+            .seed = alpi_light_round_seed(r, true)};
         alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
         ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
     }
@@ -390,6 +388,11 @@ static alp_result warn_of_error(alpi_light_round_state *r)
         ALP_TRY(alpi_light_round_look(r));
     }
     r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
+    const alpi_relative_error *e = &r->map.over_scale;
+    const double goal = (double)r->job->options.light.error;
+    if (r->limited && (e->rms > goal || e->p99 > ALPI_P99_LIMIT * goal)) {
+        r->job->report.light_bounded = true;
+    }
     alpi_light_warn(r->job, &r->map.over_scale, r->cut_off, r->most_rays, r->direct.most);
     return ALP_OK;
 }

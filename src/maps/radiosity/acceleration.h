@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Fewer passes of radiosity where each must trace its rays anew. A pass takes light x to G(x). The
-// next light is the mix of the last three G(x) whose mixed residuals G(x) − x are the smallest.
-// Based on: D. G. Anderson. Iterative Procedures for Nonlinear Integral Equations. J. ACM 12(4),
-// 1965; H. F. Walker, P. Ni. Anderson Acceleration for Fixed-Point Iterations. SIAM J. Numer. Anal.
-// 49(4), 2011 (for a linear G it does what GMRES does).
+// Fewer passes of radiosity where panes make each trace its rays anew. A pass takes light x to
+// G(x). The next light is the mix of the last three G(x) whose mixed residuals G(x) − x are the
+// smallest. Based on: D. G. Anderson. Iterative Procedures for Nonlinear Integral Equations. J. ACM
+// 12(4), 1965; H. F. Walker, P. Ni. Anderson Acceleration for Fixed-Point Iterations. SIAM J.
+// Numer. Anal. 49(4), 2011.
 #ifndef ALPI_MAPS_ACCELERATION_H
 #define ALPI_MAPS_ACCELERATION_H
 

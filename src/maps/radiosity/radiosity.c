@@ -400,14 +400,16 @@ static alp_result run_passes(solver *s)
     ALP_TRY(alpi_parallel_sum(o->context, s->r->receiver_count, sum_first_light, s->r, &s->progress,
                               sums));
     s->first_light = sums[0];
-    s->mixes = all && !s->r->kept && o->layers == NULL;
+    const bool anew =
+        !alpi_gather_meets_cells(&s->from); // by the scene, not by the memory there is
+    s->mixes = all && anew && o->layers == NULL;
     if (s->mixes) {
         ALP_TRY(alpi_acceleration_create(
             o->context, sides_of(&s->r->patches) * s->r->patches.block_count, &s->acceleration));
     }
     uint64_t rays_before = s->r->rays;
     while (s->r->passes < limit && left_over(s) > o->tolerance) {
-        if (is_spent(s, rays_before)) {
+        if (anew && is_spent(s, rays_before)) {
             s->r->missing = left_over(s);
             break;
         }

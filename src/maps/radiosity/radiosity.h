@@ -33,7 +33,7 @@ typedef struct alpi_radiosity_options {
     const alpi_gatherer *gatherer; // how blocks gather; all borrowed
     uint32_t bounces;              // ≥ 1, at most; above PASS_LIMIT: as many as it takes
     double tolerance; // passes end where those that are left would bring less, over all light
-    double ray_limit; // of the passes; 0: none
+    double ray_limit; // of the passes where rays cannot be kept, for panes; 0: none
     alpi_block_rule blocks;
     uint32_t direct_samples; // of each light at each texel
     bool directional;        // direct light is wanted by its direction

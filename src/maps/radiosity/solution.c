@@ -62,6 +62,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.kept_limit = o->kept_limit > 0 ? o->kept_limit : options.kept_limit;
     options.direct_samples = o->direct_samples > 0 ? o->direct_samples : options.direct_samples;
     options.bounces = o->bounces;
+    options.ray_limit = o->ray_limit;
     options.tolerance = o->tolerance;
     options.backs = true;
     options.seed = o->seed;

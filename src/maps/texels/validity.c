@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "maps/texels/inside.h"
+#include "scene/sides.h"
 
 #include <math.h>
 #include <string.h>
@@ -211,7 +212,7 @@ static uint32_t find_stopped(const validity_job *job, alpi_rays *rays, uint32_t 
     return stopped;
 }
 
-/// Whether something that no lift comes with stands over one of some points: a ledge, whose shadow
+/// Whether something that no lift comes with lies above one of some points: a ledge, whose shadow
 /// a lifted point would leave. Smooth neighbours, at most 60° apart, count as the lifted surface.
 /// @param reach metres
 static bool finds_ledge(const validity_job *job, const alpi_receiver_point *points,
@@ -235,9 +236,7 @@ static bool finds_ledge(const validity_job *job, const alpi_receiver_point *poin
     bool found = false;
     for (int i = 0; i < ALPI_PACKET; i++) {
         if (hits.triangle[i] != ALPI_NONE) {
-            vec3 c[3];
-            alpi_triangle_corners(scene, hits.triangle[i], c);
-            const vec3 normal = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 0.0f, 0.0f});
+            const vec3 normal = alpi_sides_normal(scene, hits.triangle[i]);
             found = found || vec3_dot(normal, points[i].geometric_normal) < 0.5f;
         }
     }

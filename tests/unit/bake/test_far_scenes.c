@@ -264,7 +264,8 @@ TEST(an_obj_keeps_its_digits)
     alp_scene_destroy(scene);
 }
 
-/// What has no file of its own kind is written with transforms, and read again in the same place.
+/// A scene without a file of its own kind is written with transforms, and read again in the same
+/// place.
 TEST(other_files_as_gltf)
 {
     const char *output = test_path(test_folder(), "baked.glb");

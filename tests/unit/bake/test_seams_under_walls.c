@@ -116,7 +116,7 @@ TEST_WITH_CONTEXT(walls_part_their_floor, 2)
     }
 }
 
-/// A shelf 2 cm above the floor, over half of the seam: nobody sees the floor below.
+/// A shelf 5 mm above the floor, over half of the seam: nobody sees the floor below.
 TEST_WITH_CONTEXT(a_shelf_over_a_seam, 2)
 {
     const box shelf = {{-0.2f, 0.005f, -1.5f}, {0.01f, 1, 0.0f}};
