@@ -52,30 +52,74 @@ TEST(doubled_faces_are_lit_as_single_ones)
     assert_false(test_log_has("light-inside"));
 }
 
-/// The mean of a picture from inside a room whose faces are doubled is that of the single room.
-TEST(pictures_of_doubled_faces_are_those_of_single_ones)
+/// Mean radiance of a picture by the reference from inside a room.
+static double picture_mean(const char *name, const float from[3], const float to[3])
 {
-    double mean[2] = {0.0, 0.0};
-    for (int i = 0; i < 2; i++) {
-        alp_scene *scene = load_report(i == 0 ? "doubled_room_single.glb" : "doubled_room_a.glb");
-        alp_render_options o = alp_render_options_default();
-        alp_image *image = NULL;
-        o.method = ALP_RENDER_REFERENCE;
-        o.width = o.height = 32;
-        o.samples = 64;
-        o.camera = (alp_camera){.position = {-1.0f, 1.0f, 1.0f},
-                                .target = {1.0f, 1.0f, -1.0f},
-                                .up = {0.0f, 1.0f, 0.0f},
-                                .vertical_fov = 1.0f};
-        ASSERT_OK(context, alp_render(scene, &o, &image));
-        for (int p = 0; p < 32 * 32; p++) {
-            mean[i] += (double)alp_image_floats(image)[4 * p + 1] / (32 * 32);
-        }
-        alp_image_destroy(image);
-        alp_scene_destroy(scene);
+    alp_scene *scene = load_report(name);
+    alp_render_options o = alp_render_options_default();
+    alp_image *image = NULL;
+    double mean = 0.0;
+    o.method = ALP_RENDER_REFERENCE;
+    o.width = o.height = 32;
+    o.samples = 64;
+    o.camera = (alp_camera){.up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 1.0f};
+    memcpy(o.camera.position, from, sizeof o.camera.position);
+    memcpy(o.camera.target, to, sizeof o.camera.target);
+    ASSERT_OK(context, alp_render(scene, &o, &image));
+    for (int p = 0; p < 32 * 32; p++) {
+        mean += (double)alp_image_floats(image)[4 * p + 1] / (32 * 32);
     }
-    print_message("mean of pictures: %.3f and %.3f W/(sr m2)\n", mean[0], mean[1]);
-    ASSERT_NEAR(mean[1], mean[0], 0.03 * mean[0]);
+    alp_image_destroy(image);
+    alp_scene_destroy(scene);
+    print_message("mean of a picture of %s: %.3f W/(sr m2)\n", name, mean);
+    return mean;
+}
+
+TEST(pictures_of_surfaces_in_one_place_have_no_black_walls)
+{
+    const float corner[3] = {-1, 1, 1}, opposite[3] = {1, 1, -1};
+    const double single = picture_mean("doubled_room_single.glb", corner, opposite);
+    ASSERT_NEAR(picture_mean("doubled_room_a.glb", corner, opposite), single, 0.03 * single);
+    const double gap = picture_mean("two_rooms_gap.glb", corner, opposite);
+    ASSERT_NEAR(picture_mean("two_rooms_touch.glb", corner, opposite), gap, 0.03 * gap);
+}
+
+/// Mean accessibility or obscurance of a bake without a limit of distance.
+static double occlusion_mean(const char *name, unsigned map)
+{
+    alp_scene *scene = load_report(name);
+    alp_bake_options o = alp_bake_options_default();
+    alp_lightmap *lightmap = NULL;
+    alp_bake_report report;
+    double sum = 0.0, covered = 0.0;
+    o.maps = map;
+    o.atlas.size = 64;
+    o.occlusion.distance = INFINITY;
+    ASSERT_OK(context, alp_bake(scene, &o, &lightmap, &report));
+    uint32_t width = 0, height = 0;
+    const float *page = alp_lightmap_map_page(lightmap, map, 0, &width, &height);
+    for (size_t i = 0; i < (size_t)width * height; i++) {
+        const double share = page[4 * i + 3] > 0.0f ? 1.0 : 0.0;
+        sum += share * (double)page[4 * i + 1];
+        covered += share;
+    }
+    print_message("%s, map %u: mean %.4f, %llu texels inside\n", name, map, sum / covered,
+                  (unsigned long long)report.dropped);
+    assert_int_equal(report.dropped, 0); // no texel of a room counts as inside a solid
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+    return sum / covered;
+}
+
+/// Inner copies have the values of the single room, and outer copies see the sky alone: obscurance
+/// of a closed room is the light of its walls, that of the outside is 1.
+TEST(occlusion_of_doubled_faces_is_that_of_single_ones)
+{
+    for (int i = 0; i < 2; i++) {
+        const unsigned map = i == 0 ? ALP_MAP_AO : ALP_MAP_OBSCURANCE;
+        const double single = occlusion_mean("doubled_room_single.glb", map);
+        ASSERT_NEAR(occlusion_mean("doubled_room_a.glb", map), 0.5 * (single + 1.0), 0.01);
+    }
 }
 
 // --- normals over creases, and emission that nothing meets ---------------------------------------

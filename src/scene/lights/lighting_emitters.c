@@ -50,7 +50,7 @@ static int count_across(const alp_scene *scene, uint32_t triangle, const alpi_te
     return longest < MOST_ACROSS ? (int)fmax(ceil(longest), FEWEST_ACROSS) : MOST_ACROSS;
 }
 
-/// Mean of the emission over a triangle, in the middle of cells of equal area.
+/// Mean of the emission over a triangle, at the centroids of across² triangles that it is cut into.
 static double mean_radiance(const alp_scene *scene, uint32_t triangle, const alpi_material *m,
                             vec3 normal)
 {
@@ -66,11 +66,14 @@ static double mean_radiance(const alp_scene *scene, uint32_t triangle, const alp
     }
     const int across = count_across(scene, triangle, &m->emission_texture);
     const double count = (double)across * across;
-    for (int i = 0; i < across * across; i++) {
-        const float root = sqrtf(((float)(i % across) + 0.5f) / (float)across);
-        const float y = ((float)(i / across) + 0.5f) / (float)across;
-        sum += channel_mean(
-            alpi_surface_emission(scene, triangle, root * (1.0f - y), root * y, normal));
+    for (int i = 0; i < 2 * across * across; i++) { // squares of a grid, each cut by its diagonal
+        const int column = i / 2 % across, row = i / 2 / across, upper = i % 2;
+        if (column + row + upper < across) {
+            const float within = (float)(1 + upper) / 3.0f;
+            sum += channel_mean(
+                alpi_surface_emission(scene, triangle, ((float)column + within) / (float)across,
+                                      ((float)row + within) / (float)across, normal));
+        }
     }
     return fmax(sum, LEAST_SAMPLES * full) / count;
 }

@@ -254,3 +254,22 @@ TEST(methods_of_zero_to_one_are_shown_as_they_are)
         assert_int_equal(film.dither, ALP_DITHER_HASHED);
     }
 }
+
+/// A single-sided wall seen from behind is not in the picture of occlusion, as viewers leave it
+/// out; the same wall of a double-sided material is.
+TEST_WITH_CONTEXT(occlusion_shows_no_backs_of_single_sided_walls, 2)
+{
+    for (int double_sided = 0; double_sided < 2; double_sided++) {
+        test_mesh *mesh = test_mesh_start();
+        test_mesh_quad(mesh, (double[]){-5, -5, -4}, (double[]){0, 10, 0}, (double[]){10, 0, 0});
+        alp_scene *scene = test_mesh_scene(context, mesh, double_sided);
+        alp_render_options options = look_ahead();
+        alp_image *image = NULL;
+        options.method = ALP_RENDER_AO;
+        options.samples = 8;
+        ASSERT_OK(context, alp_render(scene, &options, &image));
+        ASSERT_NEAR(alp_image_floats(image)[4 * (80 * 20 + 40) + 3], double_sided, 0.0);
+        alp_image_destroy(image);
+        alp_scene_destroy(scene);
+    }
+}

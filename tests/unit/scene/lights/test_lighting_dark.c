@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "scene/lights/lighting_dark.h"
+#include "scene/lights/lighting_emitters.h"
 
 #include <math.h>
 
@@ -74,6 +75,41 @@ static void blend(alp_scene *scene)
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         vec3_store(scene->normals[v], (vec3){0.57735f, 0.57735f, 0.57735f});
     }
+}
+
+/// A triangle over a texture of which one texel of 48² shines: its mean is found however small
+/// that texel is on it. Each texel has 1/1152 of the triangle, and half of that at its slanted
+/// side.
+TEST(the_mean_of_small_spots_is_found)
+{
+    enum { SIDE = 48 };
+    alp_context *context = test_context(1);
+    const vec3 triangle[1][3] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    alp_scene *scene = test_emitter_scene(context, triangle, 1, (vec3){1, 1, 1});
+    scene->images = ALPI_NEW(context, alp_image *, 1);
+    scene->image_count = 1;
+    ASSERT_OK(context, alp_image_create(context, (alp_image_info){SIDE, SIDE, 3, ALP_COMPONENT_U8},
+                                        &scene->images[0]));
+    uint8_t *pixels = alp_image_bytes(scene->images[0]);
+    scene->materials[0].emission_texture.image = 0;
+    scene->uvs[0] = alpi_allocate(context, scene->vertex_count, sizeof(float[2]));
+    assert_non_null(scene->uvs[0]);
+    for (int k = 0; k < 3; k++) {
+        scene->uvs[0][scene->triangles[0][k]][0] = k == 1 ? 1.0f : 0.0f;
+        scene->uvs[0][scene->triangles[0][k]][1] = k == 2 ? 1.0f : 0.0f;
+    }
+    double sum = 0.0;
+    for (int spot = 0; spot < 20; spot++) {
+        const int x = 2 + spot, y = 3 + spot / 2 * 2; // well inside the triangle
+        memset(pixels, 0, (size_t)3 * SIDE * SIDE);
+        memset(pixels + 3 * (y * SIDE + x), 255, 3);
+        const double found = alpi_emitters_radiance(scene, 0) * SIDE * SIDE / 2.0;
+        assert_true(found > 0.4 && found < 1.8); // samples are about as wide as texels
+        sum += found / 20.0;
+    }
+    ASSERT_NEAR(sum, 1.0, 0.1);
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
 }
 
 static void check_dark(bool blended)
