@@ -31,7 +31,7 @@ static double find_room(double3 inward, double3 along, double before, double aft
                         double3 opposite)
 {
     const double height = double3_dot(opposite, inward), across = double3_dot(opposite, along);
-    const double end = across < 0.0 ? after : before; // of the edge, on the side of the far edge
+    const double end = across < 0.0 ? before : after; // to the end of the edge on that side
     return height * end / (end + fabs(across));
 }
 
