@@ -52,7 +52,7 @@ typedef struct alpi_light_round_state {
 /// The most rays of a texel.
 uint32_t alpi_light_round_most_rays(const alp_light_options *options);
 
-/// Finds the errors so far, over alpi_light_scale of what the map will hold. Where that is bounced
+/// Finds the errors so far, over alpi_light_scale of what the map will hold. If that is bounced
 /// light alone, direct light is what others reflect, and errs over the scale of all.
 /// @param list [count] texels whose bounced light is known: those of the task, or some of them
 /// @return ALP_OK; CANCELLED

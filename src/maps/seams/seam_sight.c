@@ -25,13 +25,15 @@ static double3 load(const float position[3])
     return double3_from(vec3_load(position));
 }
 
-/// How far a line from a place on the edge runs inward before it leaves the triangle. `opposite` is
-/// the third corner, seen from the place.
+/// The scale of a triangle inward from a place on its edge: h e / (e + |across|), h the height of
+/// the third corner, `across` its way along the edge from the place, and e from the place to the
+/// end of the edge on that side. A ray of this length may leave the triangle.
+/// @param opposite the third corner, seen from the place
 static double find_room(double3 inward, double3 along, double before, double after,
                         double3 opposite)
 {
     const double height = double3_dot(opposite, inward), across = double3_dot(opposite, along);
-    const double end = across < 0.0 ? before : after; // to the end of the edge on that side
+    const double end = across < 0.0 ? before : after;
     return height * end / (end + fabs(across));
 }
 

@@ -7,8 +7,8 @@
 //      ==========+=================|=================+==========
 //                    one texel    edge    one texel
 //
-// Both ends stay above their own triangle, and are lifted along the mean of the two normals. Over a
-// convex edge they are lifted by as much as the edge lies above the ends.
+// Each end lies at most half the scale of its triangle inward, and is lifted along the mean of the
+// two normals. Over a convex edge they are lifted by as much as the edge lies above the ends.
 #ifndef ALPI_MAPS_SEAM_SIGHT_H
 #define ALPI_MAPS_SEAM_SIGHT_H
 
