@@ -58,6 +58,7 @@ SUB_ROOMS = {
         "occlusion": ["."],
         "direct": ["occlusion", "paths", "."],
         "gather": ["paths", "."],
+        "sphere": ["gather", "paths", "."],
     },
     "maps": {
         "texels": [],
@@ -66,6 +67,7 @@ SUB_ROOMS = {
         "seams": ["texels", "."],
         "vertex": ["."],
     },
+    "fields": {".": [], "ambient": ["."], "probes": ["."]},
     "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["files", "light", "."]},
 }
 
@@ -73,7 +75,7 @@ SUB_ROOMS = {
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "display": "film", "film": "film", "light": "scene", "scene": "scene", "atlas": "atlas",
-    "occlusion": "transport", "lightmap": "maps", "render": "render", "doctor": "doctor",
+    "occlusion": "transport", "lightmap": "maps", "field": "fields", "probes": "fields", "render": "render", "doctor": "doctor",
     "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
 }
 

@@ -32,6 +32,18 @@ static const command_entry commands[COMMAND_COUNT] = {
          "maximum of |A - B| with its position. Or compares a map of two scenes of the same "
          "triangles (.glb, .gltf, .dae, .zae, .obj) over their surface. Each map is read by its "
          "own coordinates, as in a viewer; those of --atlas blend are blended."},
+    [COMMAND_SAMPLE] =
+        {"sample", "SCENE --with MODEL --at POINTS.csv [OPTIONS]",
+         "print the irradiance at points of space", 1, command_sample,
+         "Prints the irradiance of a model of light at points, as CSV on standard output: the "
+         "columns of POINTS, then r,g,b [W/m2] and error, the expected RMS error of one channel "
+         "[W/m2]. Every model holds the same light: sky, emissive surfaces and reflected light "
+         "(--direct)."},
+    [COMMAND_PROBES] =
+        {"probes", "SCENE -o OUT.probes.json [OPTIONS]", "bake light probes", 1, command_probes,
+         "Solves the light of SCENE and samples it at probes, for everything that moves. Probes "
+         "stand on a grid (--spacing, --bounds) or at any places (--at). docs/manual/"
+         "probe-format.md describes the files."},
     [COMMAND_BENCH] =
         {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", -1,
          command_bench,
@@ -42,8 +54,6 @@ static const command_entry commands[COMMAND_COUNT] = {
          "second), accuracy (stated against true errors), truth (each technique against the "
          "reference), denoise, bounced (methods of gathering bounced light), light (its rays "
          "against the ray tracer, its bakes by workers and size) or formats (reading)."},
-    [COMMAND_PROBES] = {"probes", "SCENE", "bake a grid of light probes", 1, NULL,
-                        "bake --maps light bakes light on surfaces"},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
                      "bake --maps light bakes light on surfaces"},
     [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience for a moving camera", 1, NULL,
@@ -72,7 +82,8 @@ int command_operand_limit(command_id command)
 
 bool command_interruptible(command_id command)
 {
-    return command == COMMAND_BAKE || command == COMMAND_RENDER;
+    return command == COMMAND_BAKE || command == COMMAND_RENDER || command == COMMAND_SAMPLE ||
+           command == COMMAND_PROBES;
 }
 
 const char *const *builtin_scene_names(size_t *count)

@@ -5,8 +5,9 @@
 
 #include "options.h"
 
-#define SCENE_COMMANDS (IN_BAKE | IN_RENDER | IN_INFO)
 #define RAY_COMMANDS (IN_BAKE | IN_RENDER)
+#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES)
+#define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
 typedef struct option_part {
     const option *rows; // [count]
@@ -18,6 +19,7 @@ extern const option_part option_part_what;
 extern const option_part option_part_stop;
 extern const option_part option_part_picture;
 extern const option_part option_part_light;
+extern const option_part option_part_space;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_later;

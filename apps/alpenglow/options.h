@@ -15,10 +15,11 @@ typedef enum command_id {
     COMMAND_RENDER,
     COMMAND_INFO,
     COMMAND_COMPARE,
+    COMMAND_SAMPLE,
+    COMMAND_PROBES,
     COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
-    COMMAND_PROBES = COMMAND_BUILT_COUNT,
-    COMMAND_LPV,
+    COMMAND_LPV = COMMAND_BUILT_COUNT,
     COMMAND_AMBIENCE,
     COMMAND_SH,
     COMMAND_VIEW,
@@ -30,6 +31,8 @@ enum {
     IN_RENDER = 1 << COMMAND_RENDER,
     IN_INFO = 1 << COMMAND_INFO,
     IN_COMPARE = 1 << COMMAND_COMPARE,
+    IN_SAMPLE = 1 << COMMAND_SAMPLE,
+    IN_PROBES = 1 << COMMAND_PROBES,
     IN_BENCH = 1 << COMMAND_BENCH,
 };
 
@@ -49,6 +52,18 @@ typedef enum option_id {
     OPTION_VERTEX_ATTRIBUTE,
     OPTION_ONLY,
     OPTION_OCCLUDERS,
+    OPTION_AT,
+    OPTION_PROBES,
+    OPTION_SPACING,
+    OPTION_BOUNDS,
+    OPTION_BASIS,
+    OPTION_VISIBILITY,
+    OPTION_GRADIENTS,
+    OPTION_LOOKUP,
+    OPTION_EXPORT,
+    OPTION_EXPORT_SCALE,
+    OPTION_OBJECT,
+    OPTION_OVERLAY,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
@@ -241,6 +256,8 @@ int command_bake(const command_line *arguments);
 int command_render(const command_line *arguments);
 int command_info(const command_line *arguments);
 int command_compare(const command_line *arguments);
+int command_sample(const command_line *arguments);
+int command_probes(const command_line *arguments);
 int command_bench(const command_line *arguments);
 
 #endif

@@ -153,7 +153,7 @@ static const option rows[] = {
              "vScale = -1 in Babylon.js.\n"
              "hdr: Radiance RGBE, 8 bits and an exponent."},
     {.id = OPTION_BOUNCES,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--bounces",
@@ -167,7 +167,7 @@ static const option rows[] = {
              "converge: until further bounces add nothing. With --error, passes end "
              "when further ones would add less than a hundredth of it."},
     {.id = OPTION_METALS,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_CHOICE,
      .name = "--metals",
@@ -180,7 +180,7 @@ static const option rows[] = {
              "black: base colour x (1 - metallic). Viewers that multiply a light map by "
              "their diffuse colour show metals black either way."},
     {.id = OPTION_SKY,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sky",
@@ -191,7 +191,7 @@ static const option rows[] = {
              "R,G,B/R,G,B: radiance above and below the horizon.\n"
              "clear: a clear sky around the --sun, which it needs."},
     {.id = OPTION_SKY_TURN,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_REAL,
      .name = "--sky-turn",
@@ -202,7 +202,7 @@ static const option rows[] = {
      .initial = "0",
      .help = "Turn of the sky image, counter-clockwise from above."},
     {.id = OPTION_SKY_STRENGTH,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_REAL,
      .name = "--sky-strength",
@@ -212,7 +212,7 @@ static const option rows[] = {
      .initial = "1",
      .help = "Factor on the sky's radiance."},
     {.id = OPTION_SUN,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sun",
@@ -221,7 +221,7 @@ static const option rows[] = {
              "towards +X. EL: elevation in degrees. LUX: illuminance of a surface that "
              "faces it."},
     {.id = OPTION_SUN_SIZE,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_REAL,
      .name = "--sun-size",
@@ -232,7 +232,7 @@ static const option rows[] = {
      .help = "Full angle of the disk of every sun, which softens shadows. Default 0.53 "
              "for --sun, and 0 for directional lights of the scene."},
     {.id = OPTION_LAMP,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .repeats = true,
@@ -242,7 +242,7 @@ static const option rows[] = {
              "intensity, linear colour (default 1,1,1). May be repeated: up to 64 "
              "--lamp and --spot together."},
     {.id = OPTION_SPOT,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .repeats = true,

@@ -27,7 +27,7 @@ static const option rows[] = {
              "docs/measured/speed.md."},
 
     {.id = OPTION_SEED,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_RUN,
      .kind = KIND_WHOLE,
      .name = "--seed",
@@ -38,7 +38,7 @@ static const option rows[] = {
      .help = "Seed of the noise. The same seed gives the same bits for any number of "
              "threads."},
     {.id = OPTION_THREADS,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_RUN,
      .kind = KIND_WHOLE,
      .name = "--threads",
@@ -50,7 +50,7 @@ static const option rows[] = {
      .help = "Number of threads, which changes the time and never the result. auto: "
              "one per core."},
     {.id = OPTION_PROGRESS,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_RUN,
      .kind = KIND_CHOICE,
      .name = "--progress",
@@ -63,7 +63,7 @@ static const option rows[] = {
              "json: one object a line.\n"
              "off: none."},
     {.id = OPTION_WARNINGS_AS_ERRORS,
-     .commands = RAY_COMMANDS,
+     .commands = LIGHT_COMMANDS,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "--warnings-as-errors",

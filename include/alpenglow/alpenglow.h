@@ -9,11 +9,13 @@
 #include <alpenglow/context.h>
 #include <alpenglow/display.h>
 #include <alpenglow/doctor.h>
+#include <alpenglow/field.h>
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>
 #include <alpenglow/occlusion.h>
+#include <alpenglow/probes.h>
 #include <alpenglow/render.h>
 #include <alpenglow/report.h>
 #include <alpenglow/result.h>

@@ -56,6 +56,8 @@ typedef struct alpi_probe_volume {
     bool direct;         // light straight from punctual lamps and suns is in it
     uint64_t scene_hash; // input_hash of the scene
     float relative_error;  // stated: √(mean of squared standard errors of E) / mean E; 0 unknown
+    float mean;            // E over probes that have light and normals, W·m⁻²
+    float interpolation;   // RMS error of E between probes, W·m⁻², by points apart; 0 unknown
     uint32_t rays;         // of each probe
     uint64_t seed;
     char *options; // JSON object: what made it, "" or NULL if not known

@@ -105,10 +105,12 @@ static void set_sky(alpi_lighting *lighting, alpi_sky *sky)
     lighting->only = only_class(lighting);
 }
 
-static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
+/// @param lamps false: punctual lights and suns are left out
+static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options, bool lamps)
 {
     alp_context *context = lighting->scene->context;
     ALP_TRY(alpi_light_list_gather(lighting->scene, options, &lighting->list));
+    lighting->list.count = lamps ? lighting->list.count : 0;
     ALP_TRY(sort_lights(lighting));
     ALP_TRY(alpi_emitters_collect(lighting->scene, &lighting->emitters));
     alpi_sky *sky = NULL;
@@ -117,8 +119,8 @@ static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *opti
     return ALP_OK;
 }
 
-alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
-                                alpi_lighting **lighting)
+static alp_result create(const alp_scene *scene, const alp_lighting_options *options, bool lamps,
+                         alpi_lighting **lighting)
 {
     *lighting = NULL;
     const alp_lighting_options chosen = options ? *options : alp_lighting_options_default();
@@ -128,13 +130,29 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     made->scene = scene;
-    alp_result result = fill(made, &chosen);
+    alp_result result = fill(made, &chosen, lamps);
     if (result != ALP_OK) {
         alpi_lighting_destroy(scene->context, made);
         return result;
     }
     *lighting = made;
     return ALP_OK;
+}
+
+alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_options *options,
+                                alpi_lighting **lighting)
+{
+    return create(scene, options, true, lighting);
+}
+
+alp_result alpi_lighting_create_without_lamps(const alp_scene *scene,
+                                              const alp_lighting_options *options,
+                                              alpi_lighting **lighting)
+{
+    alpi_hush(scene->context, true);
+    const alp_result result = create(scene, options, false, lighting);
+    alpi_hush(scene->context, false);
+    return result;
 }
 
 alp_result alpi_lighting_create_quietly(const alp_scene *scene, const alp_lighting_options *options,

@@ -26,6 +26,10 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
 /// The same without warnings: of what is made only to be looked at, who makes it to use it tells.
 alp_result alpi_lighting_create_quietly(const alp_scene *scene, const alp_lighting_options *options,
                                         alpi_lighting **lighting);
+/// Sky and emissive surfaces alone: without punctual lights and suns, and without warnings.
+alp_result alpi_lighting_create_without_lamps(const alp_scene *scene,
+                                              const alp_lighting_options *options,
+                                              alpi_lighting **lighting);
 /// All light as two that add up to it: a soft sky alone with all else, and the bright spots of the
 /// sky with all else. Each has the lights and emissive triangles whole: who asks for both takes
 /// only the sky of the first. Paths that have the second alone find all light, if there are spots:

@@ -45,13 +45,19 @@ void alpi_paths_draw_places(const alpi_reference *r, alpi_path_wave *w)
 
 // --- light that is asked for ---------------------------------------------------------------------
 
+/// The light that reaches vertices of a depth directly.
+static const alpi_lighting *lighting_at(const alpi_reference *r, int32_t depth)
+{
+    return depth == 0 && r->direct != NULL ? r->direct : r->lighting;
+}
+
 /// Only the first vertex is worth the care: what is noise further on is where the path went.
 static bool ask(const alpi_reference *r, const alpi_path_wave *w, uint32_t i, alpi_light_sample *s)
 {
     const vec3 origin = at(&w->origin, i), normal = at(&w->normal, i);
     const vec2 u = {w->u[i], w->v[i]};
     return w->depth[i] <= 0
-               ? alpi_lighting_sample(r->lighting, origin, normal, w->pick[i], u, s)
+               ? alpi_lighting_sample(lighting_at(r, w->depth[i]), origin, normal, w->pick[i], u, s)
                : alpi_lighting_sample_by_area(r->lighting, origin, normal, w->pick[i], u, s);
 }
 
@@ -168,7 +174,8 @@ static void add_met(const alpi_reference *r, alpi_path_wave *w, uint32_t i, vec3
             triangle != ALPI_NONE && w->depth[i] > 0
                 ? alpi_lighting_density_by_area(r->lighting, origin, normal, direction, triangle,
                                                 distance)
-                : alpi_lighting_density(r->lighting, origin, normal, direction, triangle);
+                : alpi_lighting_density(lighting_at(r, w->depth[i]), origin, normal, direction,
+                                        triangle);
         weight *= w->density[i] / (w->density[i] + asked);
     }
     bring(w, i,
@@ -178,7 +185,7 @@ static void add_met(const alpi_reference *r, alpi_path_wave *w, uint32_t i, vec3
 
 static void escape(const alpi_reference *r, alpi_path_wave *w, uint32_t i)
 {
-    const vec3 sky = alpi_lighting_escaped(r->lighting, at(&w->direction, i));
+    const vec3 sky = alpi_lighting_escaped(lighting_at(r, w->depth[i]), at(&w->direction, i));
     if (w->depth[i] < 0 && !is_lit(sky)) { // not even a sun's disk: nothing but panes
         const vec3 t = at(&w->throughput, i);
         w->covered[w->slot[i]] = 1.0f - (t.x + t.y + t.z) / (3.0f * w->first);

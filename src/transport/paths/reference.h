@@ -27,6 +27,7 @@ typedef struct alpi_reference {
     const alp_scene *scene;
     const alpi_tracer *tracer;
     const alpi_lighting *lighting;
+    const alpi_lighting *direct; // NULL, or the light that arrives directly, in place of `lighting`
     alpi_trace_filter filter;
     uint32_t bounces; // 0 = direct light only; up to BOUNCE_LIMIT
     uint32_t samples; // paths of each receiver or pixel

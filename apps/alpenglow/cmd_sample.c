@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// alpenglow sample: irradiance of a model of light at points of space.
+#include "fields.h"
+#include "interrupt.h"
+#include "lighting.h"
+#include "points.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Choices of --with, in its order; the ambient models stand first, in theirs.
+enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE };
+
+static int check_options(const command_line *a)
+{
+    const option_value *with = &a->values[OPTION_WITH];
+    static const struct {
+        const char *name;
+        option_id id;
+        int with;
+    } read_by[] = {{"--probes", OPTION_PROBES, WITH_PROBES},
+                   {"--spacing", OPTION_SPACING, WITH_PROBES},
+                   {"--bounds", OPTION_BOUNDS, WITH_PROBES},
+                   {"--samples", OPTION_SAMPLES, WITH_REFERENCE}};
+    if (!with->given) {
+        return usage_error(COMMAND_SAMPLE, "no model; give --with reference, probes, constant, "
+                                           "hemisphere, ground-map, ambient-cube or environment");
+    }
+    if (!a->values[OPTION_AT].given) {
+        return usage_error(COMMAND_SAMPLE, "no points; give --at POINTS.csv, a line of "
+                                           "x,y,z,nx,ny,nz each");
+    }
+    for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
+        if (a->values[read_by[i].id].given && with->choice != read_by[i].with) {
+            return usage_error(COMMAND_SAMPLE, "%s: does not apply to --with %s", read_by[i].name,
+                               with->text);
+        }
+    }
+    if (a->values[OPTION_PROBES].given &&
+        (a->values[OPTION_SPACING].given || a->values[OPTION_BOUNDS].given)) {
+        return usage_error(COMMAND_SAMPLE,
+                           "--spacing and --bounds bake probes; leave them out with --probes");
+    }
+    return EXIT_DONE;
+}
+
+typedef struct sampled {
+    float (*irradiance)[3];
+    float (*errors)[3]; // of the reference
+    float error;        // of fields
+} sampled;
+
+static int trace_reference(session *s, const command_line *a, const alp_lighting_options *lighting,
+                           const point_list *points, sampled *out)
+{
+    alp_reference_options o = alp_reference_options_default();
+    o.lighting = *lighting;
+    o.bounces = lighting_bounces(a);
+    o.samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
+    o.direct = a->values[OPTION_DIRECT].choice == 1;
+    o.seed = a->values[OPTION_SEED].whole;
+    o.progress = session_progress;
+    o.progress_user = s;
+    return session_end(s, alp_reference_irradiance(s->scene, &o, points->count,
+                                                   (const float(*)[3])points->positions,
+                                                   (const float(*)[3])points->normals,
+                                                   out->irradiance, out->errors));
+}
+
+static int read_field(session *s, const command_line *a, const alp_lighting_options *lighting,
+                      const point_list *points, sampled *out)
+{
+    const int with = a->values[OPTION_WITH].choice;
+    field_source source = {NULL, NULL};
+    int code = EXIT_DONE;
+    if (with == WITH_PROBES) {
+        code = field_probes(s, a, lighting, ALP_LOOKUP_OURS, &source);
+    } else {
+        code = session_end(s, field_fit(s, a, (alp_ambient_model)with, lighting, &source));
+    }
+    if (code == EXIT_DONE) {
+        alp_field_irradiance(source.field, points->count, (const float(*)[3])points->positions,
+                             (const float(*)[3])points->normals, out->irradiance);
+        out->error = alp_field_error(source.field);
+        code = session_end(s, ALP_OK);
+    }
+    field_source_clear(&source);
+    return code;
+}
+
+static void print_points(const command_line *a, const point_list *points, const sampled *out)
+{
+    const bool reference = a->values[OPTION_WITH].choice == WITH_REFERENCE;
+    puts("x,y,z,nx,ny,nz,r,g,b,error");
+    for (uint32_t i = 0; i < points->count; i++) {
+        const float *e = out->irradiance[i], *d = out->errors[i];
+        const double squares = (double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] +
+                               (double)d[2] * (double)d[2];
+        for (const char *c = points->texts[i]; *c != '\0'; c++) { // as CSV, however it was parted
+            const bool parts = *c == ';' || *c == ' ' || *c == '\t';
+            if (!parts) {
+                putchar(*c);
+            } else if (c[1] != ',' && c[1] != ';' && c[1] != ' ' && c[1] != '\t' &&
+                       (c == points->texts[i] || c[-1] != ',')) {
+                putchar(',');
+            }
+        }
+        printf(",%.7g,%.7g,%.7g,%.3g\n", (double)e[0], (double)e[1], (double)e[2],
+               reference ? sqrt(squares / 3.0) : (double)out->error);
+    }
+}
+
+static int sample(session *s, const command_line *a, const alp_lighting_options *lighting,
+                  const point_list *points)
+{
+    sampled out = {.irradiance = calloc(points->count, sizeof *out.irradiance),
+                   .errors = calloc(points->count, sizeof *out.errors)};
+    int code = out.irradiance == NULL || out.errors == NULL ? failure("out of memory") : EXIT_DONE;
+    if (code == EXIT_DONE) {
+        interrupt_defer();
+        code = a->values[OPTION_WITH].choice == WITH_REFERENCE
+                   ? trace_reference(s, a, lighting, points, &out)
+                   : read_field(s, a, lighting, points, &out);
+    }
+    if (code == EXIT_DONE) {
+        print_points(a, points, &out);
+        code = session_judge_warnings(s);
+    }
+    free(out.irradiance);
+    free(out.errors);
+    return code;
+}
+
+int command_sample(const command_line *a)
+{
+    alp_lighting_options lighting = alp_lighting_options_default();
+    lamp_list lamps;
+    point_list points = {0};
+    alp_image *sky = NULL;
+    session s;
+    int code = check_options(a);
+    code = code == EXIT_DONE ? lighting_read(a, &lighting, &lamps) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    interrupt_install();
+    code = session_open(&s, a);
+    code = code == EXIT_DONE ? session_load(&s, a) : code;
+    if (code == EXIT_DONE) {
+        const alp_scene_info info = alp_scene_get_info(s.scene);
+        code = points_read(a->values[OPTION_AT].text, true, info.origin, &points);
+    }
+    if (code == EXIT_DONE) {
+        lighting_place(&s, a, &lamps);
+        code = lighting_load_sky(&s, a, &lighting, &sky);
+    }
+    code = code == EXIT_DONE ? sample(&s, a, &lighting, &points) : code;
+    alp_image_destroy(sky);
+    points_clear(&points);
+    session_close(&s);
+    return code;
+}

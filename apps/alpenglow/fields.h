@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Fields of light as the command line names them.
+#ifndef COMMAND_FIELDS_H
+#define COMMAND_FIELDS_H
+
+#include "session.h"
+
+/// What makes the field of a command.
+typedef struct field_source {
+    alp_field *field;   // owned
+    alp_probes *probes; // owned, or NULL
+} field_source;
+
+/// Probe options of the arguments: grid, rays, basis, light. `lighting` is copied, not its parts.
+/// @param origin of the scene in the world of its file
+/// @return EXIT_DONE, or EXIT_USAGE after a message
+int probe_options_read(const command_line *arguments, const alp_lighting_options *lighting,
+                       const double origin[3], alp_probe_options *options);
+
+/// Fits an ambient model. @return as the library
+alp_result field_fit(session *s, const command_line *arguments, alp_ambient_model model,
+                     const alp_lighting_options *lighting, field_source *source);
+/// Loads the probes of --probes, or bakes them.
+/// @return EXIT_DONE, or an exit code after a message
+int field_probes(session *s, const command_line *arguments, const alp_lighting_options *lighting,
+                 alp_probe_lookup lookup, field_source *source);
+void field_source_clear(field_source *source);
+
+#endif

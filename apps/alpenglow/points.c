@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 6, POINT_LIMIT = 1 << 26, MESSAGE_SIZE = 400 };
+
+/// Numbers at the start of a line. @param end out: behind the last one   @return how many
+static int read_numbers(const char *line, double numbers[COLUMNS], int wanted, const char **end)
+{
+    const char *at = line;
+    int count = 0;
+    *end = line;
+    while (count < wanted) {
+        char *behind = NULL;
+        at += strspn(at, count > 0 ? ",; \t" : " \t");
+        numbers[count] = strtod(at, &behind);
+        if (behind == at || (*behind != '\0' && strchr(",; \t\r\n", *behind) == NULL)) {
+            break;
+        }
+        *end = at = behind;
+        count++;
+    }
+    return count;
+}
+
+/// Whether a line has letters that are no number: names of columns.
+static bool is_header(const char *line)
+{
+    double numbers[COLUMNS];
+    const char *end;
+    return read_numbers(line, numbers, 1, &end) == 0 && strpbrk(line, "xX") != NULL;
+}
+
+static int refuse(const char *path, unsigned long line, const char *text)
+{
+    char fault[MESSAGE_SIZE];
+    snprintf(fault, sizeof fault, "%s:%lu: %s", path, line, text);
+    return failure(fault);
+}
+
+/// @param numbers [3 or 6]
+static const char *fault_of(const double *numbers, int count, int wanted)
+{
+    if (count < wanted) {
+        return wanted == COLUMNS ? "need six numbers: x,y,z,nx,ny,nz"
+                                 : "need three numbers: x,y,z";
+    }
+    for (int k = 0; k < wanted; k++) {
+        if (!isfinite(numbers[k]) || fabs(numbers[k]) > 1e15) {
+            return "a number is not finite, or beyond 1e15";
+        }
+    }
+    const double *n = numbers + 3;
+    if (wanted == COLUMNS && !(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 1e-24)) {
+        return "the normal has no length";
+    }
+    return NULL;
+}
+
+static bool grow(point_list *p, bool normals, uint32_t *room)
+{
+    if (p->count < *room) {
+        return true;
+    }
+    const uint32_t more = *room > 0 ? 2 * *room : 256;
+    void *positions = realloc(p->positions, more * sizeof *p->positions);
+    p->positions = positions != NULL ? positions : p->positions;
+    void *texts = realloc(p->texts, more * sizeof *p->texts);
+    p->texts = texts != NULL ? texts : p->texts;
+    void *directions = normals ? realloc(p->normals, more * sizeof *p->normals) : NULL;
+    p->normals = directions != NULL ? directions : p->normals;
+    *room = more;
+    return positions != NULL && texts != NULL && (directions != NULL || !normals);
+}
+
+static bool keep(point_list *p, const double *numbers, const double origin[3], const char *line,
+                 const char *end)
+{
+    const uint32_t i = p->count;
+    double length = 1.0;
+    if (p->normals != NULL) {
+        length = sqrt(numbers[3] * numbers[3] + numbers[4] * numbers[4] + numbers[5] * numbers[5]);
+    }
+    for (int k = 0; k < 3; k++) {
+        p->positions[i][k] = (float)(numbers[k] - origin[k]);
+        if (p->normals != NULL) {
+            p->normals[i][k] = (float)(numbers[3 + k] / length);
+        }
+    }
+    p->texts[i] = strndup(line, (size_t)(end - line));
+    p->count += p->texts[i] != NULL ? 1 : 0;
+    return p->texts[i] != NULL;
+}
+
+static int read_lines(FILE *file, const char *path, bool normals, const double origin[3],
+                      point_list *points)
+{
+    const int wanted = normals ? COLUMNS : 3;
+    char *line = NULL;
+    size_t size = 0;
+    uint32_t room = 0;
+    int code = EXIT_DONE;
+    for (unsigned long number = 1; code == EXIT_DONE && getline(&line, &size, file) >= 0;
+         number++) {
+        double numbers[COLUMNS];
+        const char *start = line + strspn(line, " \t\r\n"), *end = start;
+        if (*start == '\0' || *start == '#' || (points->count == 0 && is_header(start))) {
+            continue;
+        }
+        const int count = read_numbers(start, numbers, wanted, &end);
+        const char *fault = fault_of(numbers, count, wanted);
+        if (fault == NULL && points->count == POINT_LIMIT) {
+            fault = "too many points; split the file";
+        }
+        if (fault == NULL && (!grow(points, normals, &room) ||
+                              !keep(points, numbers, origin, start, end))) {
+            fault = "out of memory";
+        }
+        code = fault != NULL ? refuse(path, number, fault) : EXIT_DONE;
+    }
+    free(line);
+    return code;
+}
+
+int points_read(const char *path, bool normals, const double origin[3], point_list *points)
+{
+    char fault[MESSAGE_SIZE];
+    const bool input = strcmp(path, "-") == 0;
+    *points = (point_list){0};
+    FILE *file = input ? stdin : fopen(path, "r");
+    if (file == NULL) {
+        snprintf(fault, sizeof fault, "%s: cannot be read", path);
+        return failure(fault);
+    }
+    int code = read_lines(file, path, normals, origin, points);
+    if (!input) {
+        fclose(file);
+    }
+    if (code == EXIT_DONE && points->count == 0) {
+        snprintf(fault, sizeof fault, "%s: holds no points; give a line of %s for each", path,
+                 normals ? "x,y,z,nx,ny,nz" : "x,y,z");
+        code = failure(fault);
+    }
+    return code;
+}
+
+void points_clear(point_list *points)
+{
+    for (uint32_t i = 0; i < points->count; i++) {
+        free(points->texts[i]);
+    }
+    free(points->texts);
+    free(points->positions);
+    free(points->normals);
+    *points = (point_list){0};
+}

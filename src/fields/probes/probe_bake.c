@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+// The bake of probes: solve the scene's light, sample it, and measure the result.
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "base/warp.h"
+#include "fields/probes/probes.h"
+#include "fields/truth.h"
+#include "maps/radiosity/solution.h"
+#include "scene/origin.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 512, HELD_OUT_RAYS = 512 };
+enum { STREAM_HELD_OUT = 24 };
+
+alp_probe_options alp_probe_options_default(void)
+{
+    return (alp_probe_options){.struct_size = sizeof(alp_probe_options),
+                               .visibility = true,
+                               .rays = 1536,
+                               .lighting = alp_lighting_options_default(),
+                               .bounces = ALP_BOUNCES_CONVERGE,
+                               .atlas_size = 512};
+}
+
+// --- checks --------------------------------------------------------------------------------------
+
+static alp_result check(const alp_scene *scene, const alp_probe_options *o)
+{
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    if (o->struct_size != sizeof *o) {
+        return alpi_fail(scene->context, code, "probe options are not from _default()");
+    }
+    if (!(o->spacing >= 0.0f) || !isfinite(o->spacing)) {
+        return alpi_fail(scene->context, code, "probes: spacing %g m, need a positive number",
+                         (double)o->spacing);
+    }
+    if (o->rays < RAYS_LEAST || o->rays > RAYS_MOST) {
+        return alpi_fail(scene->context, code, "probes: %u rays a probe, need %d to %d", o->rays,
+                         RAYS_LEAST, RAYS_MOST);
+    }
+    if ((int)o->basis < 0 || o->basis > ALP_PROBE_AMBIENT_CUBE) {
+        return alpi_fail(scene->context, code, "probes: unknown basis %d", (int)o->basis);
+    }
+    if (o->positions != NULL && o->position_count == 0) {
+        return alpi_fail(scene->context, code, "probes: no positions");
+    }
+    for (uint32_t i = 0; i < o->position_count && o->positions != NULL; i++) {
+        if (!vec3_is_finite(vec3_load(o->positions[i]))) {
+            return alpi_fail(scene->context, code,
+                             "probes: position %u is %g %g %g: need finite numbers", i,
+                             (double)o->positions[i][0], (double)o->positions[i][1],
+                             (double)o->positions[i][2]);
+        }
+    }
+    return alpi_lighting_refuse_darkness(scene, &o->lighting);
+}
+
+// --- the job -------------------------------------------------------------------------------------
+
+typedef struct probe_job {
+    const alp_scene *scene;
+    const alp_probe_options *o;
+    alpi_tracer *tracer;
+    alpi_lighting *lighting;
+    alpi_solution *solution; // NULL without bounces
+    alpi_probe_sampling sampling;
+    alpi_probe_volume *volume;
+} probe_job;
+
+static alp_result prepare_volume(probe_job *job)
+{
+    const alp_probe_options *o = job->o;
+    alpi_probe_volume *v = job->volume;
+    v->is_list = o->positions != NULL;
+    v->basis = (alpi_probe_basis)o->basis;
+    if (v->is_list) {
+        v->count = v->size[0] = o->position_count;
+        v->size[1] = v->size[2] = 1;
+    } else {
+        ALP_TRY(alpi_probe_lattice(job->scene, o, v));
+    }
+    ALP_TRY(alpi_probe_volume_allocate(job->scene->context, o->gradients, o->visibility, v));
+    for (uint32_t i = 0; i < v->count && v->is_list; i++) {
+        for (int k = 0; k < 3; k++) {
+            v->places[i][k] = (float)((double)o->positions[i][k] + job->scene->origin[k]);
+        }
+    }
+    v->direct = o->direct;
+    v->scene_hash = job->scene->input_hash;
+    v->seed = o->seed;
+    return ALP_OK;
+}
+
+/// Places in the scene, and room for what is found there.
+static alp_result prepare_sampling(probe_job *job)
+{
+    alp_context *context = job->scene->context;
+    alpi_probe_sampling *s = &job->sampling;
+    const alpi_probe_volume *v = job->volume;
+    ALPI_TRY_NEW(context, s->points, v->count);
+    ALPI_TRY_NEW(context, s->values, v->count);
+    for (uint32_t i = 0; i < v->count; i++) {
+        double place[3];
+        alpi_probe_place(v, i, place);
+        for (int k = 0; k < 3; k++) {
+            s->points[i][k] = v->is_list ? job->o->positions[i][k]
+                                         : (float)(place[k] - job->scene->origin[k]);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result solve(probe_job *job)
+{
+    const alp_probe_options *o = job->o;
+    if (o->bounces == 0) {
+        return ALP_OK;
+    }
+    alpi_solution_options options = {.scene = job->scene,
+                                     .tracer = job->tracer,
+                                     .lighting = job->lighting,
+                                     .atlas = alp_atlas_options_default(),
+                                     .one_sided = o->one_sided,
+                                     .bounces = o->bounces,
+                                     .tolerance = alpi_radiosity_tolerance(o->bounces),
+                                     .seed = o->seed};
+    options.atlas.size = o->atlas_size;
+    return alpi_solution_create(&options, o->progress, o->progress_user, &job->solution);
+}
+
+/// Pixels along a face for a number of rays: a multiple of 4.
+static uint32_t face_for(uint32_t rays)
+{
+    uint32_t face = 4;
+    while (face < ALPI_SPHERE_FACE_MOST && ALPI_SPHERE_REPLICATES * 6 * face * face < rays) {
+        face += 4;
+    }
+    return face;
+}
+
+static void aim(probe_job *job)
+{
+    const alpi_probe_volume *v = job->volume;
+    const vec3 cell = vec3_load(v->spacing);
+    const vec3 size = vec3_sub(job->scene->bounds_max, job->scene->bounds_min);
+    alpi_probe_sampling *s = &job->sampling;
+    s->context = job->scene->context;
+    s->scene = job->scene;
+    s->options = job->o;
+    s->rays = (alpi_sphere_rays){
+        .context = s->context,
+        .from = {.scene = job->scene,
+                 .tracer = job->tracer,
+                 .lighting = job->lighting,
+                 .filter = {.one_sided = job->o->one_sided},
+                 .emitters = true,
+                 .sky = true},
+        .face = face_for(job->o->rays),
+        .replicates = ALPI_SPHERE_REPLICATES,
+        // Beyond the cell's diagonal, and a move, no look-up goes.
+        .reach = v->is_list ? vec3_length(size) : 2.0f * vec3_length(cell),
+        .seed = job->o->seed,
+    };
+    if (job->solution != NULL) {
+        s->rays.from.light = alpi_solution_light(job->solution);
+    }
+    job->volume->reach = s->rays.reach;
+    job->volume->rays = alpi_sphere_rays_count(&s->rays);
+}
+
+// --- quality -------------------------------------------------------------------------------------
+
+/// Mean E over normals is A₀ Y₀₀ c₀₀; mean square error over normals is Σ A_l² var(c_lm) / 4π.
+static void state_noise(const probe_job *job)
+{
+    static const double square[3] = {ALPI_PI * ALPI_PI, 4.0 * ALPI_PI * ALPI_PI / 9.0,
+                                     ALPI_PI * ALPI_PI / 16.0};
+    alpi_probe_volume *v = job->volume;
+    double sum = 0.0, variance = 0.0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < v->count; i++) {
+        const alpi_sphere_light *light = &job->sampling.values[i];
+        if (v->states[i] > ALPI_PROBE_MOVED) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            sum += ALPI_PI * 0.28209479177387814 * (double)light->light.c[0][k];
+            for (int c = 0; c < ALPI_SH9_COUNT; c++) {
+                const int band = c == 0 ? 0 : c < 4 ? 1 : 2;
+                variance += square[band] * (double)light->variance.c[c][k] / (4.0 * ALPI_PI);
+            }
+        }
+        count += 3;
+    }
+    v->mean = count > 0 ? (float)(sum / count) : 0.0f;
+    v->relative_error = sum > 0.0 ? (float)(sqrt(variance / count) / (sum / count)) : 0.0f;
+}
+
+/// Random points among the probes with random normals, those in solids left out.
+static alp_result draw_held_out(const probe_job *job, alpi_point_array *points)
+{
+    const alpi_probe_volume *v = job->volume;
+    const uint32_t plan = alpi_random_key(v->seed, 0, STREAM_HELD_OUT);
+    const uint32_t height = alpi_random_key(v->seed, 1, STREAM_HELD_OUT);
+    const uint32_t normal = alpi_random_key(v->seed, 2, STREAM_HELD_OUT);
+    alpi_sphere_light *found = ALPI_NEW(job->scene->context, alpi_sphere_light, points->count);
+    if (found == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    for (uint32_t i = 0; i < points->count; i++) {
+        const vec2 at = alpi_sample_2d(plan, i), up = alpi_sample_2d(height, i);
+        const float share[3] = {at.x, up.x, at.y};
+        for (int k = 0; k < 3; k++) {
+            const double cells = (double)share[k] * v->size[k] - 0.5;
+            points->positions[i][k] = (float)(v->origin[k] - job->scene->origin[k] +
+                                              (double)v->spacing[k] * cells);
+        }
+        const vec3 n = alpi_warp_uniform_cone(alpi_sample_2d(normal, i), -1.0f);
+        vec3_store(points->shading_normals[i], n);
+        vec3_store(points->geometric_normals[i], n);
+        points->offsets[i] = alpi_receiver_offset(vec3_load(points->positions[i]), NULL);
+    }
+    alpi_sphere_rays survey = job->sampling.rays;
+    survey.from.light = (alpi_surface_light){0};
+    survey.from.emitters = survey.from.sky = false;
+    survey.face = 4;
+    survey.replicates = ALPI_SPHERE_REPLICATES_LEAST;
+    const alpi_sphere_job sphere = {.rays = &survey,
+                                    .points = (const float(*)[3])points->positions,
+                                    .count = points->count,
+                                    .values = found};
+    const alp_result result = alpi_sphere_gather(&sphere, NULL);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < points->count && result == ALP_OK; i++) {
+        if (found[i].behind <= ALPI_FREE_BACKS) {
+            memcpy(points->positions[kept], points->positions[i], sizeof *points->positions);
+            memcpy(points->shading_normals[kept], points->shading_normals[i],
+                   sizeof *points->shading_normals);
+            memcpy(points->geometric_normals[kept], points->geometric_normals[i],
+                   sizeof *points->geometric_normals);
+            points->offsets[kept++] = points->offsets[i];
+        }
+    }
+    points->count = kept;
+    alpi_release(job->scene->context, found);
+    return result;
+}
+
+/// E at the points, by rays over the same solution.
+static alp_result gather_held_out(const probe_job *job, const alpi_point_array *points,
+                                  alpi_reference_value *values)
+{
+    const alpi_cosine_rays rays = {.context = job->scene->context,
+                                   .samples = HELD_OUT_RAYS,
+                                   .replicates = 8,
+                                   .seed = job->o->seed + 1};
+    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
+    const alpi_receivers receivers = alpi_point_array_receivers(points);
+    const alpi_gather_job gather = {.context = job->scene->context,
+                                    .from = &job->sampling.rays.from,
+                                    .gatherer = &gatherer,
+                                    .receivers = &receivers,
+                                    .count = points->count,
+                                    .values = values};
+    const alpi_task_progress progress = {.callback = job->o->progress,
+                                         .user = job->o->progress_user,
+                                         .stage = "probes"};
+    return alpi_gather_irradiance(&gather, &progress);
+}
+
+static alp_result compare_held_out(const probe_job *job, const alpi_point_array *points,
+                                   alpi_reference_value *values, float (*irradiance)[3])
+{
+    alp_field *field = NULL;
+    double sum = 0.0;
+    ALP_TRY(gather_held_out(job, points, values));
+    ALP_TRY(alpi_probe_field_create(job->volume, ALP_LOOKUP_OURS, job->scene->origin, NULL,
+                                    &field));
+    alp_field_irradiance(field, points->count, (const float(*)[3])points->positions,
+                         (const float(*)[3])points->shading_normals, irradiance);
+    for (uint32_t i = 0; i < points->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double apart = (double)irradiance[i][k] - (double)values[i].mean[k];
+            sum += apart * apart - (double)values[i].variance[k];
+        }
+    }
+    alp_field_destroy(field);
+    job->volume->interpolation =
+        points->count > 0 ? (float)sqrt(fmax(sum, 0.0) / (3.0 * points->count)) : 0.0f;
+    return ALP_OK;
+}
+
+/// Measures the error between probes at points that took no part.
+static alp_result state_interpolation(const probe_job *job)
+{
+    alp_context *context = job->scene->context;
+    alpi_point_array points;
+    ALP_TRY(alpi_point_array_create(context, HELD_OUT, &points));
+    alpi_reference_value *values = ALPI_NEW(context, alpi_reference_value, HELD_OUT);
+    float(*irradiance)[3] = alpi_allocate(context, HELD_OUT, sizeof *irradiance);
+    alp_result result =
+        values != NULL && irradiance != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    if (result == ALP_OK) {
+        result = draw_held_out(job, &points);
+    }
+    if (result == ALP_OK) {
+        result = compare_held_out(job, &points, values, irradiance);
+    }
+    alpi_release(context, irradiance);
+    alpi_release(context, values);
+    alpi_point_array_destroy(context, &points);
+    return result;
+}
+
+// --- the handle ----------------------------------------------------------------------------------
+
+static alp_result run(probe_job *job)
+{
+    ALP_TRY(prepare_volume(job));
+    ALP_TRY(alpi_tracer_for_scene(job->scene, job->o->progress, job->o->progress_user,
+                                  &job->tracer, NULL));
+    ALP_TRY(alpi_lighting_create(job->scene, &job->o->lighting, &job->lighting));
+    ALP_TRY(solve(job));
+    ALP_TRY(prepare_sampling(job));
+    aim(job);
+    ALP_TRY(alpi_probes_sample(&job->sampling, job->volume));
+    ALP_TRY(alpi_probes_fill(&job->sampling, job->volume));
+    state_noise(job);
+    return job->volume->is_list ? ALP_OK : state_interpolation(job);
+}
+
+alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *options,
+                           alp_probes **probes)
+{
+    if (scene == NULL || probes == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    *probes = NULL;
+    const alp_probe_options o = options ? *options : alp_probe_options_default();
+    ALP_TRY(check(scene, &o));
+    alp_context *context = scene->context;
+    alp_probes *made = ALPI_NEW(context, alp_probes, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    made->context = context;
+    probe_job job = {.scene = scene, .o = &o, .volume = &made->volume};
+    const alpi_watch former =
+        alpi_set_watch(context, (alpi_watch){.callback = o.progress, .user = o.progress_user});
+    const alp_result result = run(&job);
+    alpi_set_watch(context, former);
+    alpi_release(context, job.sampling.points);
+    alpi_release(context, job.sampling.values);
+    alpi_solution_destroy(job.solution);
+    alpi_lighting_destroy(context, job.lighting);
+    if (result != ALP_OK) {
+        alp_probes_destroy(made);
+        return result;
+    }
+    *probes = made;
+    return ALP_OK;
+}
+
+void alp_probes_destroy(alp_probes *probes)
+{
+    if (probes != NULL) {
+        alpi_probe_volume_destroy(&probes->volume);
+        alpi_release(probes->context, probes);
+    }
+}
+
+alp_probes_info alp_probes_get_info(const alp_probes *probes)
+{
+    const alpi_probe_volume *v = &probes->volume;
+    const uint32_t floats = (3 * v->coefficient_count + 3) / 4 * 4;
+    alp_probes_info info = {.is_list = v->is_list,
+                            .count = v->count,
+                            .basis = (alp_probe_basis)v->basis,
+                            .coefficients = v->coefficient_count,
+                            .layers = v->layer_count,
+                            .visibility = v->moments != NULL,
+                            .gradients = v->gradients != NULL,
+                            .direct = v->direct,
+                            .error = v->relative_error,
+                            .interpolation = v->interpolation,
+                            .mean = v->mean,
+                            .rays = v->rays,
+                            .scene_hash = v->scene_hash};
+    for (int k = 0; k < 3; k++) {
+        info.size[k] = v->size[k];
+        info.origin[k] = v->origin[k];
+        info.spacing[k] = v->spacing[k];
+    }
+    for (uint32_t i = 0; i < v->count; i++) {
+        info.states[v->states[i] & 3u]++;
+    }
+    info.bytes = (uint64_t)v->count * (floats * sizeof(float) * (v->gradients != NULL ? 4 : 1) + 13 +
+                                       (v->moments != NULL ? 100 * 2 * sizeof(float) : 0));
+    return info;
+}
+
+const float *alp_probes_coefficients(const alp_probes *probes, uint32_t layer)
+{
+    const alpi_probe_volume *v = &probes->volume;
+    return layer == UINT32_MAX       ? v->coefficients
+           : layer < v->layer_count ? v->layers[layer].coefficients
+                                    : NULL;
+}
+
+const char *alp_probes_layer_name(const alp_probes *probes, uint32_t layer)
+{
+    const alpi_probe_volume *v = &probes->volume;
+    return layer < v->layer_count && v->layers[layer].name != NULL ? v->layers[layer].name : "";
+}
+
+const uint8_t *alp_probes_states(const alp_probes *probes)
+{
+    return probes->volume.states;
+}
+
+void alp_probes_position(const alp_probes *probes, uint32_t index, double position[3])
+{
+    const alpi_probe_volume *v = &probes->volume;
+    alpi_probe_place(v, index, position);
+    for (int k = 0; k < 3; k++) {
+        position[k] += (double)v->moves[index][k];
+    }
+}

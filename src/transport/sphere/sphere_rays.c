@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "transport/sphere/sphere_rays.h"
+
+#include "base/octahedral.h"
+#include "base/random.h"
+#include "base/tasks.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { STREAM_SPHERE = 12, FACES = 6, TALLIES = 3 * ALPI_SH9_COUNT };
+/// Below this many triangles, rays of one pixel block are traced faster as one bundle.
+enum { COHERENT_TRIANGLES = 2048 };
+
+/// Sums of one point.
+typedef struct sphere_sums {
+    double light[ALPI_SPHERE_REPLICATES_MOST][TALLIES];
+    double weight[ALPI_SPHERE_REPLICATES_MOST];
+    double behind;
+    float back, front; // nearest
+    vec3 back_direction;
+    double moments[ALPI_SPHERE_MOMENTS][3]; // weight, and of distance and its square
+} sphere_sums;
+
+// --- light along the rays of a batch -------------------------------------------------------------
+
+typedef struct sphere_run {
+    const alpi_sphere_job *job;
+    const alpi_sphere_loops *loops;
+    bool cells, emitters, coherent;
+} sphere_run;
+
+/// Lanes that meet a side that is not black.
+static uint32_t sort_hits(const alpi_gather_scene *from, const alpi_hits *hits, uint32_t *backs)
+{
+    uint32_t met = 0;
+    *backs = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        met |= hits->triangle[i] != ALPI_NONE ? 1u << i : 0u;
+    }
+    for (uint32_t behind = hits->behind & met; behind != 0; behind &= behind - 1) {
+        const int i = __builtin_ctz(behind);
+        if (!alpi_surface_is_double_sided(from->scene, hits->triangle[i])) {
+            *backs |= 1u << i;
+        }
+    }
+    return met & ~*backs;
+}
+
+static vec3 direction_of(const alpi_rays *rays, int lane)
+{
+    return (vec3){rays->direction_x[lane], rays->direction_y[lane], rays->direction_z[lane]};
+}
+
+static void add_emission(const alpi_gather_scene *from, const alpi_hits *hits, uint32_t met,
+                         alpi_sphere_packet *p)
+{
+    for (; met != 0; met &= met - 1) {
+        const int i = __builtin_ctz(met);
+        const vec3 back = vec3_scale(direction_of(&p->rays, i), -1.0f);
+        const vec3 e =
+            alpi_surface_emission(from->scene, hits->triangle[i], hits->b1[i], hits->b2[i], back);
+        p->light[0][i] += e.x;
+        p->light[1][i] += e.y;
+        p->light[2][i] += e.z;
+    }
+}
+
+static void add_sky(const alpi_gather_scene *from, const alpi_hits *hits, alpi_sphere_packet *p)
+{
+    const alpi_sky *sky =
+        from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL;
+    vec3 directions[ALPI_PACKET], radiances[ALPI_PACKET];
+    int lanes[ALPI_PACKET];
+    uint32_t count = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if (hits->triangle[i] == ALPI_NONE) {
+            directions[count] = direction_of(&p->rays, i);
+            lanes[count++] = i;
+        }
+    }
+    if (sky == NULL || count == 0) {
+        return;
+    }
+    alpi_sky_radiances(sky, directions, count, radiances);
+    for (uint32_t k = 0; k < count; k++) {
+        p->light[0][lanes[k]] += radiances[k].x;
+        p->light[1][lanes[k]] += radiances[k].y;
+        p->light[2][lanes[k]] += radiances[k].z;
+    }
+}
+
+/// Light of surfaces whose radiance lies in cells, emission and sky.
+static void light_by_cells(const sphere_run *run, uint32_t count, const alpi_hits *hits,
+                           const uint32_t *met, alpi_sphere_packet *packets)
+{
+    const alpi_gather_scene *from = &run->job->rays->from;
+    uint32_t cells[ALPI_GATHER_BATCH][ALPI_PACKET] = {{ALPI_CELL_ESCAPED}};
+    if (from->light.find != NULL) {
+        from->light.find(from->light.user, hits, met, count, cells);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        alpi_sphere_packet *p = &packets[k];
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            static const float black[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+            const bool lit = from->light.find != NULL && (met[k] >> i & 1u) != 0;
+            const float *cell = lit ? from->light.cells[cells[k][i]] : black;
+            p->light[0][i] = cell[0];
+            p->light[1][i] = cell[1];
+            p->light[2][i] = cell[2];
+        }
+        if (run->emitters) {
+            add_emission(from, &hits[k], met[k], p);
+        }
+        add_sky(from, &hits[k], p);
+    }
+}
+
+/// The same through panes, which needs rays of their own.
+static void light_through_panes(const sphere_run *run, uint32_t count, alpi_sphere_packet *packets)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        alpi_rays rays = packets[k].rays; // panes move where they start
+        vec3 radiance[ALPI_PACKET];
+        alpi_gather_look(&run->job->rays->from, &rays, 0xffu, run->coherent, radiance, NULL);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            packets[k].light[0][i] = radiance[i].x;
+            packets[k].light[1][i] = radiance[i].y;
+            packets[k].light[2][i] = radiance[i].z;
+        }
+    }
+}
+
+// --- sums ----------------------------------------------------------------------------------------
+
+static void add_moments(const alpi_sphere_packet *p, const alpi_hits *hits, float reach,
+                        sphere_sums *sums)
+{
+    enum { SIDE = ALPI_SPHERE_MOMENT_SIDE };
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const vec2 uv = alpi_octahedral_encode(direction_of(&p->rays, i));
+        const int column = (int)(uv.x * SIDE), row = (int)(uv.y * SIDE);
+        const int x = column < SIDE ? column : SIDE - 1, y = row < SIDE ? row : SIDE - 1;
+        double *moment = sums->moments[y * SIDE + x];
+        const double distance = (double)fminf(hits->distance[i], reach);
+        const double weight = (double)p->weight[i];
+        moment[0] += weight;
+        moment[1] += weight * distance;
+        moment[2] += weight * distance * distance;
+    }
+}
+
+static void add_geometry(const alpi_sphere_packet *p, const alpi_hits *hits, uint32_t met,
+                         uint32_t backs, sphere_sums *sums)
+{
+    for (; met != 0; met &= met - 1) {
+        sums->front = fminf(sums->front, hits->distance[__builtin_ctz(met)]);
+    }
+    for (; backs != 0; backs &= backs - 1) {
+        const int i = __builtin_ctz(backs);
+        sums->behind += (double)p->weight[i];
+        if (hits->distance[i] < sums->back) {
+            sums->back = hits->distance[i];
+            sums->back_direction = direction_of(&p->rays, i);
+        }
+    }
+}
+
+/// Packet `packet` of a replicate, face after face, row after row.
+static alpi_sphere_place place_of(const alpi_sphere_rays *r, vec3 point, uint32_t key,
+                                  uint32_t packet)
+{
+    const uint32_t across = r->face / 4, each = r->face * r->face / ALPI_PACKET;
+    const uint32_t in_face = packet % each;
+    return (alpi_sphere_place){.point = point,
+                               .key = key,
+                               .face_side = r->face,
+                               .face = packet / each,
+                               .column = 4 * (in_face % across),
+                               .row = 2 * (in_face / across)};
+}
+
+static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_packet *packets,
+                         sphere_sums *sums)
+{
+    const alpi_sphere_rays *r = run->job->rays;
+    alpi_hits hits[ALPI_GATHER_BATCH];
+    uint32_t met[ALPI_GATHER_BATCH], backs[ALPI_GATHER_BATCH], active[ALPI_GATHER_BATCH];
+    const alpi_rays *rays[ALPI_GATHER_BATCH];
+    for (uint32_t k = 0; k < count; k++) {
+        rays[k] = &packets[k].rays;
+        active[k] = 0xffu;
+    }
+    if (run->coherent) {
+        alpi_trace_nearest_coherent_many(r->from.tracer, rays, active, count, r->from.filter, hits);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        if (!run->coherent) {
+            alpi_trace_nearest(r->from.tracer, rays[k], 0xffu, r->from.filter, &hits[k]);
+        }
+        met[k] = sort_hits(&r->from, &hits[k], &backs[k]);
+    }
+    if (run->cells) {
+        light_by_cells(run, count, hits, met, packets);
+    } else {
+        light_through_panes(run, count, packets);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        add_geometry(&packets[k], &hits[k], met[k], backs[k], sums);
+        if (run->job->moments != NULL) {
+            add_moments(&packets[k], &hits[k], r->reach, sums);
+        }
+    }
+}
+
+static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t replicate,
+                             sphere_sums *sums)
+{
+    const alpi_sphere_rays *r = run->job->rays;
+    const vec3 position = vec3_load(run->job->points[point]);
+    const uint32_t key = alpi_hash32(alpi_random_key(r->seed, point, STREAM_SPHERE) ^
+                                     alpi_hash32(replicate + 1u));
+    const uint32_t packet_count = FACES * r->face * r->face / ALPI_PACKET;
+    alpi_sphere_packet packets[ALPI_GATHER_BATCH];
+    float tallies[TALLIES][ALPI_PACKET] = {{0.0f}};
+    for (uint32_t first = 0; first < packet_count; first += ALPI_GATHER_BATCH) {
+        const uint32_t left = packet_count - first;
+        const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
+        for (uint32_t k = 0; k < count; k++) {
+            const alpi_sphere_place place = place_of(r, position, key, first + k);
+            run->loops->aim(&place, &packets[k]);
+        }
+        gather_batch(run, count, packets, sums);
+        run->loops->add(packets, count, tallies);
+        for (uint32_t k = 0; k < count; k++) {
+            for (int i = 0; i < ALPI_PACKET; i++) {
+                sums->weight[replicate] += (double)packets[k].weight[i];
+            }
+        }
+    }
+    for (int i = 0; i < TALLIES; i++) {
+        for (int lane = 0; lane < ALPI_PACKET; lane++) {
+            sums->light[replicate][i] += (double)tallies[i][lane];
+        }
+    }
+}
+
+static void finish_light(const alpi_sphere_rays *r, const sphere_sums *sums, alpi_sphere_light *out)
+{
+    const double count = r->replicates;
+    double weight = 0.0;
+    for (int i = 0; i < TALLIES; i++) {
+        double mean = 0.0, squares = 0.0;
+        for (uint32_t k = 0; k < r->replicates; k++) {
+            mean += 4.0 * ALPI_PI * sums->light[k][i] / sums->weight[k] / count;
+        }
+        for (uint32_t k = 0; k < r->replicates; k++) {
+            const double apart = 4.0 * ALPI_PI * sums->light[k][i] / sums->weight[k] - mean;
+            squares += apart * apart;
+        }
+        out->light.c[i / 3][i % 3] = (float)mean;
+        out->variance.c[i / 3][i % 3] = (float)(squares / (count * (count - 1.0)));
+    }
+    for (uint32_t k = 0; k < r->replicates; k++) {
+        weight += sums->weight[k];
+    }
+    out->behind = (float)(sums->behind / weight);
+    out->back_distance = sums->back;
+    out->front_distance = sums->front;
+    vec3_store(out->back_direction, sums->back_direction);
+}
+
+static void finish_moments(const sphere_sums *sums, float reach, float (*moments)[2])
+{
+    for (int i = 0; i < ALPI_SPHERE_MOMENTS; i++) {
+        const double *m = sums->moments[i];
+        moments[i][0] = m[0] > 0.0 ? (float)(m[1] / m[0]) : reach;
+        moments[i][1] = m[0] > 0.0 ? (float)(m[2] / m[0]) : reach * reach;
+    }
+}
+
+static alp_result gather_points(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const sphere_run *run = user;
+    const alpi_sphere_job *job = run->job;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t point = job->list != NULL ? job->list[i] : i;
+        sphere_sums sums;
+        memset(&sums, 0, sizeof sums);
+        sums.back = sums.front = INFINITY;
+        for (uint32_t k = 0; k < job->rays->replicates; k++) {
+            gather_replicate(run, point, k, &sums);
+        }
+        finish_light(job->rays, &sums, &job->values[point]);
+        if (job->moments != NULL) {
+            finish_moments(&sums, job->rays->reach,
+                           job->moments + (size_t)point * ALPI_SPHERE_MOMENTS);
+        }
+        if (!alpi_loop_goes_on(job->rays->context)) {
+            return ALP_ERROR_CANCELLED;
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progress *progress)
+{
+    const alpi_sphere_rays *r = job->rays;
+    const alpi_gather_scene *from = &r->from;
+    sphere_run run = {
+        .job = job,
+        .loops = &ALPI_COMPILED_FOR(r->context, alpi_sphere_loops),
+        .cells = !alpi_tracer_has_panes(from->tracer) &&
+                 (from->light.find != NULL || from->light.reflected == NULL),
+        .emitters = from->emitters && from->lighting != NULL &&
+                    alpi_lighting_emitter_count(from->lighting) > 0,
+        .coherent = alpi_tracer_triangle_count(from->tracer) < COHERENT_TRIANGLES,
+    };
+    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
+    told.units_per_item = (double)alpi_sphere_rays_count(r);
+    told.units_are_rays = true;
+    return alpi_parallel_for(r->context, job->count, 1, gather_points, &run, &told);
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Light from all directions at points in space, as nine spherical harmonics of radiance.
+//
+// Rays leave through the pixels of a cube about the point, one jittered ray a pixel. Pixels are
+// even in angle: the face coordinates of (s, t) in [−1, 1]² are x = tan(πs/4), y = tan(πt/4). A ray
+// stands for the solid angle
+//
+//     dω = (2/n)² (π/4)² (1 + x²)(1 + y²) / (1 + x² + y²)^1.5
+//
+// and those of a replicate are scaled to sum to 4π, so that even light counts exactly. Replicates
+// have jitter of their own. The spread of their means gives the variance.
+#ifndef ALPI_TRANSPORT_SPHERE_RAYS_H
+#define ALPI_TRANSPORT_SPHERE_RAYS_H
+
+#include "sh/sh9.h"
+#include "transport/gather/gather.h"
+
+enum {
+    ALPI_SPHERE_REPLICATES_LEAST = 2,
+    ALPI_SPHERE_REPLICATES = 4, // default
+    ALPI_SPHERE_REPLICATES_MOST = 64,
+    ALPI_SPHERE_FACE = 8, // default: 4 × 6 × 8² = 1,536 rays
+    ALPI_SPHERE_FACE_MOST = 256,
+    ALPI_SPHERE_MOMENT_SIDE = 8,
+    ALPI_SPHERE_MOMENTS = ALPI_SPHERE_MOMENT_SIDE * ALPI_SPHERE_MOMENT_SIDE
+};
+
+/// One point's light; values are means over the replicates.
+typedef struct alpi_sphere_light {
+    alpi_sh9 light;     // radiance coefficients [W·m⁻²]
+    alpi_sh9 variance;  // of each mean
+    float behind;       // share of the sphere that shows black backs of surfaces
+    float back_distance; // metres to the nearest such back, INFINITY without one
+    float back_direction[3]; // towards it, unit
+    float front_distance;    // metres to the nearest surface of another kind
+} alpi_sphere_light;
+
+typedef struct alpi_sphere_rays {
+    alp_context *context;
+    alpi_gather_scene from; // emitters and sky count as it says
+    uint32_t face;          // n: pixels along an edge of a face, a multiple of 4, [4, FACE_MOST]
+    uint32_t replicates;    // [LEAST, MOST]
+    float reach;            // metres: larger distances count as this in moments
+    uint64_t seed;
+} alpi_sphere_rays;
+
+/// Points and what is found there.
+typedef struct alpi_sphere_job {
+    const alpi_sphere_rays *rays;
+    const float (*points)[3]; // metres
+    const uint32_t *list;     // [count] points; NULL: all
+    uint32_t count;           // of the list
+    alpi_sphere_light *values; // [points] out
+    // NULL, or [points][MOMENTS] out: mean of the distance to what rays meet [m], and of its square
+    // [m²], by octahedral texel (base/octahedral.h), row by row.
+    float (*moments)[2];
+} alpi_sphere_job;
+
+/// Rays of a point.
+static inline uint32_t alpi_sphere_rays_count(const alpi_sphere_rays *rays)
+{
+    return rays->replicates * 6 * rays->face * rays->face;
+}
+
+/// The index of a point is its key for random numbers. The same bits for any number of workers.
+/// @return ALP_OK; CANCELLED
+alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progress *progress);
+
+// --- the loops that are compiled for each instruction set ----------------------------------------
+
+/// Eight rays through neighbouring pixels of a face, 4 × 2, and what they bring.
+typedef struct alpi_sphere_packet {
+    alpi_rays rays;
+    _Alignas(32) float weight[ALPI_PACKET]; // solid angle, before scaling
+    float light[3][ALPI_PACKET];            // radiance by channel
+} alpi_sphere_packet;
+
+/// A packet's place: pixels (column … column + 3, row … row + 1) of a face.
+typedef struct alpi_sphere_place {
+    vec3 point;
+    uint32_t key; // of the replicate's jitter at this point
+    uint32_t face_side, face, column, row; // n; 0 … 5: +x −x +y −y +z −z
+} alpi_sphere_place;
+
+typedef struct alpi_sphere_loops {
+    void (*aim)(const alpi_sphere_place *place, alpi_sphere_packet *packet);
+    /// Adds weight · Y · light, lane by lane: sums[3 i + channel][lane].
+    void (*add)(const alpi_sphere_packet *packets, uint32_t count,
+                float sums[3 * ALPI_SH9_COUNT][ALPI_PACKET]);
+} alpi_sphere_loops;
+extern const alpi_sphere_loops alpi_sphere_loops_baseline, alpi_sphere_loops_v3;
+
+#endif
