@@ -49,7 +49,8 @@ SUB_ROOMS = {
         "collada/write": ["collada", "files", "text"],
         "obj": ["images", "files", "polygon", "text"],
         "viewers": ["images", "text"],
-        ".": ["viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
+        "probes": ["images", "text"],
+        ".": ["probes", "viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
     },
     "scene": {".": [], "sky": ["."], "lights": ["sky", "."], "builtin": ["."]},
     "transport": {
