@@ -48,7 +48,7 @@ SUB_ROOMS = {
         "collada": ["images", "files", "polygon"],
         "collada/write": ["collada", "files", "text"],
         "obj": ["images", "files", "polygon", "text"],
-        "viewers": ["images", "text"],
+        "viewers": ["images", "files", "text"],
         "probes": ["images", "text"],
         ".": ["probes", "viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
     },
