@@ -48,8 +48,9 @@ SUB_ROOMS = {
         "collada": ["images", "files", "polygon"],
         "collada/write": ["collada", "files", "text"],
         "obj": ["images", "files", "polygon", "text"],
-        "viewers": ["images", "text"],
-        ".": ["viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
+        "viewers": ["images", "files", "text"],
+        "probes": ["images", "text"],
+        ".": ["probes", "viewers", "obj", "collada/write", "collada", "gltf/write", "gltf", "images"],
     },
     "scene": {".": [], "sky": ["."], "lights": ["sky", "."], "builtin": ["."]},
     "transport": {

@@ -10,6 +10,7 @@
 #include "formats/gltf/write/gltf_write.h"
 #include "formats/images/images.h"
 #include "formats/obj/obj_scene.h"
+#include "formats/probes/probe_format.h"
 #include "formats/viewers/viewers.h"
 
 /// Writes a baked scene by the ending of `path`: .obj, .dae, else glTF.

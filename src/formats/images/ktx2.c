@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// KTX2 textures: RGBA16F, two dimensions, one level, Zstandard.
+// KTX2 textures of half floats, written: RG16F or RGBA16F, two or three dimensions, one level.
 // After: Khronos KTX File Format Specification 2.0; Khronos Data Format Specification 1.3.
-#include "formats/images/images.h"
+#include "formats/images/ktx2_format.h"
 
 #include "base/half.h"
 #include "base/memory.h"
@@ -12,18 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum {
-    VK_FORMAT_R16G16B16A16_SFLOAT = 97,
-    SCHEME_ZSTANDARD = 2,
-    HEADER_SIZE = 104, // identifier 12, header 36, index 32, one level 24
-    BLOCK_SIZE = 24 + 4 * 16,
-    COMPRESSION = 9,
-    PIXEL_SIZE = 8,
-    TEXT_SIZE = 256
-};
-
-static const uint8_t identifier[12] = {0xab, 'K',  'T',  'X',  ' ',  '2',
-                                       '0',  0xbb, '\r', '\n', 0x1a, '\n'};
+enum { COMPRESSION = 9, TEXT_SIZE = 256 };
 
 /// Little-endian bytes that grow inside a buffer of known size.
 typedef struct cursor {
@@ -37,18 +26,19 @@ static void put(cursor *to, uint64_t value, int size)
     }
 }
 
-/// The basic descriptor block: four channels of 16-bit signed floats, linear, Rec. 709.
-static void put_descriptor(cursor *to)
+/// The basic descriptor block: channels of 16-bit signed floats, linear, Rec. 709.
+static void put_descriptor(cursor *to, uint32_t channel_count)
 {
     enum { RGBSDA = 1, BT709 = 1, LINEAR = 1, VERSION = 2, SIGNED_FLOAT = 0xc0 };
     static const uint8_t channels[4] = {0, 1, 2, 15}; // R, G, B, A
-    put(to, 4 + BLOCK_SIZE, 4);
+    const uint32_t block = alpi_ktx2_descriptor_size(channel_count) - 4;
+    put(to, 4 + block, 4);
     put(to, 0, 4); // Khronos, basic format
-    put(to, VERSION | BLOCK_SIZE << 16, 4);
+    put(to, VERSION | block << 16, 4);
     put(to, RGBSDA | BT709 << 8 | LINEAR << 16, 4); // alpha is straight
     put(to, 0, 4);                                  // a texel is a block of its own
-    put(to, PIXEL_SIZE, 8);
-    for (uint32_t k = 0; k < 4; k++) {
+    put(to, 2 * channel_count, 8);
+    for (uint32_t k = 0; k < channel_count; k++) {
         put(to, 16 * k | 15u << 16 | (uint32_t)(SIGNED_FLOAT | channels[k]) << 24, 4);
         put(to, 0, 4);
         put(to, 0xbf800000u, 4); // −1
@@ -67,40 +57,100 @@ static size_t add_pair(uint8_t *at, const char *key, const char *value)
     return (4 + key_size + value_size + 3) / 4 * 4;
 }
 
-/// Sorted by key, as the format asks. `text` is all zero. Returns the size.
+/// Pairs sorted by key, as the format wants them. `text` is all zero. Returns the size.
+/// @param scale 0: the texture is no picture, and so has neither an orientation nor a scale
 static size_t make_pairs(uint8_t text[TEXT_SIZE], float scale)
 {
     char number[64], writer[64];
     snprintf(number, sizeof number, "%.0f", (double)scale);
     snprintf(writer, sizeof writer, "Alpenglow %s", alp_version());
-    size_t size = add_pair(text, "KTXorientation", "rd"); // the first row is v = 0, the top in glTF
+    size_t size = 0;
+    if (scale > 0.0f) { // the first row is v = 0, the top in glTF
+        size += add_pair(text, "KTXorientation", "rd");
+    }
     size += add_pair(text + size, "KTXwriter", writer);
-    return size + add_pair(text + size, "alpenglowScale", number);
+    return scale > 0.0f ? size + add_pair(text + size, "alpenglowScale", number) : size;
 }
 
-static void put_header(cursor *to, const alp_image *image, size_t pairs_size, size_t level_size)
+/// Places in the file.
+typedef struct plan {
+    uint32_t pairs, pairs_size;
+    size_t level, level_size;
+} plan;
+
+static void put_header(cursor *to, const alpi_half_texture *texture, bool zstandard, const plan *p)
 {
-    const uint32_t pairs = HEADER_SIZE + 4 + BLOCK_SIZE;
-    memcpy(to->at, identifier, sizeof identifier);
-    to->at += sizeof identifier;
-    put(to, VK_FORMAT_R16G16B16A16_SFLOAT, 4);
+    memcpy(to->at, alpi_ktx2_identifier, ALPI_KTX2_IDENTIFIER_SIZE);
+    to->at += ALPI_KTX2_IDENTIFIER_SIZE;
+    put(to, alpi_ktx2_format(texture->channels), 4);
     put(to, 2, 4); // bytes of a component
-    put(to, image->info.width, 4);
-    put(to, image->info.height, 4);
-    put(to, 0, 4); // no depth
+    put(to, texture->width, 4);
+    put(to, texture->height, 4);
+    put(to, texture->depth, 4);
     put(to, 0, 4); // no array
     put(to, 1, 4); // faces
     put(to, 1, 4); // levels
-    put(to, SCHEME_ZSTANDARD, 4);
-    put(to, HEADER_SIZE, 4);
-    put(to, 4 + BLOCK_SIZE, 4);
-    put(to, pairs, 4);
-    put(to, pairs_size, 4);
+    put(to, zstandard ? ALPI_KTX2_ZSTANDARD : ALPI_KTX2_PLAIN, 4);
+    put(to, ALPI_KTX2_HEADER_SIZE, 4);
+    put(to, alpi_ktx2_descriptor_size(texture->channels), 4);
+    put(to, p->pairs, 4);
+    put(to, p->pairs_size, 4);
     put(to, 0, 8); // no global data
     put(to, 0, 8);
-    put(to, pairs + pairs_size, 8);
-    put(to, level_size, 8);
-    put(to, (uint64_t)PIXEL_SIZE * image->info.width * image->info.height, 8);
+    put(to, p->level, 8);
+    put(to, p->level_size, 8);
+    put(to, alpi_half_texture_size(texture), 8);
+}
+
+/// The level, into `room` bytes. @return its size, or an error of Zstandard
+static size_t put_level(const alpi_half_texture *texture, bool zstandard, uint8_t *at, size_t room)
+{
+    const size_t raw = alpi_half_texture_size(texture);
+    if (zstandard) {
+        return ZSTD_compress(at, room, texture->texels, raw, COMPRESSION);
+    }
+    memcpy(at, texture->texels, raw);
+    return raw;
+}
+
+static alp_result write_texture(alp_context *context, const alpi_half_texture *texture,
+                                bool zstandard, float scale, uint8_t **bytes, size_t *size)
+{
+    uint8_t text[TEXT_SIZE] = {0};
+    const size_t raw = alpi_half_texture_size(texture);
+    const size_t room = zstandard ? ZSTD_compressBound(raw) : raw;
+    plan p = {.pairs = ALPI_KTX2_HEADER_SIZE + alpi_ktx2_descriptor_size(texture->channels)};
+    p.pairs_size = (uint32_t)make_pairs(text, scale);
+    p.level = p.pairs + p.pairs_size;
+    if (!zstandard) { // where texels begin at a multiple of their size
+        p.level = (p.level + ALPI_KTX2_ALIGNMENT - 1) / ALPI_KTX2_ALIGNMENT * ALPI_KTX2_ALIGNMENT;
+    }
+    ALPI_TRY_NEW(context, *bytes, p.level + room);
+    p.level_size = put_level(texture, zstandard, *bytes + p.level, room);
+    if (ZSTD_isError(p.level_size)) {
+        alpi_release(context, *bytes);
+        *bytes = NULL;
+        return alpi_fail(context, ALP_ERROR_OUT_OF_MEMORY, "writing a KTX2 texture: %s",
+                         ZSTD_getErrorName(p.level_size));
+    }
+    cursor to = {*bytes};
+    put_header(&to, texture, zstandard, &p);
+    put_descriptor(&to, texture->channels);
+    memcpy(to.at, text, p.pairs_size);
+    *size = p.level + p.level_size;
+    return ALP_OK;
+}
+
+alp_result alpi_ktx2_write(alp_context *context, const alpi_half_texture *texture, bool zstandard,
+                           uint8_t **bytes, size_t *size)
+{
+    *bytes = NULL;
+    *size = 0;
+    if (alpi_half_texture_size(texture) == 0) {
+        return alpi_fail(context, ALP_ERROR_LIMIT, "a texture of %u x %u x %u texels is too large",
+                         texture->width, texture->height, texture->depth);
+    }
+    return write_texture(context, texture, zstandard, 0.0f, bytes, size);
 }
 
 static void fill_halves(const alp_image *image, uint8_t *bytes)
@@ -113,30 +163,6 @@ static void fill_halves(const alp_image *image, uint8_t *bytes)
     }
 }
 
-static alp_result compress(const alp_image *image, float scale, const uint8_t *halves,
-                           uint8_t **bytes, size_t *size)
-{
-    const size_t raw = (size_t)PIXEL_SIZE * image->info.width * image->info.height;
-    uint8_t text[TEXT_SIZE] = {0};
-    const size_t pairs_size = make_pairs(text, scale);
-    const size_t before = HEADER_SIZE + 4 + BLOCK_SIZE + pairs_size;
-    const size_t room = ZSTD_compressBound(raw);
-    ALPI_TRY_NEW(image->context, *bytes, before + room);
-    const size_t packed = ZSTD_compress(*bytes + before, room, halves, raw, COMPRESSION);
-    if (ZSTD_isError(packed)) {
-        alpi_release(image->context, *bytes);
-        *bytes = NULL;
-        return alpi_fail(image->context, ALP_ERROR_OUT_OF_MEMORY, "writing a KTX2 texture: %s",
-                         ZSTD_getErrorName(packed));
-    }
-    cursor to = {*bytes};
-    put_header(&to, image, pairs_size, packed);
-    put_descriptor(&to);
-    memcpy(to.at, text, pairs_size);
-    *size = before + packed;
-    return ALP_OK;
-}
-
 alp_result alpi_ktx2_encode(const alp_image *image, float scale, uint8_t **bytes, size_t *size)
 {
     *bytes = NULL;
@@ -146,13 +172,11 @@ alp_result alpi_ktx2_encode(const alp_image *image, float scale, uint8_t **bytes
                          "KTX2 is written from float images of four channels");
     }
     ALP_TRY(alpi_tick(image->context, "write", 0, 1));
-    uint8_t *halves = ALPI_NEW(image->context, uint8_t,
-                               (size_t)PIXEL_SIZE * image->info.width * image->info.height);
-    if (halves == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    fill_halves(image, halves);
-    const alp_result result = compress(image, scale, halves, bytes, size);
-    alpi_release(image->context, halves);
+    alpi_half_texture texture = {
+        .width = image->info.width, .height = image->info.height, .channels = image->info.channels};
+    ALPI_TRY_NEW(image->context, texture.texels, alpi_half_texture_size(&texture));
+    fill_halves(image, texture.texels);
+    const alp_result result = write_texture(image->context, &texture, true, scale, bytes, size);
+    alpi_release(image->context, texture.texels);
     return result;
 }

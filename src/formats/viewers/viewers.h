@@ -3,6 +3,7 @@
 #ifndef ALPI_FORMATS_VIEWERS_H
 #define ALPI_FORMATS_VIEWERS_H
 
+#include "scene/probe_volume.h"
 #include "scene/scene.h"
 
 /// Baked light over the pages of an atlas, for formats that hold a scene together with its map.
@@ -30,5 +31,15 @@ alp_result alpi_babylon_encode(const alp_scene *scene, const alpi_light_pages *l
 /// One of those pictures.
 alp_result alpi_babylon_encode_page(const alp_scene *scene, const alpi_light_pages *light,
                                     uint32_t page, uint8_t **bytes, size_t *size);
+
+/// A lattice of spherical harmonics for LightProbeGrid (r184, r185) and LightProbeGridWebGL (r186
+/// and later) of three.js: a module at `path` (.mjs, .js), which places the box for the release
+/// that runs, and the texture beside it (.ktx2). Probes in solids take the light of their
+/// neighbours.
+/// @param scale > 0: coefficients are multiplied by it
+/// @return ALP_OK; INVALID_ARGUMENT; UNSUPPORTED (a list, ambient cubes); LIMIT (a coefficient
+///         beyond half floats); IO; OUT_OF_MEMORY
+alp_result alpi_probes_export_three(const alpi_probe_volume *volume, const char *path, double scale,
+                                    bool overwrite);
 
 #endif
