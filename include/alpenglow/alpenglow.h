@@ -20,6 +20,8 @@
 #include <alpenglow/report.h>
 #include <alpenglow/result.h>
 #include <alpenglow/scene.h>
+#include <alpenglow/sh.h>
+#include <alpenglow/shared_constants.h>
 #include <alpenglow/version.h>
 
 #endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Constants that C and shaders share. This file is valid C, C++, GLSL and HLSL: comments and
+// macros of plain numbers. A number is a double in C and a float in a shader.
+#ifndef ALPENGLOW_SHARED_CONSTANTS_H
+#define ALPENGLOW_SHARED_CONSTANTS_H
+
+// Real spherical harmonics, index l(l+1)+m, without the Condon-Shortley sign.
+#define ALP_SH_Y0 0.28209479177387814  // 1
+#define ALP_SH_Y1 0.48860251190291992  // y, z, x
+#define ALP_SH_Y2 1.09254843059207907  // xy, yz, xz
+#define ALP_SH_Y20 0.31539156525252000 // 3zz - 1
+#define ALP_SH_Y22 0.54627421529603953 // xx - yy
+
+// Irradiance from radiance, band by band: E = sum A_l c_lm Y_lm(n).
+#define ALP_SH_A0 3.14159265358979324 // pi
+#define ALP_SH_A1 2.09439510239319549 // 2 pi / 3
+#define ALP_SH_A2 0.78539816339744831 // pi / 4
+
+// The same products as R. Ramamoorthi and P. Hanrahan name them (SIGGRAPH 2001):
+// E = c1 L22 (xx - yy) + c3 L20 zz + c4 L00 - c5 L20 + 2 c1 (L2-2 xy + L21 xz + L2-1 yz)
+//     + 2 c2 (L11 x + L1-1 y + L10 z)
+#define ALP_SH_C1 0.42904276540489171
+#define ALP_SH_C2 0.51166335397324434
+#define ALP_SH_C3 0.74312386830112709
+#define ALP_SH_C4 0.88622692545275801
+#define ALP_SH_C5 0.24770795610037571
+
+#endif
