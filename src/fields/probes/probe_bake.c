@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 512, HELD_OUT_RAYS = 512 };
+enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 512, HELD_OUT_PATHS = 256 };
 enum { STREAM_HELD_OUT = 24 };
 
 alp_probe_options alp_probe_options_default(void)
@@ -64,8 +64,10 @@ typedef struct probe_job {
     const alp_scene *scene;
     const alp_probe_options *o;
     alpi_tracer *tracer;
-    alpi_lighting *lighting;
-    alpi_solution *solution; // NULL without bounces
+    alpi_lighting *lighting;     // all light
+    alpi_lighting *space;        // sky and emissive surfaces: what arrives directly
+    alpi_lighting *soft, *spots; // the same with the soft sky, and with its bright spots
+    alpi_solution *solution;     // NULL without bounces
     alpi_probe_sampling sampling;
     alpi_probe_volume *volume;
 } probe_job;
@@ -141,8 +143,20 @@ static uint32_t face_for(uint32_t rays)
     return face;
 }
 
+/// Rays are aimed at emissive surfaces that are less than this share of all surfaces.
+static const double AIMED_AREA = 0.1;
+
+/// Sources that rays are aimed at; NULL: pixels meet all light well enough.
+static const alpi_lighting *find_aimed(const probe_job *job)
+{
+    const double area = alpi_lighting_emitter_area(job->spots);
+    const bool small = area > 0.0 && area < AIMED_AREA * job->scene->area;
+    return small || alpi_lighting_sky(job->spots) != NULL ? job->spots : NULL;
+}
+
 static void aim(probe_job *job)
 {
+    const alpi_lighting *aimed = find_aimed(job);
     const alpi_probe_volume *v = job->volume;
     const vec3 cell = vec3_load(v->spacing);
     const vec3 size = vec3_sub(job->scene->bounds_max, job->scene->bounds_min);
@@ -154,10 +168,11 @@ static void aim(probe_job *job)
         .context = s->context,
         .from = {.scene = job->scene,
                  .tracer = job->tracer,
-                 .lighting = job->lighting,
+                 .lighting = job->soft,
                  .filter = {.one_sided = job->o->one_sided},
-                 .emitters = true,
+                 .emitters = aimed == NULL,
                  .sky = true},
+        .aimed = aimed,
         .face = face_for(job->o->rays),
         .replicates = ALPI_SPHERE_REPLICATES,
         // Beyond the cell's diagonal, and a move, no look-up goes.
@@ -226,6 +241,7 @@ static alp_result draw_held_out(const probe_job *job, alpi_point_array *points)
     alpi_sphere_rays survey = job->sampling.rays;
     survey.from.light = (alpi_surface_light){0};
     survey.from.emitters = survey.from.sky = false;
+    survey.aimed = NULL;
     survey.face = 4;
     survey.replicates = ALPI_SPHERE_REPLICATES_LEAST;
     const alpi_sphere_job sphere = {.rays = &survey,
@@ -249,26 +265,31 @@ static alp_result draw_held_out(const probe_job *job, alpi_point_array *points)
     return result;
 }
 
-/// E at the points, by rays over the same solution.
+/// E at the points, by paths that end in the same solution.
 static alp_result gather_held_out(const probe_job *job, const alpi_point_array *points,
                                   alpi_reference_value *values)
 {
-    const alpi_cosine_rays rays = {.context = job->scene->context,
-                                   .samples = HELD_OUT_RAYS,
-                                   .replicates = 8,
-                                   .seed = job->o->seed + 1};
-    const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
+    const alp_probe_options *o = job->o;
+    const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
+    alpi_surface_light known = {0};
+    alpi_reference reference = {.context = job->scene->context,
+                                .scene = job->scene,
+                                .tracer = job->tracer,
+                                .lighting = job->lighting,
+                                .direct = o->direct ? job->lighting : job->space,
+                                .filter = {.one_sided = o->one_sided},
+                                .bounces = o->bounces < limit ? o->bounces : limit,
+                                .samples = HELD_OUT_PATHS,
+                                .next_event = true,
+                                .seed = o->seed + 1};
+    if (job->solution != NULL) {
+        known = alpi_solution_light(job->solution);
+        reference.known = &known;
+    }
     const alpi_receivers receivers = alpi_point_array_receivers(points);
-    const alpi_gather_job gather = {.context = job->scene->context,
-                                    .from = &job->sampling.rays.from,
-                                    .gatherer = &gatherer,
-                                    .receivers = &receivers,
-                                    .count = points->count,
-                                    .values = values};
-    const alpi_task_progress progress = {.callback = job->o->progress,
-                                         .user = job->o->progress_user,
-                                         .stage = "probes"};
-    return alpi_gather_irradiance(&gather, &progress);
+    const alpi_task_progress progress = {
+        .callback = o->progress, .user = o->progress_user, .stage = "probes"};
+    return alpi_reference_irradiance(&reference, &receivers, NULL, 0, &progress, values);
 }
 
 static alp_result compare_held_out(const probe_job *job, const alpi_point_array *points,
@@ -323,6 +344,8 @@ static alp_result run(probe_job *job)
     ALP_TRY(alpi_tracer_for_scene(job->scene, job->o->progress, job->o->progress_user,
                                   &job->tracer, NULL));
     ALP_TRY(alpi_lighting_create(job->scene, &job->o->lighting, &job->lighting));
+    ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &job->o->lighting, &job->space));
+    ALP_TRY(alpi_lighting_split_sky(job->space, &job->o->lighting, &job->soft, &job->spots));
     ALP_TRY(solve(job));
     ALP_TRY(prepare_sampling(job));
     aim(job);
@@ -355,6 +378,9 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
     alpi_release(context, job.sampling.points);
     alpi_release(context, job.sampling.values);
     alpi_solution_destroy(job.solution);
+    alpi_lighting_destroy(context, job.spots);
+    alpi_lighting_destroy(context, job.soft);
+    alpi_lighting_destroy(context, job.space);
     alpi_lighting_destroy(context, job.lighting);
     if (result != ALP_OK) {
         alp_probes_destroy(made);

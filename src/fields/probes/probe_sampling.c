@@ -46,6 +46,7 @@ static alp_result find_place(const alpi_probe_sampling *s, const alpi_probe_volu
     alpi_sphere_rays survey = s->rays;
     survey.from.light = (alpi_surface_light){0};
     survey.from.emitters = survey.from.sky = false;
+    survey.aimed = NULL;
     survey.face = SURVEY_FACE;
     survey.replicates = ALPI_SPHERE_REPLICATES_LEAST;
     float places[DIRECTIONS][3];

@@ -30,6 +30,7 @@ struct alpi_lighting {
     alpi_sky *sky;        // may be NULL
     const alpi_sky *soft; // borrowed, where the sky is spots: what rays meet instead; else NULL
     double sky_average;   // π × mean radiance, mean of the channels
+    bool lamps;           // punctual lights and suns are in it
     int only;             // the one class of which there is light; −1: several, or none
 };
 
@@ -105,12 +106,11 @@ static void set_sky(alpi_lighting *lighting, alpi_sky *sky)
     lighting->only = only_class(lighting);
 }
 
-/// @param lamps false: punctual lights and suns are left out
-static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options, bool lamps)
+static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *options)
 {
     alp_context *context = lighting->scene->context;
     ALP_TRY(alpi_light_list_gather(lighting->scene, options, &lighting->list));
-    lighting->list.count = lamps ? lighting->list.count : 0;
+    lighting->list.count = lighting->lamps ? lighting->list.count : 0;
     ALP_TRY(sort_lights(lighting));
     ALP_TRY(alpi_emitters_collect(lighting->scene, &lighting->emitters));
     alpi_sky *sky = NULL;
@@ -119,6 +119,7 @@ static alp_result fill(alpi_lighting *lighting, const alp_lighting_options *opti
     return ALP_OK;
 }
 
+/// @param lamps false: punctual lights and suns are left out
 static alp_result create(const alp_scene *scene, const alp_lighting_options *options, bool lamps,
                          alpi_lighting **lighting)
 {
@@ -130,7 +131,8 @@ static alp_result create(const alp_scene *scene, const alp_lighting_options *opt
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     made->scene = scene;
-    alp_result result = fill(made, &chosen, lamps);
+    made->lamps = lamps;
+    alp_result result = fill(made, &chosen);
     if (result != ALP_OK) {
         alpi_lighting_destroy(scene->context, made);
         return result;
@@ -145,23 +147,26 @@ alp_result alpi_lighting_create(const alp_scene *scene, const alp_lighting_optio
     return create(scene, options, true, lighting);
 }
 
+static alp_result create_quietly(const alp_scene *scene, const alp_lighting_options *options,
+                                 bool lamps, alpi_lighting **lighting)
+{
+    alpi_hush(scene->context, true);
+    const alp_result result = create(scene, options, lamps, lighting);
+    alpi_hush(scene->context, false);
+    return result;
+}
+
 alp_result alpi_lighting_create_without_lamps(const alp_scene *scene,
                                               const alp_lighting_options *options,
                                               alpi_lighting **lighting)
 {
-    alpi_hush(scene->context, true);
-    const alp_result result = create(scene, options, false, lighting);
-    alpi_hush(scene->context, false);
-    return result;
+    return create_quietly(scene, options, false, lighting);
 }
 
 alp_result alpi_lighting_create_quietly(const alp_scene *scene, const alp_lighting_options *options,
                                         alpi_lighting **lighting)
 {
-    alpi_hush(scene->context, true);
-    const alp_result result = alpi_lighting_create(scene, options, lighting);
-    alpi_hush(scene->context, false);
-    return result;
+    return create_quietly(scene, options, true, lighting);
 }
 
 alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
@@ -176,9 +181,9 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     if (lighting->sky != NULL) {
         ALP_TRY(alpi_sky_split(context, lighting->sky, &skies[0], &skies[1]));
     }
-    alp_result result = alpi_lighting_create_quietly(lighting->scene, &without, soft);
+    alp_result result = create_quietly(lighting->scene, &without, lighting->lamps, soft);
     if (result == ALP_OK) {
-        result = alpi_lighting_create_quietly(lighting->scene, &without, spots);
+        result = create_quietly(lighting->scene, &without, lighting->lamps, spots);
     }
     if (result != ALP_OK) {
         alpi_sky_destroy(context, skies[0]);
@@ -277,6 +282,17 @@ const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting)
 uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting)
 {
     return lighting->emitters.count;
+}
+
+double alpi_lighting_emitter_area(const alpi_lighting *lighting)
+{
+    double area = 0.0;
+    for (uint32_t i = 0; i < lighting->emitters.count; i++) {
+        vec3 c[3];
+        alpi_triangle_corners(lighting->scene, lighting->emitters.triangles[i], c);
+        area += vec3_triangle_area(c[0], c[1], c[2]);
+    }
+    return area;
 }
 
 /// By rays that leave: spots are where to look, drawn alone.

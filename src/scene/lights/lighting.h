@@ -106,6 +106,7 @@ bool alpi_lighting_sample_light(const alpi_lighting *lighting, uint32_t index, v
                                 alpi_light_sample *sample);
 const alpi_sky *alpi_lighting_sky(const alpi_lighting *lighting); // may be NULL
 uint32_t alpi_lighting_emitter_count(const alpi_lighting *lighting);
+double alpi_lighting_emitter_area(const alpi_lighting *lighting); // m², one side
 
 /// Radiance that leaves a triangle towards `direction` at barycentrics: emission × texture, at most
 /// 1e20; 0 from behind unless double-sided, and where a mask cuts; of a blended surface its alpha.

@@ -4,6 +4,7 @@
 #include "base/octahedral.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "transport/sphere/sphere_aimed.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,6 +17,7 @@ enum { COHERENT_TRIANGLES = 2048 };
 typedef struct sphere_sums {
     double light[ALPI_SPHERE_REPLICATES_MOST][TALLIES];
     double weight[ALPI_SPHERE_REPLICATES_MOST];
+    double aimed[ALPI_SPHERE_REPLICATES_MOST][TALLIES]; // by aimed rays: not scaled
     double behind;
     float back, front; // nearest
     vec3 back_direction;
@@ -243,6 +245,17 @@ static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t rep
             sums->light[replicate][i] += (double)tallies[i][lane];
         }
     }
+    if (r->aimed != NULL) {
+        const alpi_sphere_aim aim = alpi_sphere_aim_for(r, position, key);
+        alpi_sphere_aimed_light(&aim, sums->aimed[replicate]);
+    }
+}
+
+/// Coefficient i of a replicate.
+static double replicate_mean(const sphere_sums *sums, uint32_t replicate, int i)
+{
+    return 4.0 * ALPI_PI * sums->light[replicate][i] / sums->weight[replicate] +
+           sums->aimed[replicate][i];
 }
 
 static void finish_light(const alpi_sphere_rays *r, const sphere_sums *sums, alpi_sphere_light *out)
@@ -252,10 +265,10 @@ static void finish_light(const alpi_sphere_rays *r, const sphere_sums *sums, alp
     for (int i = 0; i < TALLIES; i++) {
         double mean = 0.0, squares = 0.0;
         for (uint32_t k = 0; k < r->replicates; k++) {
-            mean += 4.0 * ALPI_PI * sums->light[k][i] / sums->weight[k] / count;
+            mean += replicate_mean(sums, k, i) / count;
         }
         for (uint32_t k = 0; k < r->replicates; k++) {
-            const double apart = 4.0 * ALPI_PI * sums->light[k][i] / sums->weight[k] - mean;
+            const double apart = replicate_mean(sums, k, i) - mean;
             squares += apart * apart;
         }
         out->light.c[i / 3][i % 3] = (float)mean;

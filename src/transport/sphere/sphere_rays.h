@@ -40,6 +40,9 @@ typedef struct alpi_sphere_rays {
     alpi_gather_scene from; // emitters and sky count as it says
     uint32_t face;          // n: pixels along an edge of a face, a multiple of 4, [4, FACE_MOST]
     uint32_t replicates;    // [LEAST, MOST]
+    // NULL, or sources that rays are aimed at (sphere_aimed.h): without punctual lights and suns.
+    // Then `from` counts no emitters.
+    const alpi_lighting *aimed;
     float reach;            // metres: larger distances count as this in moments
     uint64_t seed;
 } alpi_sphere_rays;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "transport/sphere/sphere_aimed.h"
+
+#include "base/random.h"
+#include "base/warp.h"
+#include "transport/paths/panes.h"
+
+#include <math.h>
+
+enum { USE_AXIS = 1, USE_PLACE, USE_CHOICE };
+enum { SAMPLES = 2 * ALPI_SPHERE_PAIRS, PACKETS = SAMPLES / ALPI_PACKET };
+
+alpi_sphere_aim alpi_sphere_aim_for(const alpi_sphere_rays *rays, vec3 point, uint32_t key)
+{
+    const uint32_t random = alpi_hash32(key ^ alpi_hash32(USE_AXIS));
+    const vec2 u = {alpi_unit_float(random), alpi_unit_float(alpi_hash32(random))};
+    return (alpi_sphere_aim){rays, point, alpi_warp_uniform_cone(u, -1.0f), key};
+}
+
+static vec3 hemisphere(const alpi_sphere_aim *aim, uint32_t sample)
+{
+    return sample % 2 == 0 ? aim->axis : vec3_scale(aim->axis, -1.0f);
+}
+
+/// What a sample brings if nothing is in between: radiance times solid angle, over the samples of
+/// its side. @return false: nothing
+static bool draw(const alpi_sphere_aim *aim, uint32_t sample, alpi_light_sample *s, vec3 *given)
+{
+    // Both sides draw alike. The sources are chosen in the order of the samples, so that those of
+    // each source follow each other and spread over it evenly.
+    const uint32_t own = sample / 2;
+    const vec2 u = alpi_sample_2d(alpi_hash32(aim->key ^ alpi_hash32(USE_PLACE)), own);
+    const uint32_t choice = alpi_hash32(aim->key ^ alpi_hash32(USE_CHOICE + own));
+    const float pick = ((float)own + alpi_unit_float(choice)) / ALPI_SPHERE_PAIRS;
+    const vec3 normal = hemisphere(aim, sample);
+    if (!alpi_lighting_sample(aim->rays->aimed, aim->point, normal, pick, u, s) ||
+        !(vec3_dot(s->direction, normal) > 0.0f)) {
+        return false;
+    }
+    const float factor = 1.0f / (ALPI_SPHERE_PAIRS * s->density);
+    *given = vec3_scale(s->light, factor);
+    return isfinite(factor);
+}
+
+static void add(vec3 direction, vec3 given, double light[3 * ALPI_SH9_COUNT])
+{
+    float basis[ALPI_SH9_COUNT];
+    alpi_sh9_basis(direction, basis);
+    for (int i = 0; i < ALPI_SH9_COUNT; i++) {
+        light[3 * i] += (double)(basis[i] * given.x);
+        light[3 * i + 1] += (double)(basis[i] * given.y);
+        light[3 * i + 2] += (double)(basis[i] * given.z);
+    }
+}
+
+static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, vec3 *given)
+{
+    const alpi_gather_scene *from = &aim->rays->from;
+    alpi_trace_filter filter = from->filter;
+    filter.panes = alpi_tracer_has_panes(from->tracer);
+    alpi_trace_occluded(from->tracer, rays, 1, active, filter, ALPI_RAYS_NEAR);
+    uint32_t open = 0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        open |= (active >> i & 1u) != 0 && rays->maximum[i] >= 0.0f ? 1u << i : 0u;
+    }
+    if (filter.panes && open != 0) {
+        vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
+        alpi_panes_dim(from->scene, from->tracer, filter, open, rays, left);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            given[i] = (vec3){given[i].x * left[i].x, given[i].y * left[i].y,
+                              given[i].z * left[i].z};
+        }
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((open >> i & 1u) == 0) {
+            given[i] = (vec3){0.0f, 0.0f, 0.0f};
+        }
+    }
+}
+
+void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, double light[3 * ALPI_SH9_COUNT])
+{
+    const float offset = alpi_receiver_offset(aim->point, NULL);
+    for (uint32_t packet = 0; packet < PACKETS; packet++) {
+        alpi_rays rays;
+        vec3 given[ALPI_PACKET], directions[ALPI_PACKET];
+        uint32_t active = 0;
+        alpi_rays_clear(&rays);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            alpi_light_sample s;
+            given[i] = directions[i] = (vec3){0.0f, 0.0f, 0.0f};
+            if (draw(aim, packet * ALPI_PACKET + i, &s, &given[i])) {
+                const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * offset;
+                directions[i] = s.direction;
+                alpi_rays_set(&rays, (int)i, aim->point, s.direction, fmaxf(reach, 0.0f));
+                active |= 1u << i;
+            }
+        }
+        if (active == 0) {
+            continue;
+        }
+        trace(aim, &rays, active, given);
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            add(directions[i], given[i], light);
+        }
+    }
+}
