@@ -238,12 +238,7 @@ static alp_result draw_held_out(const probe_job *job, alpi_point_array *points)
         vec3_store(points->geometric_normals[i], n);
         points->offsets[i] = alpi_receiver_offset(vec3_load(points->positions[i]), NULL);
     }
-    alpi_sphere_rays survey = job->sampling.rays;
-    survey.from.light = (alpi_surface_light){0};
-    survey.from.emitters = survey.from.sky = false;
-    survey.aimed = NULL;
-    survey.face = 4;
-    survey.replicates = ALPI_SPHERE_REPLICATES_LEAST;
+    const alpi_sphere_rays survey = alpi_probe_survey_rays(&job->sampling);
     const alpi_sphere_job sphere = {.rays = &survey,
                                     .points = (const float(*)[3])points->positions,
                                     .count = points->count,

@@ -2,12 +2,10 @@
 // Light of probes in solids, from valid neighbours. A reader that interpolates without visibility
 // then finds no black probe beside a surface.
 #include "base/memory.h"
+#include "base/tasks.h"
 #include "fields/probes/probes.h"
 
-#include <math.h>
-#include <string.h>
-
-enum { REACH = 2 }; // cells
+#include <stdlib.h>
 
 /// Where a ray from one point first meets a surface on its way to another, metres.
 static float first_surface(const alpi_probe_sampling *s, vec3 from, vec3 to)
@@ -35,33 +33,35 @@ static bool sees(const alpi_probe_sampling *s, vec3 neighbour, vec3 probe)
     return there + first_surface(s, probe, neighbour) >= distance * 0.999f;
 }
 
-/// Adds the neighbours of a probe, weighed by inverse squares of their distances.
+/// Adds the valid neighbours of a probe that lie `reach` cells away, weighed by inverse squares of
+/// their distances. @return sum of the weights
 static double add_neighbours(const alpi_probe_sampling *s, const alpi_probe_volume *v,
-                             uint32_t index, double *sums, uint32_t floats)
+                             uint32_t index, int reach, double *sums)
 {
     const int at[3] = {(int)(index % v->size[0]), (int)(index / v->size[0] % v->size[1]),
                        (int)(index / v->size[0] / v->size[1])};
     const vec3 probe = vec3_load(s->points[index]);
+    const int side = 2 * reach + 1;
+    const uint32_t floats = 3 * v->coefficient_count;
     double weight = 0.0;
-    for (int n = 0; n < (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1); n++) {
-        const int side = 2 * REACH + 1;
-        const int to[3] = {at[0] + n % side - REACH, at[1] + n / side % side - REACH,
-                           at[2] + n / side / side - REACH};
-        bool there = true;
+    for (int n = 0; n < side * side * side; n++) {
+        const int way[3] = {n % side - reach, n / side % side - reach, n / side / side - reach};
+        uint32_t other = 0, stride = 1;
+        bool there = abs(way[0]) == reach || abs(way[1]) == reach || abs(way[2]) == reach;
         for (int k = 0; k < 3; k++) {
-            there = there && to[k] >= 0 && to[k] < (int)v->size[k];
+            const int to = at[k] + way[k];
+            there = there && to >= 0 && to < (int)v->size[k];
+            other += (uint32_t)(there ? to : 0) * stride;
+            stride *= v->size[k];
         }
-        if (!there) {
+        if (!there || v->states[other] > ALPI_PROBE_MOVED) {
             continue;
         }
-        const uint32_t other =
-            (uint32_t)to[0] + v->size[0] * ((uint32_t)to[1] + v->size[1] * (uint32_t)to[2]);
-        const vec3 from = vec3_load(s->points[other]);
-        if (v->states[other] > ALPI_PROBE_MOVED || !sees(s, from, probe)) {
+        const vec3 from = vec3_load(s->points[other]), apart = vec3_sub(from, probe);
+        if (!sees(s, from, probe)) {
             continue;
         }
-        const vec3 way = vec3_sub(from, probe);
-        const double w = 1.0 / ((double)vec3_dot(way, way) + 1e-30);
+        const double w = 1.0 / ((double)vec3_dot(apart, apart) + 1e-30);
         const float *c = v->coefficients + (size_t)other * floats;
         for (uint32_t i = 0; i < floats; i++) {
             sums[i] += w * (double)c[i];
@@ -71,20 +71,50 @@ static double add_neighbours(const alpi_probe_sampling *s, const alpi_probe_volu
     return weight;
 }
 
-alp_result alpi_probes_fill(const alpi_probe_sampling *s, alpi_probe_volume *v)
+typedef struct fill_job {
+    const alpi_probe_sampling *sampling;
+    alpi_probe_volume *volume;
+    uint8_t *filled; // [count] the states of all while they are read
+} fill_job;
+
+static alp_result fill_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
+    (void)worker;
+    const fill_job *job = user;
+    const alpi_probe_volume *v = job->volume;
     const uint32_t floats = 3 * v->coefficient_count;
-    for (uint32_t i = 0; i < v->count && !v->is_list; i++) {
-        double sums[3 * ALPI_SH9_COUNT] = {0.0};
+    for (uint32_t i = begin; i < end; i++) {
+        double sums[3 * ALPI_SH9_COUNT] = {0.0}, weight = 0.0;
         if (v->states[i] != ALPI_PROBE_INVALID) {
             continue;
         }
-        const double weight = add_neighbours(s, v, i, sums, floats);
+        for (int reach = 1; reach <= 2 && !(weight > 0.0); reach++) {
+            weight = add_neighbours(job->sampling, v, i, reach, sums);
+        }
         for (uint32_t k = 0; k < floats && weight > 0.0; k++) {
             v->coefficients[(size_t)i * floats + k] = (float)(sums[k] / weight);
         }
-        v->states[i] = weight > 0.0 ? ALPI_PROBE_FILLED : ALPI_PROBE_INVALID;
-        ALP_TRY(alpi_tick(s->context, "probes", i, v->count));
+        job->filled[i] = weight > 0.0;
     }
     return ALP_OK;
+}
+
+alp_result alpi_probes_fill(const alpi_probe_sampling *s, alpi_probe_volume *v)
+{
+    const alpi_task_progress progress = {
+        .callback = s->options->progress, .user = s->options->progress_user, .stage = "fill"};
+    if (v->is_list) {
+        return ALP_OK;
+    }
+    fill_job job = {s, v, ALPI_NEW(s->context, uint8_t, v->count)};
+    if (job.filled == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result =
+        alpi_parallel_for(s->context, v->count, 64, fill_range, &job, &progress);
+    for (uint32_t i = 0; i < v->count; i++) {
+        v->states[i] = job.filled[i] != 0 ? ALPI_PROBE_FILLED : v->states[i];
+    }
+    alpi_release(s->context, job.filled);
+    return result;
 }

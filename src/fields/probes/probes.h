@@ -33,12 +33,15 @@ typedef struct alpi_probe_sampling {
     alpi_sphere_light *values; // [count]
 } alpi_probe_sampling;
 
+/// Few rays of a sampling, for geometry alone.
+alpi_sphere_rays alpi_probe_survey_rays(const alpi_probe_sampling *sampling);
+
 /// Samples all probes of a volume whose arrays are there: moves those in solids, and writes
 /// coefficients, states, moves and moments. `points` must hold the nominal places.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_probes_sample(alpi_probe_sampling *sampling, alpi_probe_volume *volume);
 
-/// Fills probes in solids from valid neighbours within two cells that see them.
+/// Fills probes in solids from valid neighbours that see them: those a cell away, else two.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_probes_fill(const alpi_probe_sampling *sampling, alpi_probe_volume *volume);
 
