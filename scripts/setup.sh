@@ -47,7 +47,8 @@ check_packages="
     groff-base          groff
     mandoc              mandoc
     zsh                 zsh
-    fish                fish"
+    fish                fish
+    zstd                zstd"
 browser_packages="
     chromium            chromium"
 

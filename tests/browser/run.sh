@@ -4,18 +4,8 @@
 # and compares pixels. 77 = skipped.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-for tool in node "${CHROMIUM:-chromium}"; do
-    if ! command -v "$tool" >/dev/null; then
-        echo "$tool is absent: skipped"
-        exit 77
-    fi
-done
-for package in three babylonjs playwright-core; do
-    if [ ! -d "$here/node_modules/$package" ]; then
-        echo "the npm package $package is absent: skipped (npm ci in tests/browser)"
-        exit 77
-    fi
-done
+. "$here/needs.sh"
+need three babylonjs playwright-core
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$1" "$folder"

@@ -12,7 +12,8 @@ const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/ja
 /// Opens a browser; `show(kind, file, side, camera)` gives { pixels, seconds, faults }: pixels
 /// [side][side][4] with rows from the top, seen by the file's first camera, or where it has none by
 /// `camera`: { position, target, up, fov in radians }. kind: 'three' (Object JSON), 'babylon', 'glb';
-/// 'blend ao', 'blend light', 'plain ao': the occlusion map of a .glb alone.
+/// 'blend ao', 'blend light', 'plain ao': the occlusion map of a .glb alone; 'probes PACKAGE': a module
+/// of probes in a release of three.js, on a sphere that the camera's `sphere` describes.
 export async function openViewer() {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
@@ -28,6 +29,12 @@ function place(url, folder) {
   if (name.startsWith('/web/')) return path.join(here, '../..', name);
   if (name.startsWith('/packages/')) return path.join(here, 'node_modules', name.slice('/packages/'.length));
   return path.join(here, name);
+}
+
+function address(kind) {
+  const [first, three] = kind.split(' ');
+  if (first === 'probes') return `probes.html?${three}`;
+  return first === 'babylon' ? 'babylon.html' : 'three.html';
 }
 
 async function answer(route, folder, refused) {
@@ -57,8 +64,7 @@ async function show(browser, kind, file, side, camera) {
   });
   await page.route(() => true, (route) => answer(route, path.dirname(path.resolve(file)), faults));
   try {
-    const engine = kind === 'babylon' ? 'babylon' : 'three';
-    await page.goto(`${origin}/${engine}.html`);
+    await page.goto(`${origin}/${address(kind)}`);
     await page.waitForFunction('window.show !== undefined', null, { timeout: 60000 });
     const result = await page.evaluate(([...given]) => window.show(...given), [
       kind,

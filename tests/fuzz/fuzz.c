@@ -148,6 +148,16 @@ void fuzz_decoded(fuzz_run *run, uint64_t bytes)
     run->decoded += bytes;
 }
 
+uint64_t fuzz_texture_promise(const uint8_t *bytes, size_t size)
+{
+    const uint64_t most = ((uint64_t)size / 4 + 1) << 17; // blocks of Zstandard
+    uint64_t promise = 0;
+    if (size >= 104) {
+        memcpy(&promise, bytes + 96, sizeof promise);
+    }
+    return promise < most ? promise : most;
+}
+
 void fuzz_peak(fuzz_run *run)
 {
     run->checked = true;

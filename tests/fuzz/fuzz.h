@@ -45,6 +45,9 @@ uint8_t *fuzz_owned(const fuzz_run *run, const uint8_t *data, size_t size, size_
 /// decoded or that a header promised and the file is long enough for, arrays of the scene.
 void fuzz_decoded(fuzz_run *run, uint64_t bytes);
 
+/// Bytes of texels that the header of a KTX2 file promises, where the file is long enough for them.
+uint64_t fuzz_texture_promise(const uint8_t *bytes, size_t size);
+
 /// Checks what a reader gave; prints it where $FUZZ_TELL is set.
 void fuzz_result(const fuzz_run *run, alp_result result, const void *object);
 /// The same, and the scene; its geometry and images count as decoded.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes those files of the first corpus that no editor makes: images of every kind that is read,
-// and inputs of the accessors' target. (Texts, and the archives of texts, were written by hand.)
+// probes, and inputs of the accessors' target. (Texts, and the archives of texts, were written by
+// hand.)
 //
 //   fuzz_seeds FOLDER
 #include "seeds.h"
@@ -35,6 +36,7 @@ int main(int count, char **arguments)
     folder = arguments[1];
     seeds_images(context);
     seeds_packed();
+    seeds_probes(context);
     alp_context_destroy(context);
     return 0;
 }

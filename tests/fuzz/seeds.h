@@ -11,5 +11,6 @@ _Noreturn void seed_fail(const char *what);
 
 void seeds_images(alp_context *context);
 void seeds_packed(void);
+void seeds_probes(alp_context *context);
 
 #endif

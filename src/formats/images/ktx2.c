@@ -122,7 +122,7 @@ static alp_result write_texture(alp_context *context, const alpi_half_texture *t
     plan p = {.pairs = ALPI_KTX2_HEADER_SIZE + alpi_ktx2_descriptor_size(texture->channels)};
     p.pairs_size = (uint32_t)make_pairs(text, scale);
     p.level = p.pairs + p.pairs_size;
-    if (!zstandard) { // where texels begin at a multiple of their size
+    if (!zstandard) { // texels begin at a multiple of their size
         p.level = (p.level + ALPI_KTX2_ALIGNMENT - 1) / ALPI_KTX2_ALIGNMENT * ALPI_KTX2_ALIGNMENT;
     }
     ALPI_TRY_NEW(context, *bytes, p.level + room);

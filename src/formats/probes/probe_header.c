@@ -14,7 +14,7 @@
 #include <string.h>
 
 enum { DEPTH_LIMIT = 64, VALUES_A_PROBE = 4, OTHER_VALUES = 1 << 16 };
-#define SAY_NEWER "read it with a newer Alpenglow, or bake the probes again"
+#define NEWER_REMEDY "read it with a newer Alpenglow, or bake the probes again"
 
 const char *const alpi_probe_basis_names[3] = {"sh9", "sh4", "ambient-cube"};
 const char *const alpi_probe_quantities[3] = {"radiance coefficients", "radiance coefficients",
@@ -142,7 +142,7 @@ static alp_result parse_text(alpi_probe_header *h, const char *text, size_t size
         return alpi_fail(h->context, ALP_ERROR_UNSUPPORTED,
                          "%s: has version %lld of the format, this program reads version %d: %s",
                          h->name, (long long)json_integer_value(version), ALPI_PROBE_VERSION,
-                         SAY_NEWER);
+                         NEWER_REMEDY);
     }
     return ALP_OK;
 }
@@ -258,7 +258,7 @@ static alp_result parse_layers(alpi_probe_header *h)
 /// A file in the same folder, and nothing else.
 static bool is_plain_name(const char *name)
 {
-    return name != NULL && name[0] != '\0' && strpbrk(name, "/\\:") == NULL &&
+    return name != NULL && name[0] != '\0' && strpbrk(name, "/\\:" ALPI_PROBE_CONTROLS) == NULL &&
            strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
 }
 
@@ -383,6 +383,9 @@ static alp_result fill_all(const alpi_probe_header *h, const char *text, size_t 
         v->layers[i].name = alpi_copy_string(h->context, json_string_value(name));
         if (v->layers[i].name == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        for (char *c = v->layers[i].name; (c = strpbrk(c, ALPI_PROBE_CONTROLS)) != NULL;) {
+            *c = '?'; // names reach terminals
         }
     }
     return fill_options(h, text, size, v);

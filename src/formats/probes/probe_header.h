@@ -9,6 +9,11 @@
 enum { ALPI_PROBE_VERSION = 1 };
 #define ALPI_PROBE_JSON_LIMIT ((uint64_t)256 << 20) // bytes
 
+/// Control characters, which must not reach terminals.
+#define ALPI_PROBE_CONTROLS                                                                        \
+    "\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e\x0f\x10"                             \
+    "\x11\x12\x13\x14\x15\x16\x17\x18\x19\x1a\x1b\x1c\x1d\x1e\x1f\x7f"
+
 /// Names of values of alpi_probe_basis and of what coefficients of each are.
 extern const char *const alpi_probe_basis_names[3], *const alpi_probe_quantities[3];
 

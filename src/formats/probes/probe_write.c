@@ -235,9 +235,10 @@ static alp_result name_textures(alp_context *context, const char *path, output t
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
                          "%s: probes are written as .json, best as NAME.probes.json", path);
     }
-    if (strcmp(utf8(path), path) != 0) {
+    if (strcmp(utf8(path), path) != 0 || strpbrk(path, ALPI_PROBE_CONTROLS) != NULL) {
         return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
-                         "%s: the name is no UTF-8, which JSON needs: choose another", path);
+                         "%s: the name is no UTF-8 or has control characters: choose another",
+                         path);
     }
     const int stem = (int)(strlen(path) - (sizeof JSON_ENDING - 1));
     for (int i = 0; i < 2; i++) {

@@ -275,6 +275,8 @@ static alp_result print_module(exporter *e)
         "  const grid = new Grid(...cells.map((n, k) => n * spacing[k]), ...size);\n"
         "  grid.position.set(...size.map((n, k) => first[k] + ((n - 1) / 2) * spacing[k]));\n"
         "  grid.texture = await loader.loadAsync(new URL('./%s', import.meta.url).href);\n"
+        "  grid.texture.minFilter = grid.texture.magFilter = 1006; // LinearFilter, unlike the "
+        "loader\n"
         "  grid.updateBoundingBox();\n"
         "  return grid;\n"
         "}\n",

@@ -94,6 +94,7 @@ static const change changes[] = {
     {"\"radiance coefficients\"", "\"irradiance\"", ALP_ERROR_INVALID_DATA, "\"quantity\""},
     {"\"scale\":1", "\"scale\":3", ALP_ERROR_INVALID_DATA, "power of two"},
     {"\"scale\":1", "\"scale\":0", ALP_ERROR_INVALID_DATA, "\"scale\""},
+    {"\"file\":\"", "\"file\":\"\\n", ALP_ERROR_INVALID_DATA, "plain name"},
     {"\"layers\":[", "\"layers\":[1,", ALP_ERROR_INVALID_DATA, "\"layers\""},
     {"\"layers\":[", "\"layers\":[{\"name\":\"b\"},", ALP_ERROR_INVALID_DATA, "texels"},
     {"\"gradients\":true", "\"gradients\":1", ALP_ERROR_INVALID_DATA, "\"gradients\""},
@@ -164,7 +165,7 @@ TEST(changed_lists_are_refused)
     free_files(&f);
 }
 
-/// What readers of this version do not know does not hinder them.
+/// Members of later versions do not hinder readers of this one.
 TEST(unknown_members_are_ignored)
 {
     static const change added = {"\"count\":8", "\"count\":8,\"later\":{\"a\":[1]}", 0, ""};
@@ -172,6 +173,20 @@ TEST(unknown_members_are_ignored)
     alpi_probe_volume v;
     char *text = changed(&f, &added);
     ASSERT_OK(context, decode(&f, text, strlen(text), false, &v));
+    alpi_probe_volume_destroy(&v);
+    free(text);
+    free_files(&f);
+}
+
+/// Names reach terminals.
+TEST(control_characters_leave_names)
+{
+    static const change added = {"lamp ", "lamp\\u001b\\n ", 0, ""};
+    good_files f = make_files(false);
+    alpi_probe_volume v;
+    char *text = changed(&f, &added);
+    ASSERT_OK(context, decode(&f, text, strlen(text), false, &v));
+    assert_memory_equal(v.layers[0].name, "lamp?? ", 7);
     alpi_probe_volume_destroy(&v);
     free(text);
     free_files(&f);
@@ -203,7 +218,7 @@ TEST(every_cut_is_noticed)
     free_files(&f);
 }
 
-/// Every byte of the textures, turned over: the checksum tells. Without it nothing may break.
+/// Every byte of the textures, turned over: the checksum differs. Without it nothing may break.
 TEST(every_flipped_byte_is_noticed)
 {
     good_files f = make_files(false);

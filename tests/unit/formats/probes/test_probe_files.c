@@ -185,6 +185,7 @@ TEST(other_volumes_are_refused)
     static const char name[] = "refused.probes.json";
     refused(&v, "probes.txt", ".json");
     refused(&v, "\xff.probes.json", "UTF-8");
+    refused(&v, "\n.probes.json", "control");
     v.coefficients[30] = NAN;
     refused(&v, name, "probe 1: coefficient");
     v.coefficients[30] = 0.0f;
