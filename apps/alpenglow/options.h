@@ -15,12 +15,12 @@ typedef enum command_id {
     COMMAND_RENDER,
     COMMAND_INFO,
     COMMAND_COMPARE,
+    COMMAND_SH,
     COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
     COMMAND_PROBES = COMMAND_BUILT_COUNT,
     COMMAND_LPV,
     COMMAND_AMBIENCE,
-    COMMAND_SH,
     COMMAND_VIEW,
     COMMAND_COUNT
 } command_id;
@@ -30,6 +30,7 @@ enum {
     IN_RENDER = 1 << COMMAND_RENDER,
     IN_INFO = 1 << COMMAND_INFO,
     IN_COMPARE = 1 << COMMAND_COMPARE,
+    IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
 };
 
@@ -100,6 +101,7 @@ typedef enum option_id {
     OPTION_MAP,
     OPTION_POINTS,
     OPTION_HEATMAP,
+    OPTION_CONVENTION,
     OPTION_BENCH_SCENE,
     OPTION_QUICK,
     OPTION_MARKDOWN,
@@ -241,6 +243,7 @@ int command_bake(const command_line *arguments);
 int command_render(const command_line *arguments);
 int command_info(const command_line *arguments);
 int command_compare(const command_line *arguments);
+int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
 
 #endif

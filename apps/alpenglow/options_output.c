@@ -23,6 +23,16 @@ static const option rows[] = {
      .value = "IMAGE.png|IMAGE.exr|IMAGE.hdr",
      .help = "The picture, required. .png: 8-bit sRGB. .exr: linear float, alpha is "
              "the share of surface. .hdr: linear, without alpha."},
+    {.id = OPTION_OUTPUT,
+     .commands = IN_SH,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "IMAGE.hdr|IMAGE.exr|IMAGE.png",
+     .help = "Irradiance by direction of the normal, W/m2 per channel, not divided by pi, never "
+             "negative. 256 x 128 pixels. .hdr, .exr: linear. .png: 8-bit sRGB with automatic "
+             "exposure."},
     {.id = OPTION_MAPS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -128,7 +138,7 @@ static const option rows[] = {
      .help = "Write a picture of |A - B| of two images. Black is 0, white is the 99th "
              "percentile and above, magenta is covered in one image only."},
     {.id = OPTION_FORCE,
-     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE,
+     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_SH,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",
