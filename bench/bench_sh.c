@@ -66,7 +66,7 @@ static bool open_cube(alp_context *context, uint32_t size, const float *pixels, 
     return alp_sh_projection_create(context, size, &b->projection) == ALP_OK;
 }
 
-enum { OURS, NAIVE, FLOOR, KINDS };
+enum { OURS, NAIVE, WIDE, FLOOR, KINDS };
 
 static void run_once(cube_bench *b, int kind)
 {
@@ -75,13 +75,15 @@ static void run_once(cube_bench *b, int kind)
         b->sink += bench_cube_read(b->faces[0], b->size);
     } else if (kind == NAIVE) {
         radiance = bench_cube_naive(b->faces[0], b->size);
+    } else if (kind == WIDE) {
+        radiance = bench_cube_naive_wide(b->faces[0], b->size);
     } else {
         (void)!alp_sh_project_cube(b->projection, b->faces, &radiance);
     }
     b->sink += radiance.c[6][1];
 }
 
-/// Nanoseconds a texel of the three loops, medians of rounds in turns.
+/// Nanoseconds a texel of the loops, medians of rounds in turns.
 static void measure(cube_bench *b, bool quick, double nanoseconds[KINDS])
 {
     const double texels = 6.0 * b->size * b->size;
@@ -89,7 +91,8 @@ static void measure(cube_bench *b, bool quick, double nanoseconds[KINDS])
     double values[KINDS][ROUNDS];
     for (int round = 0; round < rounds; round++) {
         for (int kind = 0; kind < KINDS; kind++) {
-            const int times = quick ? 1 : (int)((kind == NAIVE ? 4e5 : 4e6) / texels) + 1;
+            const int times =
+                quick ? 1 : (int)((kind == NAIVE || kind == WIDE ? 4e5 : 4e6) / texels) + 1;
             const double started = bench_thread_seconds();
             for (int i = 0; i < times; i++) {
                 run_once(b, kind);
@@ -138,9 +141,10 @@ static bool add_size(alp_context *context, uint32_t size, const alp_sh9 truth[EN
     bool good = open_cube(context, size, pixels, &b);
     if (good) {
         measure(&b, options->quick, ns);
-        bench_table_add(times, "%u|%u|%.2f|%.3f|%.3f|%.2f|%.1f|%.2f", size, 6 * size * size,
-                        ns[OURS] * 6.0 * size * size * 1e-3, ns[OURS], ns[FLOOR],
-                        ns[FLOOR] / ns[OURS], ns[NAIVE], ns[NAIVE] / ns[OURS]);
+        bench_table_add(times, "%u|%u|%.2f|%.3f|%.3f|%.2f|%.1f|%.1f|%.1f|%.1f", size,
+                        6 * size * size, ns[OURS] * 6.0 * size * size * 1e-3, ns[OURS], ns[FLOOR],
+                        ns[FLOOR] / ns[OURS], ns[NAIVE], ns[NAIVE] / ns[OURS], ns[WIDE],
+                        ns[WIDE] / ns[OURS]);
     }
     alp_sh_projection_destroy(b.projection);
     free(pixels);
@@ -165,8 +169,9 @@ int bench_sh(const bench_options *options)
     bench_table_start(&times, "Cube maps to nine coefficients, one worker",
                       "Nanoseconds a texel by the edge of a face. Floor: a loop that reads every "
                       "value and adds it. Naive: direction, solid angle and basis of each texel, "
-                      "27 sums, with the same compiler options.",
-                      "face|texels|ours us|ours ns|floor ns|floor / ours|naive ns|naive / ours");
+                      "27 sums. Wide: the same loop, compiled for the instruction set of ours.",
+                      "face|texels|ours us|ours ns|floor ns|floor / ours|naive ns|naive / ours|"
+                      "wide ns|wide / ours");
     bench_table_start(&errors, "Error of coefficients by the edge of a face",
                       "Root mean square of the difference to faces of 256, over that of the "
                       "coefficients. Texels are sampled at their centres. Smooth: a gradient. "

@@ -6,6 +6,8 @@
 
 #include <alpenglow/alpenglow.h>
 
+#include <math.h>
+
 enum { MAP_WIDTH = 256 };
 
 typedef struct projection {
@@ -22,6 +24,9 @@ static int check_output(const command_line *a)
     }
     if (!path_ends(output, ".hdr") && !path_ends(output, ".exr") && !path_ends(output, ".png")) {
         return usage_error(COMMAND_SH, "-o %s: the name must end in .hdr, .exr or .png", output);
+    }
+    if (output_is_same(output, a->operands[0])) {
+        return usage_error(COMMAND_SH, "-o %s: is ENV itself; name another file", output);
     }
     return output_check(output, a->values[OPTION_FORCE].given);
 }
@@ -61,14 +66,20 @@ static alp_result write_map(projection *p, const char *path, bool overwrite)
                : result;
 }
 
+/// Prints the values. Those below 1e-7 of the largest are rounding, and print as 0.
 static alp_result print_values(const alp_sh9 *radiance, alp_sh_convention convention)
 {
     float values[9][3];
     const alp_result result = alp_sh_convert(radiance, convention, values);
-    for (uint32_t i = 0; result == ALP_OK && i < alp_sh_row_count(convention); i++) {
-        const float *v = values[i];
-        printf("%.7g %.7g %.7g\n", (double)(v[0] + 0.0f), (double)(v[1] + 0.0f),
-               (double)(v[2] + 0.0f)); // − 0 prints as 0
+    const uint32_t count = result == ALP_OK ? 3 * alp_sh_row_count(convention) : 0;
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < count; i++) {
+        largest = fmaxf(largest, fabsf(values[i / 3][i % 3]));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const float value = values[i / 3][i % 3];
+        printf("%.7g%c", fabsf(value) > 1e-7f * largest ? (double)value : 0.0,
+               i % 3 == 2 ? '\n' : ' ');
     }
     return result;
 }

@@ -177,23 +177,11 @@ typedef struct world_moments {
     double one, first[3], square[3], product[3];
 } world_moments;
 
-/// An axis of a face: an axis of the world, and its sign.
-typedef struct signed_axis {
-    int index;
-    double sign;
-} signed_axis;
-
-static signed_axis find_axis(const double axis[3])
-{
-    const int index = axis[0] != 0.0 ? 0 : axis[1] != 0.0 ? 1 : 2;
-    return (signed_axis){index, axis[index]};
-}
-
 /// Adds the three channels of a face.
 static void add_face(const alpi_cube_axes *axes, const double (*moments)[ALPI_CUBE_MOMENTS],
                      world_moments world[3])
 {
-    const signed_axis s = find_axis(axes->s), t = find_axis(axes->t), n = find_axis(axes->n);
+    const alpi_signed_axis s = axes->s, t = axes->t, n = axes->n;
     for (int k = 0; k < 3; k++) {
         const double *m = moments[k], rest = m[0] - m[2];
         world_moments *w = &world[k];

@@ -30,27 +30,39 @@ typedef struct texels {
 #endif
 
 #ifdef SHUFFLED // loops give many more instructions here
-static inline void split(const float *rgb, texels *t)
+/// The values of each channel lie in eight different lanes of the three vectors, in a mixed order.
+static inline void gather_channels(const float *rgb, texels *mixed)
 {
     eight a, b, c;
     memcpy(&a, rgb, sizeof a);
     memcpy(&b, rgb + LANES, sizeof b);
     memcpy(&c, rgb + 2 * LANES, sizeof c);
-    const eight red = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, -1, -1);
-    const eight green = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, -1, -1, -1);
-    const eight blue = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, -1, -1, -1);
-    t->channel[0] = __builtin_shufflevector(red, c, 0, 1, 2, 3, 4, 5, 10, 13);
-    t->channel[1] = __builtin_shufflevector(green, c, 0, 1, 2, 3, 4, 8, 11, 14);
-    t->channel[2] = __builtin_shufflevector(blue, c, 0, 1, 2, 3, 4, 9, 12, 15);
+    const eight red = __builtin_shufflevector(a, b, 0, 9, 2, 3, 12, 5, 6, 15);
+    const eight green = __builtin_shufflevector(c, a, 0, 9, 2, 3, 12, 5, 6, 15);
+    const eight blue = __builtin_shufflevector(b, c, 0, 9, 2, 3, 12, 5, 6, 15);
+    mixed->channel[0] = __builtin_shufflevector(red, c, 0, 1, 10, 3, 4, 13, 6, 7);
+    mixed->channel[1] = __builtin_shufflevector(green, b, 0, 1, 10, 3, 4, 13, 6, 7);
+    mixed->channel[2] = __builtin_shufflevector(blue, a, 0, 1, 10, 3, 4, 13, 6, 7);
+}
+
+static inline void split(const float *rgb, texels *t)
+{
+    texels m;
+    gather_channels(rgb, &m);
+    const eight red = m.channel[0], green = m.channel[1], blue = m.channel[2];
+    t->channel[0] = __builtin_shufflevector(red, red, 0, 3, 6, 1, 4, 7, 2, 5);
+    t->channel[1] = __builtin_shufflevector(green, green, 1, 4, 7, 2, 5, 0, 3, 6);
+    t->channel[2] = __builtin_shufflevector(blue, blue, 2, 5, 0, 3, 6, 1, 4, 7);
 }
 
 static inline void split_mirrored(const float *rgb, texels *t)
 {
-    split(rgb, t);
-    for (int k = 0; k < 3; k++) {
-        const eight c = t->channel[k];
-        t->channel[k] = __builtin_shufflevector(c, c, 7, 6, 5, 4, 3, 2, 1, 0);
-    }
+    texels m;
+    gather_channels(rgb, &m);
+    const eight red = m.channel[0], green = m.channel[1], blue = m.channel[2];
+    t->channel[0] = __builtin_shufflevector(red, red, 5, 2, 7, 4, 1, 6, 3, 0);
+    t->channel[1] = __builtin_shufflevector(green, green, 6, 3, 0, 5, 2, 7, 4, 1);
+    t->channel[2] = __builtin_shufflevector(blue, blue, 7, 4, 1, 6, 3, 0, 5, 2);
 }
 
 static inline eight add_halves(eight a, eight b)

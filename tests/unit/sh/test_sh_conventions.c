@@ -169,7 +169,7 @@ TEST(the_examples_of_the_documentation)
         float zero, y; // of the first row and of that of y
     } examples[] = {{ALP_SH_THREE, 1.772454f, 1.534990f},
                     {ALP_SH_FILAMENT, 0.5f, 0.5f},
-                    {ALP_SH_GLTF, 5.568328f, -3.214875f},
+                    {ALP_SH_GLTF, 5.568328f, -3.214876f},
                     {ALP_SH_GODOT, 0.564190f, 0.488603f},
                     {ALP_SH_UNITY, 0.5f, 0.5f}};
     alp_sh9 sky = {{{0.0f}}};
