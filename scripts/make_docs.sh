@@ -4,7 +4,7 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas or peers; without it all four. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers or sh; without it all five. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -71,10 +71,18 @@ atlas() { # the tables come in place, and the pictures in docs/pictures
     scripts/make_tables.py text 'atlas tables'
 }
 
+sh_page() {
+    head_of sh "Spherical harmonics"
+    section 'Cube maps' sh
+}
+
 write_page() {
     local page=$1 new
     new=$(mktemp)
-    "$page" >"$new"
+    case $page in
+        sh) sh_page >"$new" ;; # not the shell
+        *) "$page" >"$new" ;;
+    esac
     cat "$new" >"docs/measured/$page.md"
     rm "$new"
     case $page in
@@ -86,10 +94,10 @@ write_page() {
     esac
 }
 
-for page in "${@:-accuracy speed atlas peers}"; do
+for page in "${@:-accuracy speed atlas peers sh}"; do
     for one in $page; do
         case $one in
-            accuracy | speed | atlas | peers) write_page "$one" ;;
+            accuracy | speed | atlas | peers | sh) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac
     done

@@ -44,6 +44,13 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Solves the light of SCENE and samples it at probes, for everything that moves. Probes "
          "stand on a grid (--spacing, --bounds) or at any places (--at). docs/manual/"
          "probe-format.md describes the files."},
+    [COMMAND_SH] = {"sh", "ENV [--convention NAME] [-o IMAGE.hdr|.exr|.png]",
+                    "print the spherical harmonics of an environment", 1, command_sh,
+                    "Projects ENV to nine coefficients and prints them, one \"r g b\" a line, for "
+                    "the program that --convention names. ENV is an equirectangular image of "
+                    "radiance (.hdr, .exr), as for --sky of other commands: its first row is up "
+                    "(+Y), its middle column -Z, columns to the right turn towards +X. -o writes "
+                    "the irradiance of every direction as an image of the same layout."},
     [COMMAND_BENCH] =
         {"bench", "[ROOM] [--quick] [--scene SCENE] [--markdown]", "measure speed and accuracy", -1,
          command_bench,
@@ -53,13 +60,12 @@ static const command_entry commands[COMMAND_COUNT] = {
          "hour. ROOM is trace (building), transport (the innermost loop), atlas, maps (error per "
          "second), accuracy (stated against true errors), truth (each technique against the "
          "reference), denoise, bounced (methods of gathering bounced light), light (its rays "
-         "against the ray tracer, its bakes by workers and size) or formats (reading)."},
+         "against the ray tracer, its bakes by workers and size), sh (projection of cube maps) or "
+         "formats (reading)."},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
                      "bake --maps light bakes light on surfaces"},
     [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience for a moving camera", 1, NULL,
                           "bake --maps light bakes light on surfaces"},
-    [COMMAND_SH] = {"sh", "ENV", "spherical harmonics of a sky", 1, NULL,
-                    "there is no other way yet"},
     [COMMAND_VIEW] = {"view", "SCENE|OUT", "display a scene", 1, NULL,
                       "render makes a picture, and any glTF viewer displays a bake"},
 };

@@ -71,6 +71,8 @@ completion completion_of_operand(command_id command)
     } else if (command == COMMAND_COMPARE) {
         static const char endings[] = "exr hdr png jpg jpeg glb gltf obj dae zae";
         append(c.endings, endings, strlen(endings));
+    } else if (command == COMMAND_SH) {
+        append(c.endings, "hdr exr", strlen("hdr exr"));
     }
     return c;
 }

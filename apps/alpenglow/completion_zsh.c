@@ -126,7 +126,8 @@ static void print_command(command_id command)
         }
     }
     for (int i = 0; i < command_operand_limit(command); i++) {
-        printf("            ':%s:", command == COMMAND_COMPARE ? "image" : "scene");
+        printf("            ':%s:",
+               command == COMMAND_COMPARE || command == COMMAND_SH ? "image" : "scene");
         put_action(&operand);
         puts("' \\");
     }

@@ -49,6 +49,14 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                        "alpenglow compare maps/ao.exr maps/ao.exr --heatmap difference.png"},
                       {"Compare the maps of two assets:",
                        "alpenglow compare baked.glb baked.glb --map ao"}}},
+    [COMMAND_SH] = {.failed = "ENV could not be read or is no equirectangular float image, or the "
+                              "image could not be written.",
+                    .files = {{"ENV", "Environment to project (.hdr or .exr)."},
+                              {"IMAGE.hdr, IMAGE.exr, IMAGE.png", "The irradiance map."}},
+                    .examples = {{"Print the coefficients of a LightProbe of three.js:",
+                                  "alpenglow sh sky.hdr"},
+                                 {"Print those of Filament, and write the irradiance map:",
+                                  "alpenglow sh sky.hdr --convention filament -o irradiance.hdr"}}},
     [COMMAND_BENCH] =
         {.failed = "The measuring program, alpenglow-bench, is not installed, or a scene could not "
                    "be read.",

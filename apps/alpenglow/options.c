@@ -408,6 +408,7 @@ static void set_defaults(command_id command, command_line *parsed)
 static const char *operand_names(command_id command)
 {
     return command == COMMAND_COMPARE ? "two operands, A and B"
+           : command == COMMAND_SH    ? "one image, ENV"
            : command == COMMAND_BENCH ? "one ROOM at most"
                                       : "one SCENE";
 }

@@ -17,11 +17,11 @@ typedef enum command_id {
     COMMAND_COMPARE,
     COMMAND_SAMPLE,
     COMMAND_PROBES,
+    COMMAND_SH,
     COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
     COMMAND_LPV = COMMAND_BUILT_COUNT,
     COMMAND_AMBIENCE,
-    COMMAND_SH,
     COMMAND_VIEW,
     COMMAND_COUNT
 } command_id;
@@ -33,6 +33,7 @@ enum {
     IN_COMPARE = 1 << COMMAND_COMPARE,
     IN_SAMPLE = 1 << COMMAND_SAMPLE,
     IN_PROBES = 1 << COMMAND_PROBES,
+    IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
 };
 
@@ -115,6 +116,7 @@ typedef enum option_id {
     OPTION_MAP,
     OPTION_POINTS,
     OPTION_HEATMAP,
+    OPTION_CONVENTION,
     OPTION_BENCH_SCENE,
     OPTION_QUICK,
     OPTION_MARKDOWN,
@@ -258,6 +260,7 @@ int command_info(const command_line *arguments);
 int command_compare(const command_line *arguments);
 int command_sample(const command_line *arguments);
 int command_probes(const command_line *arguments);
+int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
 
 #endif

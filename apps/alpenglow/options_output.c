@@ -32,6 +32,16 @@ static const option rows[] = {
      .value = "OUT.probes.json",
      .help = "The probes, required. OUT.probes.ktx2 beside it holds the light, and "
              "OUT.probes.moments.ktx2 the distances."},
+    {.id = OPTION_OUTPUT,
+     .commands = IN_SH,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "IMAGE.hdr|IMAGE.exr|IMAGE.png",
+     .help = "Irradiance by direction of the normal, W/m2 per channel, not divided by pi, never "
+             "negative. 256 x 128 pixels. .hdr, .exr: linear. .png: 8-bit sRGB with automatic "
+             "exposure."},
     {.id = OPTION_MAPS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -137,7 +147,7 @@ static const option rows[] = {
      .help = "Write a picture of |A - B| of two images. Black is 0, white is the 99th "
              "percentile and above, magenta is covered in one image only."},
     {.id = OPTION_FORCE,
-     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES,
+     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_SH,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",

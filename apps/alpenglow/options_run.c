@@ -78,7 +78,7 @@ static const option rows[] = {
              "results of info and compare."},
 
     {.id = OPTION_HELP,
-     .commands = SCENE_COMMANDS | IN_COMPARE | IN_BENCH,
+     .commands = SCENE_COMMANDS | IN_COMPARE | IN_SH | IN_BENCH,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-h",

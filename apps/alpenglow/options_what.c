@@ -203,6 +203,22 @@ static const option rows[] = {
              "light: MOZ_lightmap or the file of extras.lightmap (.exr, .hdr), times "
              "its intensity; else the emission of materials with an emission texture. "
              "In the units of the file (--units)."},
+    {.id = OPTION_CONVENTION,
+     .commands = IN_SH,
+     .group = GROUP_WHAT,
+     .kind = KIND_CHOICE,
+     .name = "--convention",
+     .value = "three|filament|gltf|godot|unity|ambient-cube",
+     .choices = "three|filament|gltf|godot|unity|ambient-cube",
+     .initial = "three",
+     .help = "Numbers to print, in the order of their reader.\n"
+             "three: LightProbe of three.js, radiance.\n"
+             "filament: irradiance(3, sh), E / pi as a polynomial.\n"
+             "gltf: irradianceCoefficients of EXT_lights_image_based.\n"
+             "godot: LightmapGIData, radiance / pi.\n"
+             "unity: SphericalHarmonicsL2, E / pi as a polynomial. Unity's axes are left-handed; "
+             "the numbers are in ours.\n"
+             "ambient-cube: six lines, the irradiance of +x -x +y -y +z -z."},
     {.id = OPTION_POINTS,
      .commands = IN_COMPARE,
      .group = GROUP_WHAT,

@@ -4,10 +4,10 @@
 
 const alpi_cube_axes *alpi_cube_face_axes(alp_cube_face face)
 {
+    enum { X, Y, Z };
     static const alpi_cube_axes axes[ALPI_CUBE_FACES] = {
-        {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, -1, 0}, {-1, 0, 0}},
-        {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},   {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
-        {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+        {{Z, -1}, {Y, -1}, {X, 1}}, {{Z, 1}, {Y, -1}, {X, -1}}, {{X, 1}, {Z, 1}, {Y, 1}},
+        {{X, 1}, {Z, -1}, {Y, -1}}, {{X, 1}, {Y, -1}, {Z, 1}},  {{X, -1}, {Y, -1}, {Z, -1}},
     };
     return &axes[face];
 }
@@ -16,9 +16,11 @@ vec3 alpi_cube_direction(alp_cube_face face, double s, double t)
 {
     const alpi_cube_axes *a = alpi_cube_face_axes(face);
     const double inverse = 1.0 / sqrt(s * s + t * t + 1.0);
-    return (vec3){(float)((s * a->s[0] + t * a->t[0] + a->n[0]) * inverse),
-                  (float)((s * a->s[1] + t * a->t[1] + a->n[1]) * inverse),
-                  (float)((s * a->s[2] + t * a->t[2] + a->n[2]) * inverse)};
+    float d[3];
+    d[a->s.index] = (float)(s * a->s.sign * inverse);
+    d[a->t.index] = (float)(t * a->t.sign * inverse);
+    d[a->n.index] = (float)(a->n.sign * inverse);
+    return vec3_load(d);
 }
 
 vec3 alpi_cube_texel_direction(alp_cube_face face, uint32_t size, uint32_t column, uint32_t row)

@@ -10,9 +10,15 @@
 
 enum { ALPI_CUBE_FACES = 6 };
 
-/// Axes of a face, each ± x, y or z: columns run along s, rows along t, and n is the middle.
+/// An axis of the world, 0 to 2, and a sign.
+typedef struct alpi_signed_axis {
+    int index;
+    double sign;
+} alpi_signed_axis;
+
+/// Axes of a face: columns run along s, rows along t, and n is the middle.
 typedef struct alpi_cube_axes {
-    double s[3], t[3], n[3];
+    alpi_signed_axis s, t, n;
 } alpi_cube_axes;
 const alpi_cube_axes *alpi_cube_face_axes(alp_cube_face face);
 

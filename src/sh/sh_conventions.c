@@ -61,11 +61,12 @@ alp_result alp_sh_convert(const alp_sh9 *radiance, alp_sh_convention convention,
 
 /// With P and N the values of opposite sides: P − N = 2 A₁ Y₁ c₁. The means (P + N) / 2 are
 /// m = A₀ Y₀ c₀ + A₂ (band 2), and band 2 sums to 0 over the three axes.
-static void from_cube(const float cube[][3], int k, alp_sh9 *radiance)
+static void from_cube(const float *cube, int k, alp_sh9 *radiance)
 {
     double mean[3], change[3];
     for (int axis = 0; axis < 3; axis++) {
-        const double positive = (double)cube[2 * axis][k], negative = (double)cube[2 * axis + 1][k];
+        const double positive = (double)cube[6 * axis + k];
+        const double negative = (double)cube[6 * axis + 3 + k];
         mean[axis] = 0.5 * (positive + negative);
         change[axis] = 0.5 * (positive - negative) / (ALP_SH_A1 * ALP_SH_Y1);
     }
@@ -84,7 +85,7 @@ static void from_cube(const float cube[][3], int k, alp_sh9 *radiance)
     }
 }
 
-alp_result alp_sh_from(alp_sh_convention convention, const float values[][3], alp_sh9 *radiance)
+alp_result alp_sh_from(alp_sh_convention convention, const float *values, alp_sh9 *radiance)
 {
     if (radiance == NULL || values == NULL || alp_sh_row_count(convention) == 0) {
         return ALP_ERROR_INVALID_ARGUMENT;
@@ -95,20 +96,19 @@ alp_result alp_sh_from(alp_sh_convention convention, const float values[][3], al
             continue;
         }
         for (int i = 0; i < ALPI_SH9_COUNT; i++) {
-            radiance->c[i][k] = (float)((double)values[i][k] / factors[convention][i]);
+            radiance->c[i][k] = (float)((double)values[3 * i + k] / factors[convention][i]);
         }
     }
     return ALP_OK;
 }
 
-void alp_sh_ambient_cube_irradiance(const float cube[6][3], const float normal[3],
-                                    float irradiance[3])
+void alp_sh_ambient_cube_irradiance(const float *cube, const float normal[3], float irradiance[3])
 {
     for (int k = 0; k < 3; k++) {
         float e = 0.0f;
         for (int axis = 0; axis < 3; axis++) {
             const int row = 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
-            e += normal[axis] * normal[axis] * cube[row][k];
+            e += normal[axis] * normal[axis] * cube[3 * row + k];
         }
         irradiance[k] = e;
     }

@@ -97,101 +97,125 @@ void alpi_cube_table_release(alp_context *context, alpi_cube_table *table)
 
 // --- rows ----------------------------------------------------------------------------------------
 
-enum { TOP = 1, BOTTOM = 2, SINGLE_LIMIT = 64 }; // products that are added in single precision
+enum { SINGLE_LIMIT = 64 }; // products that are added in single precision
 
-/// Which rows of a mirrored pair lie in [first, end).
-static unsigned present(const alpi_cube_table *t, uint32_t pair, uint32_t first, uint32_t end)
+/// Mirrored pairs [first, end) of which one row is present.
+typedef struct pair_range {
+    uint32_t first, end;
+} pair_range;
+
+static uint32_t at_most(uint32_t value, uint32_t limit)
 {
-    const uint32_t mirrored = t->size - 1 - pair;
-    const unsigned top = pair >= first && pair < end ? TOP : 0;
-    return mirrored != pair && mirrored >= first && mirrored < end ? top | BOTTOM : top;
+    return value < limit ? value : limit;
+}
+
+static bool holds(pair_range range, uint32_t pair)
+{
+    return pair >= range.first && pair < range.end;
+}
+
+/// The next pair from which on `range` is present, or no longer; else `end`.
+static uint32_t next_change(pair_range range, uint32_t pair, uint32_t end)
+{
+    const uint32_t change = pair < range.first ? range.first : range.end;
+    return change > pair && change < end ? change : end;
+}
+
+/// Adds pairs [first, end), whose upper rows are all present or not, and so are the lower ones.
+/// @param top, bottom rows of the first pair; NULL where they are not present
+static void add_pairs(const alpi_cube_table *t, alpi_cube_sum_fn *sum, pair_range pairs,
+                      const float *top, const float *bottom, double sums[3][ALPI_CUBE_MOMENTS])
+{
+    const ptrdiff_t width = 3 * (ptrdiff_t)t->size;
+    const alpi_cube_rows rows = {.top = top != NULL ? top : t->darkness,
+                                 .bottom = bottom != NULL ? bottom : t->darkness,
+                                 .top_step = top != NULL ? width : 0,
+                                 .bottom_step = bottom != NULL ? -width : 0,
+                                 .weights = t->weights +
+                                            (size_t)pairs.first * t->blocks * ALPI_CUBE_MOMENTS,
+                                 .size = t->size,
+                                 .half = t->half,
+                                 .blocks = t->blocks,
+                                 .pairs = pairs.end - pairs.first};
+    float moments[3][ALPI_CUBE_MOMENTS];
+    sum(&rows, moments);
+    for (int k = 0; k < 3; k++) {
+        for (int m = 0; m < ALPI_CUBE_MOMENTS; m++) {
+            sums[k][m] += (double)moments[k][m];
+        }
+    }
 }
 
 void alpi_cube_add(const alpi_cube_table *table, alpi_cube_sum_fn *sum, alp_cube_face face,
                    uint32_t first_row, uint32_t row_count, const float *pixels,
                    alpi_cube_sums *sums)
 {
-    const uint32_t end = first_row + row_count;
+    const uint32_t size = table->size, end = first_row + row_count;
     const uint32_t limit = table->blocks < SINGLE_LIMIT ? SINGLE_LIMIT / table->blocks : 1;
-    const ptrdiff_t width = 3 * (ptrdiff_t)table->size;
+    const pair_range tops = {first_row, at_most(end, table->half)};
+    const pair_range bottoms = {size - end, at_most(size - first_row, size / 2)};
     uint32_t next = 0;
     for (uint32_t pair = 0; pair < table->half; pair = next) {
-        const unsigned which = present(table, pair, first_row, end);
-        next = pair + 1;
-        while (next < table->half && next - pair < limit &&
-               present(table, next, first_row, end) == which) {
-            next++;
-        }
-        if (which == 0) {
-            continue;
-        }
-        const uint32_t mirrored = table->size - 1 - pair;
-        alpi_cube_rows rows = {.top = table->darkness, .bottom = table->darkness};
-        if ((which & TOP) != 0) {
-            rows.top = pixels + width * (ptrdiff_t)(pair - first_row);
-            rows.top_step = width;
-        }
-        if ((which & BOTTOM) != 0) {
-            rows.bottom = pixels + width * (ptrdiff_t)(mirrored - first_row);
-            rows.bottom_step = -width;
-        }
-        rows.weights = table->weights + (size_t)pair * table->blocks * ALPI_CUBE_MOMENTS;
-        rows.size = table->size;
-        rows.half = table->half;
-        rows.blocks = table->blocks;
-        rows.pairs = next - pair;
-        float moments[3][ALPI_CUBE_MOMENTS];
-        sum(&rows, moments);
-        for (int k = 0; k < 3; k++) {
-            for (int m = 0; m < ALPI_CUBE_MOMENTS; m++) {
-                sums->face[face][k][m] += (double)moments[k][m];
-            }
+        next = at_most(pair + limit, table->half);
+        next = next_change(bottoms, pair, next_change(tops, pair, next));
+        const bool top = holds(tops, pair), bottom = holds(bottoms, pair);
+        const size_t width = 3 * (size_t)size;
+        if (top || bottom) {
+            add_pairs(table, sum, (pair_range){pair, next},
+                      top ? pixels + width * (pair - first_row) : NULL,
+                      bottom ? pixels + width * (size - 1 - pair - first_row) : NULL,
+                      sums->face[face]);
         }
     }
 }
 
 // --- coefficients --------------------------------------------------------------------------------
 
-/// Moments of a channel about the axes of the world.
+/// Moments of a channel about the axes of the world. Products of two different axes come as those
+/// of y and z, z and x, x and y: each lies at the index of the third axis.
 typedef struct world_moments {
-    double one, first[3], second[3][3];
+    double one, first[3], square[3], product[3];
 } world_moments;
 
-/// Adds a face. Its axes are permuted axes of the world with signs.
-static void add_face(const alpi_cube_axes *axes, const double m[ALPI_CUBE_MOMENTS],
-                     world_moments *w)
+/// Adds the three channels of a face.
+static void add_face(const alpi_cube_axes *axes, const double (*moments)[ALPI_CUBE_MOMENTS],
+                     world_moments world[3])
 {
-    const double cc = m[2], aa = 0.5 * (m[0] - cc + m[3]), bb = 0.5 * (m[0] - cc - m[3]);
-    const double *s = axes->s, *t = axes->t, *n = axes->n;
-    w->one += m[0];
-    for (int i = 0; i < 3; i++) {
-        w->first[i] += m[4] * s[i] + m[6] * t[i] + m[1] * n[i];
-        for (int j = 0; j < 3; j++) {
-            w->second[i][j] += aa * s[i] * s[j] + bb * t[i] * t[j] + cc * n[i] * n[j] +
-                               m[8] * (s[i] * t[j] + t[i] * s[j]) +
-                               m[5] * (s[i] * n[j] + n[i] * s[j]) +
-                               m[7] * (t[i] * n[j] + n[i] * t[j]);
-        }
+    const alpi_signed_axis s = axes->s, t = axes->t, n = axes->n;
+    for (int k = 0; k < 3; k++) {
+        const double *m = moments[k], rest = m[0] - m[2];
+        world_moments *w = &world[k];
+        w->one += m[0];
+        w->first[n.index] += n.sign * m[1];
+        w->square[n.index] += m[2];
+        w->square[s.index] += 0.5 * (rest + m[3]);
+        w->square[t.index] += 0.5 * (rest - m[3]);
+        w->first[s.index] += s.sign * m[4];
+        w->product[t.index] += s.sign * n.sign * m[5];
+        w->first[t.index] += t.sign * m[6];
+        w->product[s.index] += t.sign * n.sign * m[7];
+        w->product[n.index] += s.sign * t.sign * m[8];
     }
 }
 
 alpi_sh9 alpi_cube_finish(const alpi_cube_sums *sums)
 {
     alpi_sh9 radiance;
+    world_moments world[3] = {{.one = 0.0}};
+    for (int face = 0; face < ALPI_CUBE_FACES; face++) {
+        add_face(alpi_cube_face_axes((alp_cube_face)face), sums->face[face], world);
+    }
     for (int k = 0; k < 3; k++) {
-        world_moments w = {0};
-        for (int face = 0; face < ALPI_CUBE_FACES; face++) {
-            add_face(alpi_cube_face_axes((alp_cube_face)face), sums->face[face][k], &w);
-        }
-        const double c[ALPI_SH9_COUNT] = {ALP_SH_Y0 * w.one,
-                                          ALP_SH_Y1 * w.first[1],
-                                          ALP_SH_Y1 * w.first[2],
-                                          ALP_SH_Y1 * w.first[0],
-                                          ALP_SH_Y2 * w.second[0][1],
-                                          ALP_SH_Y2 * w.second[1][2],
-                                          ALP_SH_Y20 * (3.0 * w.second[2][2] - w.one),
-                                          ALP_SH_Y2 * w.second[0][2],
-                                          ALP_SH_Y22 * (w.second[0][0] - w.second[1][1])};
+        const world_moments *w = &world[k];
+        const double c[ALPI_SH9_COUNT] = {ALP_SH_Y0 * w->one,
+                                          ALP_SH_Y1 * w->first[1],
+                                          ALP_SH_Y1 * w->first[2],
+                                          ALP_SH_Y1 * w->first[0],
+                                          ALP_SH_Y2 * w->product[2],
+                                          ALP_SH_Y2 * w->product[0],
+                                          ALP_SH_Y20 * (3.0 * w->square[2] - w->one),
+                                          ALP_SH_Y2 * w->product[1],
+                                          ALP_SH_Y22 * (w->square[0] - w->square[1])};
         for (int i = 0; i < ALPI_SH9_COUNT; i++) {
             radiance.c[i][k] = (float)c[i];
         }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { LANES = ALPI_CUBE_LANES, MOMENTS = ALPI_CUBE_MOMENTS, BATCH = 8 };
+enum { SUMS = 3 * MOMENTS, PADDED_SUMS = 32 }; // whole groups of eight
 
 typedef float eight __attribute__((vector_size(32)));
 
@@ -29,27 +30,61 @@ typedef struct texels {
 #endif
 
 #ifdef SHUFFLED // loops give many more instructions here
-static inline void split(const float *rgb, texels *t)
+/// The values of each channel lie in eight different lanes of the three vectors, in a mixed order.
+static inline void gather_channels(const float *rgb, texels *mixed)
 {
     eight a, b, c;
     memcpy(&a, rgb, sizeof a);
     memcpy(&b, rgb + LANES, sizeof b);
     memcpy(&c, rgb + 2 * LANES, sizeof c);
-    const eight red = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, -1, -1);
-    const eight green = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, -1, -1, -1);
-    const eight blue = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, -1, -1, -1);
-    t->channel[0] = __builtin_shufflevector(red, c, 0, 1, 2, 3, 4, 5, 10, 13);
-    t->channel[1] = __builtin_shufflevector(green, c, 0, 1, 2, 3, 4, 8, 11, 14);
-    t->channel[2] = __builtin_shufflevector(blue, c, 0, 1, 2, 3, 4, 9, 12, 15);
+    const eight red = __builtin_shufflevector(a, b, 0, 9, 2, 3, 12, 5, 6, 15);
+    const eight green = __builtin_shufflevector(c, a, 0, 9, 2, 3, 12, 5, 6, 15);
+    const eight blue = __builtin_shufflevector(b, c, 0, 9, 2, 3, 12, 5, 6, 15);
+    mixed->channel[0] = __builtin_shufflevector(red, c, 0, 1, 10, 3, 4, 13, 6, 7);
+    mixed->channel[1] = __builtin_shufflevector(green, b, 0, 1, 10, 3, 4, 13, 6, 7);
+    mixed->channel[2] = __builtin_shufflevector(blue, a, 0, 1, 10, 3, 4, 13, 6, 7);
+}
+
+static inline void split(const float *rgb, texels *t)
+{
+    texels m;
+    gather_channels(rgb, &m);
+    const eight red = m.channel[0], green = m.channel[1], blue = m.channel[2];
+    t->channel[0] = __builtin_shufflevector(red, red, 0, 3, 6, 1, 4, 7, 2, 5);
+    t->channel[1] = __builtin_shufflevector(green, green, 1, 4, 7, 2, 5, 0, 3, 6);
+    t->channel[2] = __builtin_shufflevector(blue, blue, 2, 5, 0, 3, 6, 1, 4, 7);
 }
 
 static inline void split_mirrored(const float *rgb, texels *t)
 {
-    split(rgb, t);
-    for (int k = 0; k < 3; k++) {
-        const eight c = t->channel[k];
-        t->channel[k] = __builtin_shufflevector(c, c, 7, 6, 5, 4, 3, 2, 1, 0);
-    }
+    texels m;
+    gather_channels(rgb, &m);
+    const eight red = m.channel[0], green = m.channel[1], blue = m.channel[2];
+    t->channel[0] = __builtin_shufflevector(red, red, 5, 2, 7, 4, 1, 6, 3, 0);
+    t->channel[1] = __builtin_shufflevector(green, green, 6, 3, 0, 5, 2, 7, 4, 1);
+    t->channel[2] = __builtin_shufflevector(blue, blue, 7, 4, 1, 6, 3, 0, 5, 2);
+}
+
+static inline eight add_halves(eight a, eight b)
+{
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11) +
+           __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+static inline eight add_quarters(eight a, eight b)
+{
+    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13) +
+           __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Adds the lanes of each of eight sums: ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
+static inline void add_lanes(const eight *s, float *totals)
+{
+    const eight a = add_quarters(add_halves(s[0], s[4]), add_halves(s[1], s[5]));
+    const eight b = add_quarters(add_halves(s[2], s[6]), add_halves(s[3], s[7]));
+    const eight all = __builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14) +
+                      __builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15);
+    memcpy(totals, &all, sizeof all);
 }
 #else
 static inline void split(const float *rgb, texels *t)
@@ -75,6 +110,15 @@ static inline void split_mirrored(const float *rgb, texels *t)
     }
     memcpy(t, mirrored, sizeof *t);
 }
+
+/// Adds the lanes of each of eight sums, in the order of the other variant.
+static inline void add_lanes(const eight *sums, float *totals)
+{
+    for (int i = 0; i < 8; i++) {
+        const eight s = sums[i];
+        totals[i] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    }
+}
 #endif
 
 /// Eight texels from both ends of a row. A last block that is not full is filled up with darkness.
@@ -87,13 +131,16 @@ static inline void read_row(const alpi_cube_rows *r, const float *row, uint32_t 
         split_mirrored(row + 3 * (size_t)(r->size - LANES - first), right);
         return;
     }
-    float padded[3 * LANES] = {0.0f};
-    memcpy(padded, row + 3 * (size_t)first, 3 * count * sizeof *row);
-    split(padded, left);
-    memset(padded, 0, sizeof padded);
-    memcpy(padded + 3 * (size_t)(LANES - count), row + 3 * (size_t)(r->size - first - count),
-           3 * count * sizeof *row);
-    split_mirrored(padded, right);
+    float ends[2][3 * LANES] = {{0.0f}};
+    const float *from_left = row + 3 * (size_t)first;
+    const float *from_right = row + 3 * (size_t)(r->size - first - count);
+    float *last = ends[1] + 3 * (size_t)(LANES - count);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        ends[0][i] = from_left[i];
+        last[i] = from_right[i];
+    }
+    split(ends[0], left);
+    split_mirrored(ends[1], right);
 }
 
 static inline void fold(const alpi_cube_rows *r, const float *top, const float *bottom,
@@ -114,41 +161,43 @@ static inline void fold(const alpi_cube_rows *r, const float *top, const float *
     }
 }
 
-static inline void add_products(const folded *f, const eight *weights, uint32_t count, eight *sums)
+/// @param begins the sums hold nothing yet
+static inline void add_products(const folded *f, const eight *weights, uint32_t count, bool begins,
+                                eight *sums)
 {
-    eight s0 = sums[0], s1 = sums[1], s2 = sums[2], s3 = sums[3], s4 = sums[4], s5 = sums[5];
-    eight s6 = sums[6], s7 = sums[7], s8 = sums[8];
-    for (uint32_t i = 0; i < count; i++, f++, weights += MOMENTS) {
-        s0 += weights[0] * f->even;
-        s1 += weights[1] * f->even;
-        s2 += weights[2] * f->even;
-        s3 += weights[3] * f->even;
-        s4 += weights[4] * f->odd_s;
-        s5 += weights[5] * f->odd_s;
-        s6 += weights[6] * f->odd_t;
-        s7 += weights[7] * f->odd_t;
-        s8 += weights[8] * f->odd;
+    const eight none = {0.0f};
+    eight s[MOMENTS];
+    for (int i = 0; i < MOMENTS; i++) {
+        s[i] = begins ? none : sums[i];
     }
-    sums[0] = s0, sums[1] = s1, sums[2] = s2, sums[3] = s3, sums[4] = s4, sums[5] = s5;
-    sums[6] = s6, sums[7] = s7, sums[8] = s8;
-}
-
-static inline float sum_lanes(const eight *lanes)
-{
-    float a[LANES];
-    memcpy(a, lanes, sizeof a);
-    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+    for (uint32_t i = 0; i < count; i++, f++, weights += MOMENTS) {
+        s[0] += weights[0] * f->even;
+        s[1] += weights[1] * f->even;
+        s[2] += weights[2] * f->even;
+        s[3] += weights[3] * f->even;
+        s[4] += weights[4] * f->odd_s;
+        s[5] += weights[5] * f->odd_s;
+        s[6] += weights[6] * f->odd_t;
+        s[7] += weights[7] * f->odd_t;
+        s[8] += weights[8] * f->odd;
+    }
+    for (int i = 0; i < MOMENTS; i++) {
+        sums[i] = s[i];
+    }
 }
 
 void ALPI_VARIANT(alpi_cube_sum)(const alpi_cube_rows *rows, float moments[3][MOMENTS])
 {
-    eight sums[3][MOMENTS];
+    eight sums[PADDED_SUMS];
+    float totals[PADDED_SUMS];
     folded batch[3][BATCH];
     const eight *weights = (const eight *)rows->weights;
     const uint32_t count = rows->pairs * rows->blocks;
     const float *top = rows->top, *bottom = rows->bottom;
     uint32_t block = 0;
-    memset(sums, 0, sizeof sums);
+    for (int i = SUMS; i < PADDED_SUMS; i++) {
+        sums[i] = (eight){0.0f};
+    }
     for (uint32_t first = 0; first < count; first += BATCH) {
         const uint32_t few = count - first < BATCH ? count - first : BATCH;
         for (uint32_t i = 0; i < few; i++) {
@@ -160,12 +209,14 @@ void ALPI_VARIANT(alpi_cube_sum)(const alpi_cube_rows *rows, float moments[3][MO
             }
         }
         for (int k = 0; k < 3; k++) {
-            add_products(batch[k], weights + (size_t)first * MOMENTS, few, sums[k]);
+            add_products(batch[k], weights + (size_t)first * MOMENTS, few, first == 0,
+                         sums + (size_t)k * MOMENTS);
         }
     }
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < MOMENTS; i++) {
-            moments[k][i] = sum_lanes(&sums[k][i]);
-        }
+    for (int i = 0; i < PADDED_SUMS; i += LANES) {
+        add_lanes(sums + i, totals + i);
+    }
+    for (int i = 0; i < SUMS; i++) {
+        moments[i / MOMENTS][i % MOMENTS] = totals[i];
     }
 }

@@ -22,14 +22,13 @@ void alp_sh_shader_vectors(const alp_sh9 *radiance, float vectors[12][4])
     }
 }
 
-void alp_sh_shader_irradiance(const float vectors[12][4], const float normal[3],
-                              float irradiance[3])
+void alp_sh_shader_irradiance(const float *vectors, const float normal[3], float irradiance[3])
 {
     const float n[4] = {normal[0], normal[1], normal[2], 1.0f};
     for (int k = 0; k < 3; k++) {
         float e = 0.0f;
         for (int i = 0; i < 4; i++) {
-            const float *column = vectors[4 * k + i];
+            const float *column = vectors + 4 * (4 * (size_t)k + (size_t)i);
             e += n[i] * (column[0] * n[0] + column[1] * n[1] + column[2] * n[2] + column[3]);
         }
         irradiance[k] = e;
