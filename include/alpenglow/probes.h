@@ -39,7 +39,9 @@ typedef struct alp_probe_options {
     alp_probe_basis basis;
     bool visibility; ///< store distances, against light through walls; default true
     bool gradients;  ///< store the change of each coefficient per metre; default false
-    bool layers;     ///< light of each lamp and sun apart; default false
+    /// The light of each lamp and sun is stored apart too, so that a host can dim it; default
+    /// false. At most 15 get a layer, in the order of the lights: a warning says so (many-layers).
+    bool layers;
     bool direct;     ///< light straight from punctual lamps and suns is in it; default false
     uint32_t rays;   ///< of each probe, [384, 1572864], rounded up to 4 × 6 × (4 k)²; default 1536
     alp_lighting_options lighting; ///< beside the lights of the file
@@ -87,7 +89,8 @@ typedef struct alp_probes_info {
 ALP_API alp_probes_info alp_probes_get_info(const alp_probes *probes);
 
 /// [count][coefficients][3], owned by the probes. SH: radiance, order 1, y, z, x, xy, yz, 3z² − 1,
-/// xz, x² − y². Cube: E at +x −x +y −y +z −z. @param layer UINT32_MAX = all light that is in no layer
+/// xz, x² − y². Cube: E at +x −x +y −y +z −z. @param layer UINT32_MAX = all light, layers
+/// included
 ALP_API const float *alp_probes_coefficients(const alp_probes *probes, uint32_t layer);
 /// Name of the lamp of a layer, "" past the last; owned by the probes.
 ALP_API const char *alp_probes_layer_name(const alp_probes *probes, uint32_t layer);

@@ -4,16 +4,18 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "base/warp.h"
+#include "fields/probes/probe_layers.h"
 #include "fields/probes/probes.h"
 #include "fields/truth.h"
 #include "maps/radiosity/solution.h"
 #include "scene/origin.h"
+#include "transport/examine.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 512, HELD_OUT_PATHS = 256 };
-enum { STREAM_HELD_OUT = 24 };
+enum { STREAM_HELD_OUT = 24, LIST_LIMIT = 1 << 20 };
 
 alp_probe_options alp_probe_options_default(void)
 {
@@ -47,6 +49,10 @@ static alp_result check(const alp_scene *scene, const alp_probe_options *o)
     if (o->positions != NULL && o->position_count == 0) {
         return alpi_fail(scene->context, code, "probes: no positions");
     }
+    if (o->positions != NULL && o->position_count > LIST_LIMIT) {
+        return alpi_fail(scene->context, ALP_ERROR_LIMIT, "probes: %u positions, at most %d",
+                         o->position_count, LIST_LIMIT);
+    }
     for (uint32_t i = 0; i < o->position_count && o->positions != NULL; i++) {
         if (!vec3_is_finite(vec3_load(o->positions[i]))) {
             return alpi_fail(scene->context, code,
@@ -68,6 +74,7 @@ typedef struct probe_job {
     alpi_lighting *space;        // sky and emissive surfaces: what arrives directly
     alpi_lighting *soft, *spots; // the same with the soft sky, and with its bright spots
     alpi_solution *solution;     // NULL without bounces
+    alpi_probe_layers layers;
     alpi_probe_sampling sampling;
     alpi_probe_volume *volume;
 } probe_job;
@@ -84,7 +91,9 @@ static alp_result prepare_volume(probe_job *job)
     } else {
         ALP_TRY(alpi_probe_lattice(job->scene, o, v));
     }
+    v->layer_count = job->layers.count;
     ALP_TRY(alpi_probe_volume_allocate(job->scene->context, o->gradients, o->visibility, v));
+    ALP_TRY(alpi_probe_layers_name(job->lighting, &job->layers, v));
     for (uint32_t i = 0; i < v->count && v->is_list; i++) {
         for (int k = 0; k < 3; k++) {
             v->places[i][k] = (float)((double)o->positions[i][k] + job->scene->origin[k]);
@@ -128,6 +137,7 @@ static alp_result solve(probe_job *job)
                                      .one_sided = o->one_sided,
                                      .bounces = o->bounces,
                                      .tolerance = alpi_radiosity_tolerance(o->bounces),
+                                     .layers = o->layers ? &job->layers.light : NULL,
                                      .seed = o->seed};
     options.atlas.size = o->atlas_size;
     return alpi_solution_create(&options, o->progress, o->progress_user, &job->solution);
@@ -162,7 +172,6 @@ static void aim(probe_job *job)
     const vec3 size = vec3_sub(job->scene->bounds_max, job->scene->bounds_min);
     alpi_probe_sampling *s = &job->sampling;
     s->context = job->scene->context;
-    s->scene = job->scene;
     s->options = job->o;
     s->rays = (alpi_sphere_rays){
         .context = s->context,
@@ -199,7 +208,7 @@ static void state_noise(const probe_job *job)
     for (uint32_t i = 0; i < v->count; i++) {
         const alpi_sphere_light *light = &job->sampling.values[i];
         if (v->states[i] > ALPI_PROBE_MOVED) {
-            continue;
+            continue; // not sampled
         }
         for (int k = 0; k < 3; k++) {
             sum += ALPI_PI * 0.28209479177387814 * (double)light->light.c[0][k];
@@ -333,20 +342,67 @@ static alp_result state_interpolation(const probe_job *job)
 
 // --- the handle ----------------------------------------------------------------------------------
 
+/// Light of each layer: what surfaces reflect of one lamp, and, as asked, that lamp itself.
+static alp_result sample_layers(probe_job *job, const alpi_probe_light *all)
+{
+    alpi_probe_volume *v = job->volume;
+    const alpi_task_progress progress = {
+        .callback = job->o->progress, .user = job->o->progress_user, .stage = "layers"};
+    alpi_probe_light one = *all;
+    one.rays.aimed = NULL;
+    one.rays.from.emitters = one.rays.from.sky = false;
+    one.moments = NULL;
+    one.stage = "layers";
+    for (uint32_t i = 0; i < v->layer_count; i++) {
+        one.lamp = job->layers.lamps[i];
+        if (job->solution != NULL) {
+            ALP_TRY(alpi_radiosity_show(&job->solution->radiosity, i, NULL, &progress));
+        }
+        ALP_TRY(alpi_probes_light(&job->sampling, &one, v, v->layers[i].coefficients));
+    }
+    return v->layer_count > 0 && job->solution != NULL
+               ? alpi_radiosity_show(&job->solution->radiosity, ALPI_NONE, NULL, &progress)
+               : ALP_OK;
+}
+
+static alp_result sample(probe_job *job)
+{
+    alpi_probe_volume *v = job->volume;
+    alpi_probe_sampling *s = &job->sampling;
+    ALP_TRY(alpi_probes_survey(s, v));
+    const alpi_probe_light light = {.rays = s->rays,
+                                    .lamps = job->o->direct ? job->lighting : NULL,
+                                    .lamp = ALPI_NONE,
+                                    .points = (const float(*)[3])s->points,
+                                    .values = s->values,
+                                    .moments = v->moments,
+                                    .stage = "probes"};
+    ALP_TRY(alpi_probes_light(s, &light, v, v->coefficients));
+    state_noise(job);
+    if (v->gradients != NULL) {
+        ALP_TRY(alpi_probes_find_gradients(s, &light, v));
+    }
+    ALP_TRY(sample_layers(job, &light));
+    return alpi_probes_fill(s, v);
+}
+
 static alp_result run(probe_job *job)
 {
+    const alp_probe_options *o = job->o;
+    ALP_TRY(alpi_lighting_create(job->scene, &o->lighting, &job->lighting));
+    if (o->layers) {
+        ALP_TRY(alpi_probe_layers_plan(job->scene, job->lighting, &job->layers));
+    }
     ALP_TRY(prepare_volume(job));
-    ALP_TRY(alpi_tracer_for_scene(job->scene, job->o->progress, job->o->progress_user,
-                                  &job->tracer, NULL));
-    ALP_TRY(alpi_lighting_create(job->scene, &job->o->lighting, &job->lighting));
-    ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &job->o->lighting, &job->space));
-    ALP_TRY(alpi_lighting_split_sky(job->space, &job->o->lighting, &job->soft, &job->spots));
+    ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &job->tracer, NULL));
+    ALP_TRY(alpi_examine_light(job->tracer, (alpi_trace_filter){.one_sided = o->one_sided},
+                               job->scene, job->lighting, o->progress, o->progress_user));
+    ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &o->lighting, &job->space));
+    ALP_TRY(alpi_lighting_split_sky(job->space, &o->lighting, &job->soft, &job->spots));
     ALP_TRY(solve(job));
     ALP_TRY(prepare_sampling(job));
     aim(job);
-    ALP_TRY(alpi_probes_sample(&job->sampling, job->volume));
-    ALP_TRY(alpi_probes_fill(&job->sampling, job->volume));
-    state_noise(job);
+    ALP_TRY(sample(job));
     return job->volume->is_list ? ALP_OK : state_interpolation(job);
 }
 
@@ -372,6 +428,8 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
     alpi_set_watch(context, former);
     alpi_release(context, job.sampling.points);
     alpi_release(context, job.sampling.values);
+    alpi_release(context, job.sampling.free_probes);
+    alpi_probe_layers_clear(context, &job.layers);
     alpi_solution_destroy(job.solution);
     alpi_lighting_destroy(context, job.spots);
     alpi_lighting_destroy(context, job.soft);

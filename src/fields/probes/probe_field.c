@@ -108,8 +108,8 @@ static void fill_light(const alpi_probe_volume *v, const float *strengths, alpi_
         for (uint32_t i = 0; i < floats; i++) {
             light[i] = v->coefficients[(size_t)p * floats + i];
             for (uint32_t l = 0; l < v->layer_count; l++) {
-                const float strength = strengths != NULL ? strengths[l] : 1.0f;
-                light[i] += strength * v->layers[l].coefficients[(size_t)p * floats + i];
+                const float more = strengths != NULL ? strengths[l] - 1.0f : 0.0f;
+                light[i] += more * v->layers[l].coefficients[(size_t)p * floats + i];
             }
         }
         for (uint32_t axis = 0; axis < 3 && f->gradients != NULL; axis++) {

@@ -33,17 +33,22 @@ static bool sees(const alpi_probe_sampling *s, vec3 neighbour, vec3 probe)
     return there + first_surface(s, probe, neighbour) >= distance * 0.999f;
 }
 
-/// Adds the valid neighbours of a probe that lie `reach` cells away, weighed by inverse squares of
-/// their distances. @return sum of the weights
-static double add_neighbours(const alpi_probe_sampling *s, const alpi_probe_volume *v,
-                             uint32_t index, int reach, double *sums)
+enum { NEIGHBOURS = 98 }; // two cells away
+
+/// Neighbours that a probe is filled from.
+typedef struct neighbour_list {
+    uint32_t count, probes[NEIGHBOURS];
+    double weights[NEIGHBOURS], sum; // inverse squares of their distances
+} neighbour_list;
+
+/// Lists the valid neighbours of a probe that lie `reach` cells away.
+static void list_neighbours(const alpi_probe_sampling *s, const alpi_probe_volume *v,
+                            uint32_t index, int reach, neighbour_list *list)
 {
     const int at[3] = {(int)(index % v->size[0]), (int)(index / v->size[0] % v->size[1]),
                        (int)(index / v->size[0] / v->size[1])};
     const vec3 probe = vec3_load(s->points[index]);
     const int side = 2 * reach + 1;
-    const uint32_t floats = 3 * v->coefficient_count;
-    double weight = 0.0;
     for (int n = 0; n < side * side * side; n++) {
         const int way[3] = {n % side - reach, n / side % side - reach, n / side / side - reach};
         uint32_t other = 0, stride = 1;
@@ -61,14 +66,27 @@ static double add_neighbours(const alpi_probe_sampling *s, const alpi_probe_volu
         if (!sees(s, from, probe)) {
             continue;
         }
-        const double w = 1.0 / ((double)vec3_dot(apart, apart) + 1e-30);
-        const float *c = v->coefficients + (size_t)other * floats;
-        for (uint32_t i = 0; i < floats; i++) {
-            sums[i] += w * (double)c[i];
-        }
-        weight += w;
+        const double weight = 1.0 / ((double)vec3_dot(apart, apart) + 1e-30);
+        list->probes[list->count] = other;
+        list->weights[list->count++] = weight;
+        list->sum += weight;
     }
-    return weight;
+}
+
+/// Writes the mean of neighbours.
+static void fill_from(const neighbour_list *list, uint32_t probe, uint32_t floats,
+                      float *coefficients)
+{
+    double sums[3 * ALPI_SH9_COUNT] = {0.0};
+    for (uint32_t n = 0; n < list->count; n++) {
+        const float *c = coefficients + (size_t)list->probes[n] * floats;
+        for (uint32_t i = 0; i < floats; i++) {
+            sums[i] += list->weights[n] * (double)c[i];
+        }
+    }
+    for (uint32_t i = 0; i < floats; i++) {
+        coefficients[(size_t)probe * floats + i] = (float)(sums[i] / list->sum);
+    }
 }
 
 typedef struct fill_job {
@@ -84,17 +102,20 @@ static alp_result fill_range(void *user, uint32_t begin, uint32_t end, uint32_t 
     const alpi_probe_volume *v = job->volume;
     const uint32_t floats = 3 * v->coefficient_count;
     for (uint32_t i = begin; i < end; i++) {
-        double sums[3 * ALPI_SH9_COUNT] = {0.0}, weight = 0.0;
+        neighbour_list list = {.count = 0};
         if (v->states[i] != ALPI_PROBE_INVALID) {
             continue;
         }
-        for (int reach = 1; reach <= 2 && !(weight > 0.0); reach++) {
-            weight = add_neighbours(job->sampling, v, i, reach, sums);
+        for (int reach = 1; reach <= 2 && list.count == 0; reach++) {
+            list_neighbours(job->sampling, v, i, reach, &list);
         }
-        for (uint32_t k = 0; k < floats && weight > 0.0; k++) {
-            v->coefficients[(size_t)i * floats + k] = (float)(sums[k] / weight);
+        if (list.count > 0) {
+            fill_from(&list, i, floats, v->coefficients);
+            for (uint32_t l = 0; l < v->layer_count; l++) {
+                fill_from(&list, i, floats, v->layers[l].coefficients);
+            }
         }
-        job->filled[i] = weight > 0.0;
+        job->filled[i] = list.count > 0;
     }
     return ALP_OK;
 }

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { PROBE_LIMIT = 1 << 24, PROBES_WANTED = 4096 };
+enum { PROBE_LIMIT = (1 << 24) - 1, PROBES_WANTED = 4096 };
 
 void alpi_probe_place(const alpi_probe_volume *v, uint32_t index, double place[3])
 {

@@ -161,35 +161,113 @@ static alp_result survey_probes(alpi_probe_sampling *s, alpi_probe_volume *v)
 
 // --- light ---------------------------------------------------------------------------------------
 
-static alp_result sample(alpi_probe_sampling *s, alpi_probe_volume *v, uint32_t *free_probes)
+alp_result alpi_probes_survey(alpi_probe_sampling *s, alpi_probe_volume *v)
 {
-    uint32_t count = 0;
     ALP_TRY(survey_probes(s, v));
+    ALPI_TRY_NEW(s->context, s->free_probes, v->count);
     for (uint32_t i = 0; i < v->count; i++) {
         if (v->states[i] != ALPI_PROBE_INVALID) {
-            free_probes[count++] = i;
+            s->free_probes[s->free_count++] = i;
         }
-    }
-    const alpi_sphere_job job = {.rays = &s->rays,
-                                 .points = (const float(*)[3])s->points,
-                                 .list = free_probes,
-                                 .count = count,
-                                 .values = s->values,
-                                 .moments = v->moments};
-    ALP_TRY(gather(s, &job, "probes"));
-    for (uint32_t i = 0; i < count; i++) {
-        const size_t probe = free_probes[i];
-        alpi_probe_project(&s->values[probe].light, v->basis,
-                           (float(*)[3])(v->coefficients + probe * v->coefficient_count * 3));
     }
     return ALP_OK;
 }
 
-alp_result alpi_probes_sample(alpi_probe_sampling *s, alpi_probe_volume *v)
+alp_result alpi_probes_light(const alpi_probe_sampling *s, const alpi_probe_light *light,
+                             alpi_probe_volume *v, float *coefficients)
 {
-    uint32_t *free_probes = ALPI_NEW(s->context, uint32_t, v->count);
-    const alp_result result =
-        free_probes != NULL ? sample(s, v, free_probes) : ALP_ERROR_OUT_OF_MEMORY;
-    alpi_release(s->context, free_probes);
+    const alpi_sphere_job job = {.rays = &light->rays,
+                                 .points = light->points,
+                                 .list = s->free_probes,
+                                 .count = s->free_count,
+                                 .values = light->values,
+                                 .moments = light->moments};
+    ALP_TRY(gather(s, &job, light->stage));
+    if (light->lamps != NULL) {
+        const alpi_task_progress progress = {.callback = s->options->progress,
+                                             .user = s->options->progress_user,
+                                             .stage = light->stage};
+        ALP_TRY(alpi_sphere_lamps_add(&(alpi_sphere_lamps){.rays = &light->rays,
+                                                           .lighting = light->lamps,
+                                                           .light = light->lamp,
+                                                           .points = light->points,
+                                                           .list = s->free_probes,
+                                                           .count = s->free_count,
+                                                           .values = light->values},
+                                      &progress));
+    }
+    for (uint32_t i = 0; i < s->free_count; i++) {
+        const size_t probe = s->free_probes[i];
+        alpi_probe_project(&light->values[probe].light, v->basis,
+                           (float(*)[3])(coefficients + probe * v->coefficient_count * 3));
+    }
+    return ALP_OK;
+}
+
+// --- gradients -----------------------------------------------------------------------------------
+
+/// Half the distance of the two places of a difference, in cells.
+static const float GRADIENT_STEP = 0.25f;
+
+/// What a gradient along one axis is made of.
+typedef struct gradient_work {
+    float (*points)[3]; // [count] on one side
+    alpi_sphere_light *values;
+    float *sides[2]; // [count][coefficient_count][3]
+} gradient_work;
+
+static alp_result find_gradient(const alpi_probe_sampling *s, const alpi_probe_light *light,
+                                alpi_probe_volume *v, int axis, const gradient_work *work)
+{
+    const uint32_t floats = 3 * v->coefficient_count;
+    const float step = GRADIENT_STEP * v->spacing[axis];
+    alpi_probe_light side = *light;
+    side.points = (const float(*)[3])work->points;
+    side.values = work->values;
+    side.moments = NULL;
+    side.stage = "gradients";
+    for (int k = 0; k < 2; k++) {
+        memcpy(work->points, s->points, v->count * sizeof *work->points);
+        for (uint32_t i = 0; i < v->count; i++) {
+            work->points[i][axis] += k == 0 ? -step : step;
+        }
+        ALP_TRY(alpi_probes_light(s, &side, v, work->sides[k]));
+    }
+    for (uint32_t i = 0; i < s->free_count; i++) {
+        const size_t probe = s->free_probes[i];
+        // A wall nearer than the step would end in the difference.
+        const float scale = s->values[probe].front_distance > step ? 0.5f / step : 0.0f;
+        for (size_t c = 0; c < floats; c++) {
+            const size_t at = probe * floats + c;
+            v->gradients[(probe * 3 + (size_t)axis) * floats + c] =
+                scale * (work->sides[1][at] - work->sides[0][at]);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result find_gradients(const alpi_probe_sampling *s, const alpi_probe_light *light,
+                                 alpi_probe_volume *v, gradient_work *work)
+{
+    const size_t values = (size_t)v->count * v->coefficient_count * 3;
+    ALPI_TRY_NEW(s->context, work->points, v->count);
+    ALPI_TRY_NEW(s->context, work->values, v->count);
+    ALPI_TRY_NEW(s->context, work->sides[0], values);
+    ALPI_TRY_NEW(s->context, work->sides[1], values);
+    for (int axis = 0; axis < 3; axis++) {
+        ALP_TRY(find_gradient(s, light, v, axis, work));
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_probes_find_gradients(const alpi_probe_sampling *s, const alpi_probe_light *light,
+                                      alpi_probe_volume *v)
+{
+    gradient_work work = {NULL, NULL, {NULL, NULL}};
+    const alp_result result = find_gradients(s, light, v, &work);
+    alpi_release(s->context, work.points);
+    alpi_release(s->context, work.values);
+    alpi_release(s->context, work.sides[0]);
+    alpi_release(s->context, work.sides[1]);
     return result;
 }

@@ -5,7 +5,7 @@
 
 #include "fields/field.h"
 #include "scene/probe_volume.h"
-#include "transport/sphere/sphere_rays.h"
+#include "transport/sphere/sphere_lamps.h"
 
 #include <alpenglow/probes.h>
 
@@ -26,22 +26,43 @@ alp_result alpi_probe_lattice(const alp_scene *scene, const alp_probe_options *o
 /// Where probes are sampled.
 typedef struct alpi_probe_sampling {
     alp_context *context;
-    const alp_scene *scene;
-    alpi_sphere_rays rays; // all light but that of layers
-    const alp_probe_options *options;
-    float (*points)[3];        // [count] metres, positions in the scene
-    alpi_sphere_light *values; // [count]
+    const alp_probe_options *options; // progress is read
+    alpi_sphere_rays rays;            // their geometry is read
+    float (*points)[3];               // [count] metres, positions in the scene
+    alpi_sphere_light *values;        // [count]
+    uint32_t *free_probes, free_count; // those outside of solids, moved ones too
 } alpi_probe_sampling;
 
 /// Few rays of a sampling, for geometry alone.
 alpi_sphere_rays alpi_probe_survey_rays(const alpi_probe_sampling *sampling);
 
-/// Samples all probes of a volume whose arrays are there: moves those in solids, and writes
-/// coefficients, states, moves and moments. `points` must hold the nominal places.
+/// Finds the probes in solids, and moves those that can be: writes states, moves, points and the
+/// list of free probes. `points` hold the nominal places before.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_probes_sample(alpi_probe_sampling *sampling, alpi_probe_volume *volume);
+alp_result alpi_probes_survey(alpi_probe_sampling *sampling, alpi_probe_volume *volume);
 
-/// Fills probes in solids from valid neighbours that see them: those a cell away, else two.
+/// Light that is sampled, and where.
+typedef struct alpi_probe_light {
+    alpi_sphere_rays rays;
+    const alpi_lighting *lamps; // NULL, or whose lamps and suns are added
+    uint32_t lamp;              // one of them, or ALPI_NONE: all
+    const float (*points)[3];   // [count]
+    alpi_sphere_light *values;  // [count] out
+    float (*moments)[2];        // NULL, or out
+    const char *stage;
+} alpi_probe_light;
+/// Samples light at free probes. @param coefficients [count][coefficient_count][3] out
+/// @return ALP_OK; CANCELLED
+alp_result alpi_probes_light(const alpi_probe_sampling *sampling, const alpi_probe_light *light,
+                             alpi_probe_volume *volume, float *coefficients);
+/// Gradients of free probes, by central differences over half a cell; 0 along all axes beside a
+/// surface that is nearer.
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
+alp_result alpi_probes_find_gradients(const alpi_probe_sampling *sampling,
+                                      const alpi_probe_light *light, alpi_probe_volume *volume);
+
+/// Fills probes in solids, layers too, from valid neighbours that see them: those a cell away, else
+/// two.
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_probes_fill(const alpi_probe_sampling *sampling, alpi_probe_volume *volume);
 

@@ -300,13 +300,18 @@ static alp_result parse_textures(alpi_probe_header *h)
 static alp_result parse_content(alpi_probe_header *h)
 {
     alpi_probe_volume *v = &h->volume;
-    double error = 0.0, rays = 0.0;
+    double error = 0.0, mean = 0.0, between = 0.0, rays = 0.0;
+    json_t *errors = get_object(h, "error");
     ALP_TRY(get_flag(h, get_object(h, "content"), "direct", &v->direct));
     ALP_TRY(get_digits(h, get_object(h, "scene"), "hash", 16, &v->scene_hash));
-    ALP_TRY(get_number(h, get_object(h, "error"), "relative", 0.0, (double)FLT_MAX, &error));
+    ALP_TRY(get_number(h, errors, "relative", 0.0, (double)FLT_MAX, &error));
+    ALP_TRY(get_number(h, errors, "mean", 0.0, (double)FLT_MAX, &mean));
+    ALP_TRY(get_number(h, errors, "interpolation", 0.0, (double)FLT_MAX, &between));
     ALP_TRY(get_number(h, h->root, "rays", 0.0, UINT32_MAX, &rays));
     ALP_TRY(get_digits(h, h->root, "seed", 10, &v->seed));
     v->relative_error = (float)error;
+    v->mean = (float)mean;
+    v->interpolation = (float)between;
     v->rays = (uint32_t)rays;
     const json_t *options = json_object_get(h->root, "options");
     return options == NULL || json_is_object(options)

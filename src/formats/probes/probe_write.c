@@ -196,6 +196,10 @@ static void print_origin(alpi_bytes *text, const alpi_probe_volume *v)
     if (v->relative_error > 0.0f && isfinite(v->relative_error)) {
         alpi_bytes_print(text, ",\n\"error\":{\"relative\":");
         alpi_bytes_float(text, v->relative_error);
+        alpi_bytes_print(text, ",\"mean\":");
+        alpi_bytes_float(text, v->mean);
+        alpi_bytes_print(text, ",\"interpolation\":");
+        alpi_bytes_float(text, v->interpolation);
         alpi_bytes_print(text, "}");
     }
     alpi_bytes_print(text, ",\n\"rays\":%u,\n\"seed\":\"%llu\"", v->rays,

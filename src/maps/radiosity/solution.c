@@ -63,6 +63,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
     options.direct_samples = o->direct_samples > 0 ? o->direct_samples : options.direct_samples;
     options.bounces = o->bounces;
     options.ray_limit = o->ray_limit;
+    options.layers = o->layers;
     options.tolerance = o->tolerance;
     options.backs = true;
     options.seed = o->seed;

@@ -22,6 +22,7 @@ typedef struct alpi_solution_options {
     uint32_t direct_samples;       // of each light at each texel; 0: as of
                                    // alpi_radiosity_options_default
     double ray_limit;              // of the passes; 0: none
+    alpi_light_layers *layers;     // NULL, or as of alpi_radiosity_options
     uint64_t kept_limit; // bytes that kept rays may take; 0: as of alpi_radiosity_options_default
     uint64_t seed;
 } alpi_solution_options;
