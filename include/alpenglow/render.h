@@ -9,19 +9,21 @@
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>
 #include <alpenglow/occlusion.h>
+#include <alpenglow/probes.h>
 #include <alpenglow/scene.h>
 
 ALP_BEGIN_DECLS
 
-/// REFERENCE, RADIOSITY and LIGHTMAP pass light through panes (blended or transmissive materials).
-/// AO, CONSTANT and HEMISPHERE cut BLEND at alpha ½, and take transmission as opaque.
+/// REFERENCE, RADIOSITY, LIGHTMAP and FIELD pass light through panes (blended or transmissive
+/// materials).
+/// AO, ALBEDO and HEMISPHERE cut BLEND at alpha ½, and take transmission as opaque.
 typedef enum alp_render_method {
     /// Accessibility from the scene's occlusion maps. Surfaces without a map trace rays per pixel.
     /// Backs of single-sided surfaces are left out, as viewers do.
     ALP_RENDER_AO = 0,
     /// Constant ambient light of radiance 1: the albedo (alp_scene_set_metals), at most
     /// 0.95.
-    ALP_RENDER_CONSTANT = 1,
+    ALP_RENDER_ALBEDO = 1,
     /// Unoccluded ambient light of a sky of radiance `lighting.sky.up` above the horizon and `down`
     /// below it: radiance ρ (up (1 + n·y) + down (1 − n·y)) / 2.
     ALP_RENDER_HEMISPHERE = 2,
@@ -41,8 +43,25 @@ typedef enum alp_render_method {
     /// starts at the camera's position, which may lie on a surface, along its axis. If the axis is
     /// the normal, this is the light that a texel gathers there. The camera's angle, `width`,
     /// `height` and `samples` are ignored.
-    ALP_RENDER_HEMICUBE = 6
+    ALP_RENDER_HEMICUBE = 6,
+    /// A field as a host displays it: Le + ρ/π · E at each pixel, with E from `field`, and light
+    /// straight from lamps and suns of the scene and of `lighting`, with shadows, if the field
+    /// leaves that out. The sky is background.
+    ALP_RENDER_FIELD = 7
 } alp_render_method;
+
+/// An object of albedo .8 in the picture, lit by the scene. It casts no shadow and reflects
+/// nothing onto others.
+typedef enum alp_object_kind {
+    ALP_OBJECT_NONE = 0,
+    ALP_OBJECT_SPHERE,
+    ALP_OBJECT_TEAPOT ///< twice the radius high, its spout towards +X
+} alp_object_kind;
+typedef struct alp_render_object {
+    alp_object_kind kind; ///< default NONE
+    float position[3];    ///< metres: its centre
+    float radius;         ///< metres, > 0
+} alp_render_object;
 
 /// Pictures of ALP_RENDER_HEMICUBE. Alpha is 1. The corners, which belong to no face, are black.
 /// Based on: H. Elias. Radiosity; M. F. Cohen, D. P. Greenberg. The Hemi-Cube. SIGGRAPH 1985.
@@ -87,6 +106,14 @@ typedef struct alp_render_options {
                         ///< ALP_BOUNCES_CONVERGE
     bool no_next_event; ///< REFERENCE: rays are never aimed at lights. A slow cross-check that
                         ///< never finds lights without extent.
+    const alp_field *field; ///< FIELD: made of this scene's light
+    /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from
+    /// punctual lamps and suns. Default false.
+    bool without_direct;
+    alp_render_object object; ///< REFERENCE, FIELD
+    /// FIELD, LIGHTMAP, ALBEDO: NULL, or probes to draw as small spheres that show their own
+    /// light, at most the 20,000 nearest. Orange: filled in a solid. Magenta: black in a solid.
+    const alp_probes *overlay;
     alp_image **error; ///< NULL, or out: REFERENCE and RADIOSITY: standard error of each pixel from
                        ///< the spread of its paths, float RGBA, which the caller destroys
     alp_progress_fn *progress;
@@ -98,16 +125,16 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// Without a sky, panes of REFERENCE, RADIOSITY and LIGHTMAP in front of nothing have the alpha
 /// that they absorb. With a sky, alpha of these three is 1 everywhere.
 ///
-/// Warns of a camera in a wall (camera-inside), except for AO, CONSTANT and pictures of hemicubes
+/// Warns of a camera in a wall (camera-inside), except for AO, ALBEDO and pictures of hemicubes
 /// without light. REFERENCE, RADIOSITY and HEMICUBE give the warnings of alp_scene_examine.
 /// @param image out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match; LIGHTMAP without a map of
-///         light; REFERENCE, RADIOSITY, and HEMICUBE with light, of a scene without lamp, emission
-///         and sky); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
+///         light; FIELD without a field; an object without a radius; REFERENCE, RADIOSITY, and
+///         HEMICUBE with light, of a scene without lamp, emission and sky); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
 
-/// Film options for pictures of a method. AO and CONSTANT lie between 0 and 1 and stay as they are
+/// Film options for pictures of a method. AO and ALBEDO lie between 0 and 1 and stay as they are
 /// (alp_film_options_default). All other methods get film, automatic exposure and hashed dithering.
 ALP_API alp_film_options alp_render_film_options(alp_render_method method);
 

@@ -5,7 +5,7 @@
 alp_film_options alp_render_film_options(alp_render_method method)
 {
     alp_film_options options = alp_film_options_default();
-    if (method != ALP_RENDER_AO && method != ALP_RENDER_CONSTANT) {
+    if (method != ALP_RENDER_AO && method != ALP_RENDER_ALBEDO) {
         options.auto_exposure = true;
         options.tone = ALP_TONE_FILM;
         options.dither = ALP_DITHER_HASHED; // smooth light in dark rooms shows every step of a byte

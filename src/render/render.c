@@ -6,12 +6,15 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "fields/field.h"
 #include "maps/lightmap.h"
 #include "maps/radiosity/solution.h"
 #include "render/automatic_camera.h"
 #include "render/camera_rays.h"
+#include "render/field_light.h"
 #include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
+#include "render/object_pass.h"
 #include "scene/origin.h"
 #include "scene/select.h"
 #include "transport/examine.h"
@@ -42,7 +45,9 @@ typedef struct render_job {
     alpi_reference reference;
     alpi_solution *solution;  // of RADIOSITY, else NULL
     alpi_surface_light known; // of the solution
-    alpi_gather_scene shown;  // of LIGHTMAP
+    alpi_gather_scene shown;  // of LIGHTMAP and FIELD
+    alpi_lighting *first;     // light without lamps, where surfaces in view get none of theirs
+    alpi_field_light field;   // of FIELD
     alp_image *image, *error; // error: NULL unless asked for
     alpi_view view;
 } render_job;
@@ -76,7 +81,7 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code, "render: %u samples per pixel, need 1 to %d",
                          o->samples, SAMPLE_LIMIT);
     }
-    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_HEMICUBE) {
+    if ((int)o->method < ALP_RENDER_AO || o->method > ALP_RENDER_FIELD) {
         return alpi_fail(scene->context, code, "render: unknown method %d", (int)o->method);
     }
     if (o->method == ALP_RENDER_HEMICUBE) {
@@ -90,7 +95,23 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code,
                          "render: there is no map of light; bake with ALP_MAP_LIGHT");
     }
+    if (o->method == ALP_RENDER_FIELD && o->field == NULL) {
+        return alpi_fail(scene->context, code, "render: there is no field");
+    }
+    const alp_render_object *object = &o->object;
+    if (object->kind != ALP_OBJECT_NONE &&
+        !(object->radius > 0.0f && isfinite(object->radius) &&
+          vec3_is_finite(vec3_load(object->position)))) {
+        return alpi_fail(scene->context, code, "render: the object needs a finite position and a "
+                                               "radius above 0");
+    }
     return alpi_occlusion_check(scene, &o->occlusion);
+}
+
+/// Whether pixels come from a map or a field, through panes.
+static bool goes_by_shown(const render_job *job)
+{
+    return job->options.method == ALP_RENDER_LIGHTMAP || job->options.method == ALP_RENDER_FIELD;
 }
 
 /// Whether pixels are means over paths, and have an error.
@@ -134,7 +155,7 @@ static void warn_of_walls(const render_job *job, const alpi_tracer *tracer)
     enum { ACROSS = 8 };
     const alp_render_method method = job->options.method;
     const bool map = method == ALP_RENDER_HEMICUBE && alpi_hemicube_view_is_map(&job->options);
-    const bool lights = method != ALP_RENDER_AO && method != ALP_RENDER_CONSTANT && !map;
+    const bool lights = method != ALP_RENDER_AO && method != ALP_RENDER_ALBEDO && !map;
     enum { COUNT = ACROSS * ACROSS };
     vec3 directions[COUNT];
     float x[COUNT], y[COUNT], d[3][COUNT] = {{0.0f}};
@@ -187,7 +208,7 @@ static bool shade_by_lookup(const render_job *job, const alpi_hits *hits, int la
 {
     const uint32_t triangle = hits->triangle[lane];
     const float b1 = hits->b1[lane], b2 = hits->b2[lane];
-    if (job->options.method == ALP_RENDER_CONSTANT) {
+    if (job->options.method == ALP_RENDER_ALBEDO) {
         vec3_store(rgb, alpi_surface_albedo(job->scene, triangle, b1, b2));
         return true;
     }
@@ -312,7 +333,7 @@ static alp_result render_range(void *user, uint32_t begin, uint32_t end, uint32_
     float *pixels = job->image->pixels;
     for (uint32_t i = begin; i < end; i++) {
         float *pixel = pixels + 4 * (size_t)i;
-        if (job->options.method == ALP_RENDER_LIGHTMAP) {
+        if (goes_by_shown(job)) {
             const uint32_t key = alpi_random_key(job->options.occlusion.seed, i, STREAM_PIXEL);
             alpi_lightmap_pixel(&job->shown, &job->view, job->options.samples, key, i, pixel);
         } else {
@@ -346,6 +367,24 @@ static void prepare_lightmap(render_job *job)
                                      .emitters = true};
 }
 
+/// What FIELD reads.
+static void prepare_field(render_job *job)
+{
+    const alp_field *field = job->options.field;
+    const bool lamps = !job->options.without_direct && !field->direct;
+    job->field = (alpi_field_light){.scene = job->scene,
+                                    .tracer = job->tracer,
+                                    .filter = job->occlusion.filter,
+                                    .field = field,
+                                    .lamps = lamps ? job->lighting : NULL};
+    job->shown = (alpi_gather_scene){.scene = job->scene,
+                                     .tracer = job->tracer,
+                                     .lighting = job->lighting,
+                                     .filter = job->occlusion.filter,
+                                     .light = alpi_field_light_surfaces(&job->field),
+                                     .emitters = true};
+}
+
 /// What the paths of RADIOSITY end with.
 static alp_result prepare_solution(render_job *job)
 {
@@ -373,10 +412,14 @@ static alp_result prepare_paths(render_job *job, alp_image_info info)
     ALP_TRY(alpi_examine_light(job->tracer, job->occlusion.filter, job->scene, job->lighting,
                                o->progress, o->progress_user));
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
+    if (o->without_direct) {
+        ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &o->lighting, &job->first));
+    }
     job->reference = (alpi_reference){.context = job->scene->context,
                                       .scene = job->scene,
                                       .tracer = job->tracer,
                                       .lighting = job->lighting,
+                                      .direct = job->first,
                                       .filter = job->occlusion.filter,
                                       .bounces = o->bounces < limit ? o->bounces : limit,
                                       .samples = o->samples,
@@ -389,15 +432,38 @@ static alp_result prepare_paths(render_job *job, alp_image_info info)
 /// What methods need that light the scene, or show its light.
 static alp_result prepare_light(render_job *job, alp_image_info info)
 {
-    if (!goes_by_paths(job) && job->options.method != ALP_RENDER_LIGHTMAP) {
+    if (!goes_by_paths(job) && !goes_by_shown(job)) {
         return ALP_OK;
     }
     ALP_TRY(alpi_lighting_create(job->scene, &job->options.lighting, &job->lighting));
     if (goes_by_paths(job)) {
         return prepare_paths(job, info);
     }
-    prepare_lightmap(job);
+    if (job->options.method == ALP_RENDER_FIELD) {
+        prepare_field(job);
+    } else {
+        prepare_lightmap(job);
+    }
     return ALP_OK;
+}
+
+/// Draws the object and the overlay over the picture.
+static alp_result draw_objects(render_job *job)
+{
+    const alp_render_options *o = &job->options;
+    alpi_object_pass pass = {.scene = job->scene,
+                             .tracer = job->tracer,
+                             .view = &job->view,
+                             .options = o,
+                             .field = &job->field,
+                             .reference =
+                                 o->method == ALP_RENDER_REFERENCE ? &job->reference : NULL};
+    const bool lit = o->method == ALP_RENDER_REFERENCE || o->method == ALP_RENDER_FIELD;
+    if (o->object.kind != ALP_OBJECT_NONE && lit) {
+        ALP_TRY(alpi_object_pass_draw(&pass, job->image));
+    }
+    pass.probes = o->overlay;
+    return o->overlay != NULL ? alpi_object_pass_draw(&pass, job->image) : ALP_OK;
 }
 
 static alp_result draw_hemicube(render_job *job)
@@ -438,16 +504,18 @@ static alp_result run(render_job *job)
     const uint32_t pixels = o->width * o->height;
     if (goes_by_paths(job)) {
         progress.units_per_item *= PIXELS_PER_RANGE;
-        return alpi_parallel_for(job->scene->context,
-                                 pixels / PIXELS_PER_RANGE + (pixels % PIXELS_PER_RANGE != 0), 1,
-                                 render_chunks, job, &progress);
+        ALP_TRY(alpi_parallel_for(job->scene->context,
+                                  pixels / PIXELS_PER_RANGE + (pixels % PIXELS_PER_RANGE != 0), 1,
+                                  render_chunks, job, &progress));
+        return draw_objects(job);
     }
     uint64_t rays = o->samples; // of a pixel, at most
     rays *= o->method == ALP_RENDER_AO ? 1 + job->occlusion.samples : 1;
     uint32_t grain = rays < RAYS_PER_RANGE / PIXELS_PER_RANGE ? PIXELS_PER_RANGE
                                                               : (uint32_t)(RAYS_PER_RANGE / rays);
-    return alpi_parallel_for(job->scene->context, pixels, grain > 0 ? grain : 1, render_range, job,
-                             &progress);
+    ALP_TRY(alpi_parallel_for(job->scene->context, pixels, grain > 0 ? grain : 1, render_range, job,
+                              &progress));
+    return draw_objects(job);
 }
 
 alp_result alp_render(const alp_scene *scene, const alp_render_options *options, alp_image **image)
@@ -467,6 +535,7 @@ alp_result alp_render(const alp_scene *scene, const alp_render_options *options,
     alpi_occlusion_release(&job.occlusion);
     alpi_tracer_destroy(job.occluders);
     alpi_solution_destroy(job.solution);
+    alpi_lighting_destroy(scene->context, job.first);
     alpi_lighting_destroy(scene->context, job.lighting);
     if (result == ALP_OK && job.options.error != NULL) {
         *job.options.error = job.error;

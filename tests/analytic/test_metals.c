@@ -80,7 +80,7 @@ TEST(half_metals_reflect_half)
 TEST(pictures_and_obscurance)
 {
     static const float point[3] = {0.5f, 0.5f, 0.5f}, up[3] = {0.0f, 1.0f, 0.0f};
-    static const alp_render_method methods[] = {ALP_RENDER_CONSTANT, ALP_RENDER_HEMISPHERE};
+    static const alp_render_method methods[] = {ALP_RENDER_ALBEDO, ALP_RENDER_HEMISPHERE};
     for (int black = 0; black < 2; black++) {
         const double albedo = black ? 0.0 : 0.5;
         alp_scene *scene = make_furnace(1.0f, (alp_metals)black);

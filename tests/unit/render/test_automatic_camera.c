@@ -73,7 +73,7 @@ static int count_colors(alp_context *context, const alp_scene *scene, int count)
     options.width = 96;
     options.height = 54;
     options.samples = 1;
-    options.method = ALP_RENDER_CONSTANT;
+    options.method = ALP_RENDER_ALBEDO;
     alp_image *image = NULL;
     ASSERT_OK(context, alp_render(scene, &options, &image));
     const float *pixels = alp_image_floats(image);

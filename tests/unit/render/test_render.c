@@ -34,7 +34,7 @@ static alp_render_options look_ahead(void)
     alp_render_options options = alp_render_options_default();
     options.width = 80;
     options.height = 40;
-    options.method = ALP_RENDER_CONSTANT;
+    options.method = ALP_RENDER_ALBEDO;
     // At distance 4 the picture is 4 m high and 8 m wide: 10 pixels a metre.
     options.camera = (alp_camera){.position = {0, 0, 0},
                                   .target = {0, 0, -1},
@@ -204,7 +204,7 @@ TEST_WITH_CONTEXT(the_automatic_camera_sees_the_scene, 2)
         alp_render_options options = alp_render_options_default();
         options.width = options.height = 32;
         options.samples = 8;
-        options.method = ALP_RENDER_CONSTANT;
+        options.method = ALP_RENDER_ALBEDO;
         options.camera_index = 1000;
         alp_image *image = NULL;
         ASSERT_OK(context, alp_render(scene, &options, &image));
@@ -236,7 +236,7 @@ TEST_WITH_CONTEXT(a_flat_scene_is_seen_from_outside, 1)
 
 TEST(methods_of_zero_to_one_are_shown_as_they_are)
 {
-    const alp_render_method plain[] = {ALP_RENDER_AO, ALP_RENDER_CONSTANT};
+    const alp_render_method plain[] = {ALP_RENDER_AO, ALP_RENDER_ALBEDO};
     for (int i = 0; i < 2; i++) {
         alp_film_options film = alp_render_film_options(plain[i]);
         assert_int_equal(film.struct_size, sizeof film);
