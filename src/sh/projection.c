@@ -10,14 +10,14 @@ struct alp_sh_projection {
     alpi_cube_table table;
     alpi_cube_sum_fn *sum;
     alpi_cube_sums sums;
-    bool *added;      // [6][size] rows
+    uint8_t *added;   // [6][size] rows: 1, or 0
     uint32_t missing; // rows of all faces
 };
 
 static void empty(alp_sh_projection *p)
 {
     memset(&p->sums, 0, sizeof p->sums);
-    memset(p->added, 0, (size_t)ALPI_CUBE_FACES * p->table.size * sizeof *p->added);
+    memset(p->added, 0, (size_t)ALPI_CUBE_FACES * p->table.size);
     p->missing = ALPI_CUBE_FACES * p->table.size;
 }
 
@@ -76,13 +76,13 @@ alp_result alp_sh_projection_add(alp_sh_projection *p, alp_cube_face face, uint3
                          "cube map: face %d, rows %u + %u; there are 6 faces of %u rows", (int)face,
                          first_row, row_count, size);
     }
-    bool *added = p->added + (size_t)face * size + first_row;
-    if (memchr(added, true, row_count * sizeof *added) != NULL) {
+    uint8_t *added = p->added + (size_t)face * size + first_row;
+    if (memchr(added, 1, row_count) != NULL) {
         return alpi_fail(p->context, ALP_ERROR_INVALID_ARGUMENT,
                          "cube map: face %d, rows %u + %u: a row was added before", (int)face,
                          first_row, row_count);
     }
-    memset(added, true, row_count * sizeof *added);
+    memset(added, 1, row_count);
     p->missing -= row_count;
     alpi_cube_add(&p->table, p->sum, face, first_row, row_count, pixels, &p->sums);
     return ALP_OK;

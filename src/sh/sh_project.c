@@ -39,9 +39,11 @@ static void integrate_texel(uint32_t size, uint32_t column, uint32_t row,
     const double s0 = 2.0 * column / size - 1.0, t0 = 2.0 * row / size - 1.0;
     memset(moments, 0, ALPI_CUBE_MOMENTS * sizeof *moments);
     for (uint32_t y = 0; y < parts * NODES; y++) {
-        const double t = t0 + step * (y / NODES + nodes[y % NODES]);
+        const uint32_t part = y / NODES;
+        const double t = t0 + step * (part + nodes[y % NODES]);
         for (uint32_t x = 0; x < parts * NODES; x++) {
-            const double s = s0 + step * (x / NODES + nodes[x % NODES]);
+            const uint32_t column_part = x / NODES;
+            const double s = s0 + step * (column_part + nodes[x % NODES]);
             const double area = step * step * node_weights[x % NODES] * node_weights[y % NODES];
             add_point(s, t, area, moments);
         }
@@ -177,45 +179,40 @@ typedef struct world_moments {
     double one, first[3], square[3], product[3];
 } world_moments;
 
-/// Adds the three channels of a face.
-static void add_face(const alpi_cube_axes *axes, const double (*moments)[ALPI_CUBE_MOMENTS],
-                     world_moments world[3])
+static void add_face(const alpi_cube_axes *axes, const double m[ALPI_CUBE_MOMENTS],
+                     world_moments *w)
 {
     const alpi_signed_axis s = axes->s, t = axes->t, n = axes->n;
-    for (int k = 0; k < 3; k++) {
-        const double *m = moments[k], rest = m[0] - m[2];
-        world_moments *w = &world[k];
-        w->one += m[0];
-        w->first[n.index] += n.sign * m[1];
-        w->square[n.index] += m[2];
-        w->square[s.index] += 0.5 * (rest + m[3]);
-        w->square[t.index] += 0.5 * (rest - m[3]);
-        w->first[s.index] += s.sign * m[4];
-        w->product[t.index] += s.sign * n.sign * m[5];
-        w->first[t.index] += t.sign * m[6];
-        w->product[s.index] += t.sign * n.sign * m[7];
-        w->product[n.index] += s.sign * t.sign * m[8];
-    }
+    const double rest = m[0] - m[2];
+    w->one += m[0];
+    w->first[n.index] += n.sign * m[1];
+    w->square[n.index] += m[2];
+    w->square[s.index] += 0.5 * (rest + m[3]);
+    w->square[t.index] += 0.5 * (rest - m[3]);
+    w->first[s.index] += s.sign * m[4];
+    w->product[t.index] += s.sign * n.sign * m[5];
+    w->first[t.index] += t.sign * m[6];
+    w->product[s.index] += t.sign * n.sign * m[7];
+    w->product[n.index] += s.sign * t.sign * m[8];
 }
 
 alpi_sh9 alpi_cube_finish(const alpi_cube_sums *sums)
 {
     alpi_sh9 radiance;
-    world_moments world[3] = {{.one = 0.0}};
-    for (int face = 0; face < ALPI_CUBE_FACES; face++) {
-        add_face(alpi_cube_face_axes((alp_cube_face)face), sums->face[face], world);
-    }
     for (int k = 0; k < 3; k++) {
-        const world_moments *w = &world[k];
-        const double c[ALPI_SH9_COUNT] = {ALP_SH_Y0 * w->one,
-                                          ALP_SH_Y1 * w->first[1],
-                                          ALP_SH_Y1 * w->first[2],
-                                          ALP_SH_Y1 * w->first[0],
-                                          ALP_SH_Y2 * w->product[2],
-                                          ALP_SH_Y2 * w->product[0],
-                                          ALP_SH_Y20 * (3.0 * w->square[2] - w->one),
-                                          ALP_SH_Y2 * w->product[1],
-                                          ALP_SH_Y22 * (w->square[0] - w->square[1])};
+        world_moments w = {.one = 0.0};
+        for (int face = 0; face < ALPI_CUBE_FACES; face++) {
+            add_face(alpi_cube_face_axes((alp_cube_face)face), sums->face[face][k], &w);
+        }
+        const double c[ALPI_SH9_COUNT] = {ALP_SH_Y0 * w.one,
+                                          ALP_SH_Y1 * w.first[1],
+                                          ALP_SH_Y1 * w.first[2],
+                                          ALP_SH_Y1 * w.first[0],
+                                          ALP_SH_Y2 * w.product[2],
+                                          ALP_SH_Y2 * w.product[0],
+                                          ALP_SH_Y20 * (3.0 * w.square[2] - w.one),
+                                          ALP_SH_Y2 * w.product[1],
+                                          ALP_SH_Y22 * (w.square[0] - w.square[1])};
         for (int i = 0; i < ALPI_SH9_COUNT; i++) {
             radiance.c[i][k] = (float)c[i];
         }

@@ -11,6 +11,9 @@
 //     odd in both       ab
 //
 // 9 products for 4 texels are left, and no direction, root or solid angle.
+// Based on: C. Nilsson, A. Jansson. Ljussättning i realtid med dynamisk ambiansvolym. Chalmers
+// 2006,
+//           section 8.3: stored products of basis and solid angle, and rows spread over frames.
 #ifndef ALPI_SH_SH_PROJECT_H
 #define ALPI_SH_SH_PROJECT_H
 
