@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow info: contents and faults of a scene.
+#include "fields.h"
 #include "findings.h"
 #include "output.h"
 #include "pictures.h"
@@ -357,6 +358,28 @@ static int tell(session *s, const command_line *a, const default_work *work,
     return code;
 }
 
+/// --probes: what they hold, and whether they fit the scene.
+static int print_probes(session *s, const command_line *a)
+{
+    const char *path = a->values[OPTION_PROBES].text;
+    alp_probes *probes = NULL;
+    if (path == NULL) {
+        return EXIT_DONE;
+    }
+    const int code = session_end(s, alp_probes_load(s->context, path, &probes));
+    if (code == EXIT_DONE) {
+        const alp_probes_info info = alp_probes_get_info(probes);
+        const bool fits = info.scene_hash == alp_scene_get_info(s->scene).hash;
+        printf("\n");
+        probes_print(&info);
+        printf("baked in   %s\n",
+               fits ? "this scene"
+                    : "another scene, or this one before it changed: bake them again");
+    }
+    alp_probes_destroy(probes);
+    return code;
+}
+
 /// Collects all results before any is printed.
 static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
 {
@@ -367,9 +390,36 @@ static int look(session *s, default_work *work, alp_diagnosis **diagnosis)
     return code == EXIT_DONE ? findings_look(s, NULL, diagnosis) : code;
 }
 
+/// info FILE.probes.json
+static int show_probe_file(const command_line *a)
+{
+    session s;
+    alp_probes *probes = NULL;
+    int code = session_open(&s, a);
+    if (code == EXIT_DONE) {
+        code = session_end(&s, alp_probes_load(s.context, a->operands[0], &probes));
+    }
+    if (code == EXIT_DONE) {
+        const alp_probes_info info = alp_probes_get_info(probes);
+        probes_print(&info);
+    }
+    alp_probes_destroy(probes);
+    session_close(&s);
+    return code;
+}
+
 int command_info(const command_line *a)
 {
     session s;
+    const bool is_json = a->values[OPTION_JSON].given;
+    if (is_json && a->values[OPTION_PROBES].given) {
+        return usage_error(COMMAND_INFO, "--probes: prints text; leave out --json");
+    }
+    if (path_ends(a->operands[0], ".probes.json")) {
+        return is_json ? usage_error(COMMAND_INFO, "%s: is JSON itself; leave out --json",
+                                     a->operands[0])
+                       : show_probe_file(a);
+    }
     default_work work = {{0}, {0}};
     alp_diagnosis *diagnosis = NULL;
     int code = session_open(&s, a);
@@ -382,6 +432,7 @@ int command_info(const command_line *a)
     }
     if (code == EXIT_DONE) {
         code = tell(&s, a, &work, diagnosis);
+        code = code == EXIT_DONE ? print_probes(&s, a) : code;
     } else {
         messages_print_held(&s.messages);
     }

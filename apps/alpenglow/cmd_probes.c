@@ -6,6 +6,7 @@
 #include "output.h"
 #include "points.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static int check_options(const command_line *a)
@@ -17,6 +18,14 @@ static int check_options(const command_line *a)
     if (!path_ends(output, ".json")) {
         return usage_error(COMMAND_PROBES, "-o %s: the name must end in .probes.json", output);
     }
+    if (a->values[OPTION_EXPORT_SCALE].given && !a->values[OPTION_EXPORT].given) {
+        return usage_error(COMMAND_PROBES, "--export-scale: needs --export three");
+    }
+    if (a->values[OPTION_EXPORT].given &&
+        (a->values[OPTION_AT].given || a->values[OPTION_BASIS].choice == ALP_PROBE_AMBIENT_CUBE)) {
+        return usage_error(COMMAND_PROBES, "--export three: needs a grid of spherical harmonics; "
+                                           "leave out --at and --basis ambient-cube");
+    }
     if (a->values[OPTION_AT].given &&
         (a->values[OPTION_SPACING].given || a->values[OPTION_BOUNDS].given)) {
         return usage_error(COMMAND_PROBES,
@@ -25,26 +34,32 @@ static int check_options(const command_line *a)
     return EXIT_DONE;
 }
 
-static void print_summary(const char *output, const alp_probes_info *i, double seconds)
+static void print_summary(const char *output, const alp_probes *probes, double seconds)
 {
-    if (i->is_list) {
-        printf("probes     %u at listed places\n", i->count);
-    } else {
-        printf("probes     %u = %u x %u x %u, %g m apart\n", i->count, i->size[0], i->size[1],
-               i->size[2], (double)i->spacing[0]);
+    const alp_probes_info info = alp_probes_get_info(probes);
+    probes_print(&info);
+    printf("wrote      ");
+    print_clean(stdout, output);
+    printf(", %.2f s\n", seconds);
+}
+
+/// --export: NAME.three.mjs beside NAME.probes.json.
+static alp_result export_probes(const command_line *a, const alp_probes *probes)
+{
+    const char *output = a->values[OPTION_OUTPUT].text;
+    const size_t length = strlen(output);
+    const size_t stem = length - strlen(path_ends(output, ".probes.json") ? ".probes.json" : ".json");
+    if (!a->values[OPTION_EXPORT].given) {
+        return ALP_OK;
     }
-    printf("states     %u valid, %u moved out of solids, %u filled in solids, %u black\n",
-           i->states[ALP_PROBE_VALID], i->states[ALP_PROBE_MOVED], i->states[ALP_PROBE_FILLED],
-           i->states[ALP_PROBE_INVALID]);
-    printf("mean irradiance %.4g W/m2\n", (double)i->mean);
-    printf("noise      %.2g %% of the mean, %u rays a probe\n", 100.0 * (double)i->error, i->rays);
-    if (!i->is_list && i->mean > 0.0f) {
-        printf("between    %.2g %% of the mean, by points apart\n",
-               100.0 * (double)i->interpolation / (double)i->mean);
-    }
-    printf("memory     %.3g MB, %.0f bytes a probe\n", (double)i->bytes * 1e-6,
-           (double)i->bytes / (double)i->count);
-    printf("wrote      %s, %.2f s\n", output, seconds);
+    char *path = allocate_or_exit(NULL, length + sizeof ".three.mjs");
+    memcpy(path, output, stem);
+    strcpy(path + stem, ".three.mjs");
+    const alp_result result =
+        alp_probes_export_three(probes, path, a->values[OPTION_EXPORT_SCALE].real,
+                                a->values[OPTION_FORCE].given);
+    free(path);
+    return result;
 }
 
 static int bake(session *s, const command_line *a, alp_probe_options *o)
@@ -59,10 +74,12 @@ static int bake(session *s, const command_line *a, alp_probe_options *o)
     if (result == ALP_OK) {
         result = alp_probes_save(probes, output, a->values[OPTION_FORCE].given);
     }
+    if (result == ALP_OK) {
+        result = export_probes(a, probes);
+    }
     const int code = session_end(s, result);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
-        const alp_probes_info info = alp_probes_get_info(probes);
-        print_summary(output, &info, clock_seconds() - start);
+        print_summary(output, probes, clock_seconds() - start);
     }
     alp_probes_destroy(probes);
     return code == EXIT_DONE ? session_judge_warnings(s) : code;

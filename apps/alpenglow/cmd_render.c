@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
+#include "fields.h"
 #include "film.h"
 #include "interrupt.h"
 #include "lighting.h"
@@ -79,14 +80,44 @@ static int read_camera(const char *text, const double origin[3], alp_render_opti
     return EXIT_DONE;
 }
 
+/// What the choices of --with are, in their order.
+static const struct {
+    alp_render_method method;
+    int model; // of FIELD: an ambient model, or PROBES
+} methods[] = {{ALP_RENDER_AO, 0},
+               {ALP_RENDER_ALBEDO, 0},
+               {ALP_RENDER_REFERENCE, 0},
+               {ALP_RENDER_LIGHTMAP, 0},
+               {ALP_RENDER_RADIOSITY, 0},
+               {ALP_RENDER_HEMICUBE, 0},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_CONSTANT},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_HEMISPHERE},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_GROUND_MAP},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_CUBE},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_ENVIRONMENT},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT}};
+enum { PROBES = ALP_AMBIENT_COUNT };
+
+static int model_of(const command_line *a)
+{
+    return methods[a->values[OPTION_WITH].choice].model;
+}
+
+static bool shows_probes(const command_line *a, const alp_render_options *o)
+{
+    return o->method == ALP_RENDER_FIELD && model_of(a) == PROBES;
+}
+
 /// Refuses options that a method does not use.
 static int check_method(const command_line *a, const alp_render_options *o)
 {
-    enum { HEMISPHERE = 1 << ALP_RENDER_HEMISPHERE, AO = 1 << ALP_RENDER_AO };
+    enum { FIELD = 1 << ALP_RENDER_FIELD, AO = 1 << ALP_RENDER_AO };
     enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
-    enum { TEXELS = LIGHTMAP | 1 << ALP_RENDER_RADIOSITY | HEMICUBE };
-    enum { LIT = 1 << ALP_RENDER_REFERENCE | TEXELS, PLAIN = ~HEMICUBE };
-    enum { ALBEDO = LIT | HEMISPHERE | 1 << ALP_RENDER_CONSTANT };
+    enum { RADIOSITY = 1 << ALP_RENDER_RADIOSITY, REFERENCE = 1 << ALP_RENDER_REFERENCE };
+    enum { TEXELS = LIGHTMAP | RADIOSITY | HEMICUBE };
+    enum { LIT = REFERENCE | TEXELS | FIELD, PLAIN = ~HEMICUBE };
+    enum { ALBEDO = LIT | 1 << ALP_RENDER_ALBEDO };
+    enum { PROBES_ONLY = 1 << 30 };
     static const struct {
         const char *name;
         option_id id;
@@ -106,17 +137,24 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--spot", OPTION_SPOT, LIT},
                    {"--metals", OPTION_METALS, ALBEDO},
                    {"--sky-turn", OPTION_SKY_TURN, LIT},
-                   {"--sky", OPTION_SKY, LIT | HEMISPHERE},
-                   {"--sky-strength", OPTION_SKY_STRENGTH, LIT | HEMISPHERE},
+                   {"--sky", OPTION_SKY, LIT},
+                   {"--sky-strength", OPTION_SKY_STRENGTH, LIT},
+                   {"--direct", OPTION_DIRECT, REFERENCE | RADIOSITY | FIELD},
+                   {"--object", OPTION_OBJECT, REFERENCE | FIELD},
+                   {"--probes", OPTION_PROBES, PROBES_ONLY},
+                   {"--spacing", OPTION_SPACING, PROBES_ONLY},
+                   {"--bounds", OPTION_BOUNDS, PROBES_ONLY},
+                   {"--lookup", OPTION_LOOKUP, PROBES_ONLY},
+                   {"--overlay", OPTION_OVERLAY, PROBES_ONLY},
                    {"--occluders", OPTION_OCCLUDERS, AO},
                    {"--ao-samples", OPTION_AO_SAMPLES, AO},
                    {"--ao-distance", OPTION_AO_DISTANCE, AO},
                    {"--ao-falloff", OPTION_AO_FALLOFF, AO},
                    {"--ao-cone", OPTION_AO_CONE, AO},
                    {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
+    const unsigned own = 1u << o->method | (shows_probes(a, o) ? (unsigned)PROBES_ONLY : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
-        const bool read = (read_by[i].methods >> o->method & 1u) != 0;
-        if (!read && a->values[read_by[i].id].given) {
+        if ((read_by[i].methods & own) == 0 && a->values[read_by[i].id].given) {
             return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
                                a->values[OPTION_WITH].text);
         }
@@ -124,14 +162,28 @@ static int check_method(const command_line *a, const alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// The ambient light of two half skies has no picture in it.
-static int check_hemisphere(const alp_render_options *o)
+/// "teapot,X,Y,Z,RADIUS"
+static int read_object(const command_line *a, const double origin[3], alp_render_options *o)
 {
-    const alp_sky_kind kind = o->lighting.sky.kind;
-    if (o->method == ALP_RENDER_HEMISPHERE && (kind == ALP_SKY_IMAGE || kind == ALP_SKY_CLEAR)) {
-        return usage_error(COMMAND_RENDER,
-                           "--with hemisphere: takes a --sky of one or two colours");
+    enum { NUMBERS = 4 };
+    const option_value *object = &a->values[OPTION_OBJECT];
+    double n[NUMBERS] = {0.0};
+    if (!object->given) {
+        return EXIT_DONE;
     }
+    const bool sphere = strncmp(object->text, "sphere,", 7) == 0;
+    const bool teapot = strncmp(object->text, "teapot,", 7) == 0;
+    if ((!sphere && !teapot) || !read_numbers(object->text + 7, n, NUMBERS) || n[3] <= 0.0) {
+        return usage_error(COMMAND_RENDER,
+                           "--object: '%s' is no object; give sphere,X,Y,Z,RADIUS or "
+                           "teapot,X,Y,Z,RADIUS in metres",
+                           object->text);
+    }
+    o->object.kind = sphere ? ALP_OBJECT_SPHERE : ALP_OBJECT_TEAPOT;
+    for (int k = 0; k < 3; k++) {
+        o->object.position[k] = (float)(n[k] - origin[k]);
+    }
+    o->object.radius = (float)n[3];
     return EXIT_DONE;
 }
 
@@ -165,9 +217,10 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     if (!a->values[OPTION_WITH].given) {
         return usage_error(COMMAND_RENDER, "no method; give --with reference, radiosity, "
-                                           "lightmap, ao, constant, hemisphere or hemicube");
+                                           "lightmap, probes, ao, albedo or another");
     }
-    o->method = (alp_render_method)a->values[OPTION_WITH].choice;
+    o->method = methods[a->values[OPTION_WITH].choice].method;
+    o->without_direct = a->values[OPTION_DIRECT].choice == 0;
     o->samples = (uint32_t)a->values[OPTION_SAMPLES].whole;
     o->occluders = a->values[OPTION_OCCLUDERS].text;
     o->atlas.size = (uint32_t)a->values[OPTION_SIZE].whole;
@@ -180,17 +233,19 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
+    code = code == EXIT_DONE ? probe_file_check(a) : code;
+    code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
-    code = code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
-    return code == EXIT_DONE ? check_hemisphere(o) : code;
+    return code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
 }
 
 /// Places a camera given by position in the scene that was loaded. One given by number must exist.
 static int find_camera(const session *s, const command_line *a, alp_render_options *o)
 {
     const alp_scene_info info = alp_scene_get_info(s->scene);
-    const int code = read_camera(a->values[OPTION_CAMERA].text, info.origin, o);
+    int code = read_camera(a->values[OPTION_CAMERA].text, info.origin, o);
+    code = code == EXIT_DONE ? read_object(a, info.origin, o) : code;
     if (code != EXIT_DONE) {
         return code;
     }
@@ -253,6 +308,21 @@ static alp_result bake_light(session *s, const command_line *a, const alp_render
     return result;
 }
 
+/// Makes the field of --with.
+static int make_field(session *s, const command_line *a, alp_render_options *o,
+                      field_source *source)
+{
+    if (!shows_probes(a, o)) {
+        const alp_ambient_model model = (alp_ambient_model)model_of(a);
+        const alp_result result = field_fit(s, a, model, &o->lighting, source);
+        return result == ALP_OK ? EXIT_DONE : session_end(s, result);
+    }
+    const alp_probe_lookup lookup = (alp_probe_lookup)a->values[OPTION_LOOKUP].choice;
+    const int code = field_probes(s, a, &o->lighting, lookup, source);
+    o->overlay = a->values[OPTION_OVERLAY].given ? source->probes : NULL;
+    return code;
+}
+
 static alp_result make_picture(session *s, const command_line *a, alp_render_options *o,
                                alp_image **image)
 {
@@ -279,8 +349,17 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     double start = clock_seconds();
     o->progress = session_progress;
     o->progress_user = s;
+    field_source source = {NULL, NULL};
     interrupt_defer();
+    const int made =
+        o->method == ALP_RENDER_FIELD ? make_field(s, a, o, &source) : EXIT_DONE;
+    if (made != EXIT_DONE) {
+        field_source_clear(&source);
+        return made;
+    }
+    o->field = source.field;
     alp_result result = make_picture(s, a, o, &image);
+    field_source_clear(&source);
     double seconds = clock_seconds() - start;
     if (result == ALP_OK) {
         result = save(image, output, a->values[OPTION_FORCE].given, &film);

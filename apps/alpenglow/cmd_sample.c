@@ -36,12 +36,7 @@ static int check_options(const command_line *a)
                                with->text);
         }
     }
-    if (a->values[OPTION_PROBES].given &&
-        (a->values[OPTION_SPACING].given || a->values[OPTION_BOUNDS].given)) {
-        return usage_error(COMMAND_SAMPLE,
-                           "--spacing and --bounds bake probes; leave them out with --probes");
-    }
-    return EXIT_DONE;
+    return probe_file_check(a);
 }
 
 typedef struct sampled {

@@ -4,6 +4,7 @@
 #include "lighting.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static int read_bounds(const command_line *a, const double origin[3], alp_probe_options *o)
@@ -35,7 +36,7 @@ int probe_options_read(const command_line *a, const alp_lighting_options *lighti
     o->lighting = *lighting;
     o->bounces = lighting_bounces(a);
     o->seed = a->values[OPTION_SEED].whole;
-    o->direct = a->values[OPTION_DIRECT].choice == 1;
+    o->direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
     if (a->values[OPTION_SPACING].choice < 0) { // a number
         o->spacing = (float)a->values[OPTION_SPACING].real;
     }
@@ -47,6 +48,16 @@ int probe_options_read(const command_line *a, const alp_lighting_options *lighti
         o->rays = (uint32_t)a->values[OPTION_SAMPLES].whole;
     }
     return read_bounds(a, origin, o);
+}
+
+int probe_file_check(const command_line *a)
+{
+    if (a->values[OPTION_PROBES].given &&
+        (a->values[OPTION_SPACING].given || a->values[OPTION_BOUNDS].given)) {
+        return usage_error(a->command,
+                           "--spacing and --bounds bake probes; leave them out with --probes");
+    }
+    return EXIT_DONE;
 }
 
 alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
@@ -63,6 +74,19 @@ alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
     return alp_field_create_ambient(s->scene, &o, &source->field);
 }
 
+/// Loads probes, and warns where they are of another scene.
+static alp_result load_probes(session *s, const char *path, const alp_scene_info *info,
+                              alp_probes **probes)
+{
+    const alp_result result = alp_probes_load(s->context, path, probes);
+    if (result == ALP_OK && alp_probes_get_info(*probes).scene_hash != info->hash) {
+        session_warn(s, "other-scene", path,
+                     "the probes were baked in another scene, or in this one before it changed; "
+                     "bake them again");
+    }
+    return result;
+}
+
 int field_probes(session *s, const command_line *a, const alp_lighting_options *lighting,
                  alp_probe_lookup lookup, field_source *source)
 {
@@ -74,12 +98,38 @@ int field_probes(session *s, const command_line *a, const alp_lighting_options *
     }
     o.progress = session_progress;
     o.progress_user = s;
-    alp_result result = alp_probes_bake(s->scene, &o, &source->probes);
+    const option_value *file = &a->values[OPTION_PROBES];
+    alp_result result = file->given ? load_probes(s, file->text, &info, &source->probes)
+                                    : alp_probes_bake(s->scene, &o, &source->probes);
     if (result == ALP_OK) {
         result = alp_field_create_probes(source->probes, lookup, info.origin, NULL,
                                          &source->field);
     }
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
+}
+
+void probes_print(const alp_probes_info *i)
+{
+    static const char *const bases[] = {"sh9", "sh4", "ambient-cube"};
+    if (i->is_list) {
+        printf("probes     %u at listed places", i->count);
+    } else {
+        printf("probes     %u = %u x %u x %u, %g m apart", i->count, i->size[0], i->size[1],
+               i->size[2], (double)i->spacing[0]);
+    }
+    printf(", %s%s%s\n", bases[i->basis], i->direct ? ", direct light in them" : "",
+           i->gradients ? ", gradients" : "");
+    printf("states     %u valid, %u moved out of solids, %u filled in solids, %u black\n",
+           i->states[ALP_PROBE_VALID], i->states[ALP_PROBE_MOVED], i->states[ALP_PROBE_FILLED],
+           i->states[ALP_PROBE_INVALID]);
+    printf("mean irradiance %.4g W/m2\n", (double)i->mean);
+    printf("noise      %.2g %% of the mean, %u rays a probe\n", 100.0 * (double)i->error, i->rays);
+    if (!i->is_list && i->mean > 0.0f && i->interpolation > 0.0f) {
+        printf("between    %.2g %% of the mean, by points apart\n",
+               100.0 * (double)i->interpolation / (double)i->mean);
+    }
+    printf("memory     %.3g MB, %.0f bytes a probe\n", (double)i->bytes * 1e-6,
+           (double)i->bytes / (double)i->count);
 }
 
 void field_source_clear(field_source *source)

@@ -17,6 +17,9 @@ typedef struct field_source {
 int probe_options_read(const command_line *arguments, const alp_lighting_options *lighting,
                        const double origin[3], alp_probe_options *options);
 
+/// Refuses --spacing and --bounds beside --probes. @return EXIT_DONE, or EXIT_USAGE
+int probe_file_check(const command_line *arguments);
+
 /// Fits an ambient model. @return as the library
 alp_result field_fit(session *s, const command_line *arguments, alp_ambient_model model,
                      const alp_lighting_options *lighting, field_source *source);
@@ -24,6 +27,8 @@ alp_result field_fit(session *s, const command_line *arguments, alp_ambient_mode
 /// @return EXIT_DONE, or an exit code after a message
 int field_probes(session *s, const command_line *arguments, const alp_lighting_options *lighting,
                  alp_probe_lookup lookup, field_source *source);
+/// Prints what probes hold, and how good they are.
+void probes_print(const alp_probes_info *info);
 void field_source_clear(field_source *source);
 
 #endif

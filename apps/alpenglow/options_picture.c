@@ -8,12 +8,13 @@ static const option rows[] = {
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "reference|radiosity|lightmap|ao|constant|hemisphere|hemicube",
-     .choices = "ao|constant|hemisphere|reference|lightmap|radiosity|hemicube",
-     .later_choices = "probes|ambience|lpv|cube",
-     .help = "Method of rendering, required. The first three see through blended and "
-             "transmissive surfaces; the others cut them at alpha 0.5 or take them as "
-             "opaque.\n"
+     .value = "METHOD",
+     .choices = "ao|albedo|reference|lightmap|radiosity|hemicube|constant|hemisphere|ground-map|"
+                "ambient-cube|environment|probes",
+     .later_choices = "ambience|lpv",
+     .help = "Method of rendering, required. reference, radiosity, lightmap and the models of "
+             "ambient light see through blended and transmissive surfaces; the others cut them at "
+             "alpha 0.5 or take them as opaque.\n"
              "reference: all light by path tracing.\n"
              "radiosity: direct light at each pixel, bounced light from a radiosity on "
              "texels. Less noise than reference at equal --samples.\n"
@@ -22,12 +23,14 @@ static const option rows[] = {
              "their fronts.\n"
              "ao: accessibility from the scene's occlusion maps; by rays for surfaces "
              "without one.\n"
-             "constant: uniform light of radiance 1, so the albedo, at most 0.95 "
+             "albedo: uniform light of radiance 1, so the albedo, at most 0.95 "
              "(--metals).\n"
-             "hemisphere: unoccluded light of the two colours of --sky (default 1,1,1 "
-             "above, 0,0,0 below).\n"
              "hemicube: the five faces of half a cube at the camera, as a texel there "
-             "sees them if it faces the target (--show, --hemicube)."},
+             "sees them if it faces the target (--show, --hemicube).\n"
+             "probes: light probes, from --probes FILE or baked with --spacing.\n"
+             "constant, hemisphere, ground-map, ambient-cube, environment: classic models of "
+             "ambient light, fitted to the scene's light (see sample). Light straight from "
+             "lamps and suns is added at each pixel, with shadows (--direct)."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -62,6 +65,46 @@ static const option rows[] = {
      .help = "Rays per pixel; more give smoother edges. Time grows with N. For "
              "reference and radiosity they are paths, rounded up to a multiple of 16, "
              "with noise of 1 / sqrt(N)."},
+    {.id = OPTION_DIRECT,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--direct",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "Light straight from lamps and suns on the surfaces in view, for reference, "
+             "radiosity, probes and the models of ambient light."},
+    {.id = OPTION_LOOKUP,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--lookup",
+     .value = "ours|three",
+     .choices = "ours|three",
+     .later_choices = "bevy|godot",
+     .initial = "ours",
+     .help = "Reader of --with probes.\n"
+             "ours: weights by visibility, so that light stays in its room.\n"
+             "three: LightProbeGrid of three.js, trilinear, half a cell along the normal."},
+    {.id = OPTION_OBJECT,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--object",
+     .value = "sphere|teapot,X,Y,Z,RADIUS",
+     .help = "A white object at X,Y,Z, lit by the method: reference, probes or a model of "
+             "ambient light. It casts no shadow."},
+    {.id = OPTION_OVERLAY,
+     .commands = IN_RENDER,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--overlay",
+     .value = "probes",
+     .choices = "probes",
+     .later_choices = "cells",
+     .help = "probes: small spheres that show the light of each probe, with --with probes or "
+             "--probes. Orange: filled, in a solid. Magenta: black, in a solid."},
     {.id = OPTION_SHOW,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -99,7 +142,7 @@ static const option rows[] = {
      .minimum = -64,
      .maximum = 64,
      .unit = "EV",
-     .help = "Exposure of a .png: values times 2^EV. Default 0 for ao, constant and "
+     .help = "Exposure of a .png: values times 2^EV. Default 0 for ao, albedo and "
              "the weights of --show, else auto.\n"
              "auto: the geometric mean of the luminance becomes 18 % grey, without "
              "black pixels and the darkest and brightest 5 %. The EV is printed."},
@@ -110,7 +153,7 @@ static const option rows[] = {
      .name = "--tone",
      .value = "film|reinhard|filmic|none",
      .choices = "film|reinhard|filmic|none",
-     .help = "Curve from exposed light L to a .png. Default none for ao, constant and "
+     .help = "Curve from exposed light L to a .png. Default none for ao, albedo and "
              "the weights of --show, else film.\n"
              "film: 1 - e^-L\n"
              "reinhard: L (1 + L/16) / (1 + L), white at 4\n"

@@ -62,6 +62,11 @@ bool session_progress(void *user, const alp_progress *state)
     return true;
 }
 
+void session_warn(session *s, const char *code, const char *object, const char *text)
+{
+    messages_log(&s->messages, &(alp_log_message){ALP_LOG_WARNING, code, object, text});
+}
+
 int session_end(session *s, alp_result result)
 {
     progress_clear(&s->progress);

@@ -28,6 +28,9 @@ void session_close(session *s);
 /// An alp_progress_fn; `user` is a session. False on Ctrl-C, and on a warning that is an error.
 bool session_progress(void *user, const alp_progress *state);
 
+/// Prints a warning of the command itself, which counts like one of the library.
+void session_warn(session *s, const char *code, const char *object, const char *text);
+
 /// Prints the message of a failed call. @return the exit code of the result
 int session_end(session *s, alp_result result);
 

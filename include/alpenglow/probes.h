@@ -111,6 +111,14 @@ ALP_API ALP_NODISCARD alp_result alp_probes_save(const alp_probes *probes, const
 ALP_API ALP_NODISCARD alp_result alp_probes_load(alp_context *context, const char *path,
                                                  alp_probes **probes);
 
+/// Writes a lattice for LightProbeGrid of three.js r184 to r187: a module at PATH (.mjs), and its
+/// texture (.ktx2) beside it.
+/// @param scale factor on the coefficients, > 0
+/// @return ALP_OK; INVALID_ARGUMENT; UNSUPPORTED (a list, or an ambient cube); LIMIT (a coefficient
+///         beyond half floats: a smaller scale helps); IO; OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_probes_export_three(const alp_probes *probes, const char *path,
+                                                         double scale, bool overwrite);
+
 /// How a field reads probes between their places.
 typedef enum alp_probe_lookup {
     /// Trilinear weights, times what each probe sees of the position (if it has visibility), times

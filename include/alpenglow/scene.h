@@ -87,6 +87,7 @@ typedef struct alp_scene_info {
     /// that floats lose detail, such as those of a national grid. Bounds, cameras, lights, and
     /// points, cameras and lamps that the caller gives are positions in the scene.
     double origin[3];
+    uint64_t hash; ///< of the bytes of its files, or of the arrays that it was made of
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 

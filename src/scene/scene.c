@@ -309,6 +309,7 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .unit_metres = scene->unit_metres,
         .unit_stated = !scene->unit_assumed,
         .up_axis = scene->up_axis,
+        .hash = scene->input_hash,
     };
     memcpy(info.origin, scene->origin, sizeof info.origin);
     vec3_store(info.bounds_min, scene->bounds_min);

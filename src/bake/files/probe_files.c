@@ -31,3 +31,12 @@ alp_result alp_probes_load(alp_context *context, const char *path, alp_probes **
     *probes = loaded;
     return ALP_OK;
 }
+
+alp_result alp_probes_export_three(const alp_probes *probes, const char *path, double scale,
+                                   bool overwrite)
+{
+    if (probes == NULL || path == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    return alpi_probes_export_three(&probes->volume, path, scale, overwrite);
+}

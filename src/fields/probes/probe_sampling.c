@@ -61,8 +61,17 @@ static void list_places(const alpi_probe_volume *v, const float point[3], int st
     }
 }
 
+/// Beyond the bounds of the scene few rays meet backs, but there is no light that a room needs.
+static bool is_within(const alp_scene *scene, const float place[3])
+{
+    const vec3 low = scene->bounds_min, high = scene->bounds_max;
+    return place[0] >= low.x && place[1] >= low.y && place[2] >= low.z && place[0] <= high.x &&
+           place[1] <= high.y && place[2] <= high.z;
+}
+
 /// The free place that is nearest, and of those as near the one farthest from surfaces; −1: none
-static int choose_place(const alpi_sphere_light *light)
+static int choose_place(const alp_scene *scene, const float (*places)[3],
+                        const alpi_sphere_light *light)
 {
     int best = -1, best_square = 4;
     for (int i = 0; i < DIRECTIONS; i++) {
@@ -72,7 +81,7 @@ static int choose_place(const alpi_sphere_light *light)
         const bool better =
             square < best_square ||
             (square == best_square && light[i].front_distance > light[best].front_distance);
-        if (!is_inside(&light[i]) && better) {
+        if (better && !is_inside(&light[i]) && is_within(scene, places[i])) {
             best = i;
             best_square = square;
         }
@@ -96,7 +105,9 @@ static alp_result move_step(alpi_probe_sampling *s, alpi_probe_volume *v, int st
     ALP_TRY(gather(s, &job, "moves"));
     for (uint32_t i = 0; i < *count; i++) {
         const uint32_t probe = list[i];
-        const int best = choose_place(light + (size_t)i * DIRECTIONS);
+        const int best = choose_place(s->rays.from.scene,
+                                      (const float(*)[3])(places + (size_t)i * DIRECTIONS),
+                                      light + (size_t)i * DIRECTIONS);
         if (best < 0) {
             list[left++] = probe;
             continue;
