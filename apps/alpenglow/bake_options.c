@@ -124,7 +124,7 @@ static int check_light(const option_value *values, bool light, bool occlusion)
 static unsigned listed_maps(unsigned choices)
 {
     static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
-                                   ALP_MAP_DIRECTION};
+                                   ALP_MAP_DIRECTION, ALP_MAP_PROBES};
     unsigned bits = 0;
     for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
         bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;
@@ -232,6 +232,18 @@ static int read_maps(const option_value *values, alp_bake_options *o)
             COMMAND_BAKE,
             "--maps %s: --gather paths keeps no directions of light; use --gather rays or hemicube",
             sh ? "sh" : "direction");
+    }
+    const bool probes = (o->maps & ALP_MAP_PROBES) != 0;
+    if (probes && !light) {
+        return usage_error(COMMAND_BAKE, "--maps probes: shares the light of the map; give --maps "
+                                         "light,probes, or use the command probes");
+    }
+    if (!probes && (values[OPTION_SPACING].given || values[OPTION_BOUNDS].given)) {
+        return usage_error(COMMAND_BAKE, "%s: needs --maps light,probes",
+                           values[OPTION_SPACING].given ? "--spacing" : "--bounds");
+    }
+    if (probes && o->maps_folder == NULL) {
+        return usage_error(COMMAND_BAKE, "--maps probes: give --maps-dir DIR");
     }
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
         return usage_error(COMMAND_BAKE, "--maps %s: not with --atlas vertex, which bakes ao only",

@@ -2,6 +2,7 @@
 // alpenglow bake: loads, bakes, reports.
 #include "bake_options.h"
 #include "findings.h"
+#include "fields.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"
@@ -55,7 +56,15 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         progress_clear(&s->progress); // on failure, the bake reports the reason
         work_print(stderr, &work);
     }
-    int code = session_end(s, alp_bake(s->scene, o, &lightmap, &told));
+    alp_probe_options probes;
+    int code = probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin,
+                                  &probes);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    o->probes = &probes;
+    code = session_end(s, alp_bake(s->scene, o, &lightmap, &told));
+    o->probes = NULL;
     if (code == EXIT_DONE) {
         code = report(s, lightmap, &told, a);
     }
@@ -90,6 +99,7 @@ int command_bake(const command_line *a)
     alp_bake_options options;
     lamp_list lamps;
     int code = bake_options_read(a, &options, &lamps);
+    code = code == EXIT_DONE ? probe_file_check(a) : code;
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
     }

@@ -36,7 +36,8 @@ int probe_options_read(const command_line *a, const alp_lighting_options *lighti
     o->lighting = *lighting;
     o->bounces = lighting_bounces(a);
     o->seed = a->values[OPTION_SEED].whole;
-    o->direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
+    const bool here = a->command == COMMAND_PROBES || a->command == COMMAND_SAMPLE;
+    o->direct = here && a->values[OPTION_DIRECT].choice == 1;
     if (a->values[OPTION_SPACING].choice < 0) { // a number
         o->spacing = (float)a->values[OPTION_SPACING].real;
     }
@@ -57,7 +58,8 @@ int probe_file_check(const command_line *a)
         return usage_error(a->command,
                            "--spacing and --bounds bake probes; leave them out with --probes");
     }
-    return EXIT_DONE;
+    alp_probe_options unused;
+    return read_bounds(a, (const double[3]){0.0, 0.0, 0.0}, &unused);
 }
 
 alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,

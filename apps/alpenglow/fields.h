@@ -17,7 +17,8 @@ typedef struct field_source {
 int probe_options_read(const command_line *arguments, const alp_lighting_options *lighting,
                        const double origin[3], alp_probe_options *options);
 
-/// Refuses --spacing and --bounds beside --probes. @return EXIT_DONE, or EXIT_USAGE
+/// Refuses --spacing and --bounds beside --probes, and bounds that are none.
+/// @return EXIT_DONE, or EXIT_USAGE after a message
 int probe_file_check(const command_line *arguments);
 
 /// Fits an ambient model. @return as the library

@@ -48,8 +48,7 @@ static const option rows[] = {
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
-     .choices = "ao|bent|light|sh|direction",
-     .later_choices = "probes",
+     .choices = "ao|bent|light|sh|direction|probes",
      .initial = "ao",
      .help = "Maps to bake. -o needs ao, or light and --lightmap-as; all others go to "
              "--maps-dir alone.\n"
@@ -61,7 +60,9 @@ static const option rows[] = {
              "filter it.\n"
              "sh: light by direction for normal-mapped surfaces, spherical harmonics "
              "of two bands; needs light.\n"
-             "direction: the mean direction of light in world space; needs light."},
+             "direction: the mean direction of light in world space; needs light.\n"
+             "probes: light probes for everything that moves (--spacing, --bounds); needs "
+             "light, and shares its solution."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -76,6 +77,7 @@ static const option rows[] = {
              "light: irradiance.exr, irradiance.error.exr\n"
              "sh: sh.0.exr to sh.3.exr (of 1, y, z, x)\n"
              "direction: direction.exr\n"
+             "probes: scene.probes.json, .ktx2 and .moments.ktx2\n"
              "--ao-bleed: obscurance.exr, obscurance.png"},
     {.id = OPTION_MAPS_AS,
      .commands = IN_BAKE,

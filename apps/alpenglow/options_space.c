@@ -54,7 +54,7 @@ static const option rows[] = {
              "further columns are ignored. The first line may be names. - is standard "
              "input."},
     {.id = OPTION_SPACING,
-     .commands = IN_PROBES | IN_SAMPLE | IN_RENDER,
+     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS,
      .group = GROUP_WHAT,
      .kind = KIND_REAL,
      .name = "--spacing",
@@ -67,7 +67,7 @@ static const option rows[] = {
      .help = "Distance of neighbouring probes of a grid. auto: about 4096 probes in the "
              "bounds."},
     {.id = OPTION_BOUNDS,
-     .commands = IN_PROBES | IN_SAMPLE | IN_RENDER,
+     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--bounds",

@@ -8,6 +8,7 @@
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>
 #include <alpenglow/occlusion.h>
+#include <alpenglow/probes.h>
 
 ALP_BEGIN_DECLS
 
@@ -233,6 +234,7 @@ typedef struct alp_bake_options {
     ///   OBSCURANCE takes no time_limit and no keep_partial.
     ///   LIGHT takes them with ALP_GATHER_RAYS and bounces only. It takes no ao_self and no
     ///   occluders.
+    ///   PROBES needs LIGHT and maps_folder.
     ///   ALP_ATLAS_VERTEX: AO alone.
     unsigned maps;
     alp_existing_ao existing_ao; ///< of AO; ALP_ATLAS_VERTEX: REPLACE, materials keep their maps
@@ -278,11 +280,15 @@ typedef struct alp_bake_options {
     ///                irradiance.NAME.exr for each layer
     ///   SH           sh.0.exr to sh.3.exr
     ///   DIRECTION    direction.exr
+    ///   PROBES       scene.probes.json, scene.probes.ktx2, scene.probes.moments.ktx2
     /// Other formats have .hdr or .ktx2 instead of .exr.
     const char *maps_folder;
+    /// PROBES: NULL (default) = alp_probe_options_default(). Its lighting, bounces, one_sided, seed
+    /// and progress are those of the bake; it has no layers.
+    const alp_probe_options *probes;
     alp_maps_format maps_format; ///< of maps_folder; else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "denoise"; "dilation"; "seams";
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "probes"; "denoise"; "dilation"; "seams";
     /// "write". With ALP_ATLAS_VERTEX: "vertices", "build", "occlusion", "detail", "write". Short
     /// stages may be skipped.
     alp_progress_fn *progress;

@@ -22,7 +22,9 @@ typedef enum alp_map {
     /// ALP_MAP_LIGHT; not with ALP_GATHER_PATHS.
     ALP_MAP_SH = 64,
     /// Mean direction of ALP_MAP_LIGHT. Needs ALP_MAP_LIGHT; not with ALP_GATHER_PATHS.
-    ALP_MAP_DIRECTION = 128
+    ALP_MAP_DIRECTION = 128,
+    /// Light probes (alpenglow/probes.h), with the light that ALP_MAP_LIGHT solves, which it needs.
+    ALP_MAP_PROBES = 256
 } alp_map;
 
 /// Special values of alp_sampling_options.accuracy.

@@ -76,6 +76,7 @@ static void release(alpi_bake_job *job)
     alpi_bake_release_packing(job);
     alpi_bake_release_light_asset(job);
     alpi_bake_release_layers(job);
+    alp_probes_destroy(job->probes);
 }
 
 static void finish_report(alpi_bake_job *job, double started)

@@ -11,7 +11,8 @@
 
 enum {
     ALL_MAPS =
-        ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT | ALPI_MAPS_BY_DIRECTION,
+        ALP_MAP_AO | ALP_MAP_BENT | ALP_MAP_OBSCURANCE | ALP_MAP_LIGHT | ALPI_MAPS_BY_DIRECTION |
+        ALP_MAP_PROBES,
     SIGNED_MAPS = ALP_MAP_BENT | ALPI_MAPS_BY_DIRECTION
 };
 
@@ -129,6 +130,11 @@ static alp_result check_maps(const alpi_bake_job *job)
     }
     if ((o->maps & ALPI_MAPS_BY_DIRECTION) != 0 && !alpi_bake_wants_light(o)) {
         return alpi_fail(job->context, INVALID, "bake: light by direction needs ALP_MAP_LIGHT");
+    }
+    if ((o->maps & ALP_MAP_PROBES) != 0 && (!alpi_bake_wants_light(o) || o->maps_folder == NULL)) {
+        return alpi_fail(job->context, INVALID,
+                         "bake: probes need ALP_MAP_LIGHT, whose light they share, and a "
+                         "maps_folder");
     }
     if (o->ao_self && o->occluders != NULL) {
         return alpi_fail(job->context, INVALID,

@@ -104,6 +104,7 @@ typedef struct alpi_bake_job {
     float (*irradiance)[3], (*irradiance_errors)[3];
     float (*direct)[3], (*bounced)[3]; // both or none
     alpi_directional *directional;
+    alp_probes *probes; // or NULL
     // Write fills this.
     alpi_light_asset light_asset;
     alp_bake_report report;

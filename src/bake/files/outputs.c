@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "fields/probes/probes.h"
 #include "formats/formats.h"
 
 #include <stdio.h>
@@ -108,6 +109,42 @@ alp_result alpi_bake_check_output(const alpi_bake_job *job, uint32_t pages)
     return alpi_scene_check_outputs(job->scene, &images, o->output, o->overwrite);
 }
 
+/// "scene.probes.json" in the maps folder.
+static char *probes_path(const alpi_bake_job *job)
+{
+    return alpi_format(job->context, "%s/scene.probes.json", job->options.maps_folder);
+}
+
+static alp_result check_probes(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if ((o->maps & ALP_MAP_PROBES) == 0) {
+        return ALP_OK;
+    }
+    char *path = probes_path(job);
+    if (path == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const bool moments = o->probes == NULL || o->probes->visibility;
+    const alp_result result =
+        alpi_probes_check_outputs(job->context, path, moments, o->overwrite);
+    alpi_release(job->context, path);
+    return result;
+}
+
+static alp_result add_probes(const alpi_bake_job *job, alpi_file_set *files)
+{
+    if (job->probes == NULL) {
+        return ALP_OK;
+    }
+    char *path = probes_path(job);
+    const alp_result result = path != NULL
+                                  ? alpi_probes_add_files(&job->probes->volume, path, files)
+                                  : ALP_ERROR_OUT_OF_MEMORY;
+    alpi_release(job->context, path);
+    return result;
+}
+
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
@@ -115,6 +152,7 @@ alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
         ALP_TRY(alpi_bake_check_layer_files(job, pages));
+        ALP_TRY(check_probes(job));
         for (uint32_t p = 0; p < pages; p++) {
             for (int kind = 0; kind < MAP_COUNT; kind++) {
                 if (is_written(o, kind)) {
@@ -285,6 +323,7 @@ static alp_result add_files(const alpi_bake_job *job, const encoded_page *pages,
 {
     ALP_TRY(add_maps(job, pages, files));
     ALP_TRY(alpi_bake_add_layers(job, files));
+    ALP_TRY(add_probes(job, files));
     if (job->options.output == NULL) {
         return ALP_OK;
     }

@@ -154,10 +154,13 @@ static alp_result gather_paths(alpi_bake_job *job, alpi_light_task *t)
 static alp_result gather(alpi_bake_job *job, alpi_light_task *t)
 {
     job->report.light_direct = job->options.light.bounces == 0;
+    const bool paths = job->options.light.gather == ALP_GATHER_PATHS;
     alp_result result = job->report.light_direct ? gather_direct(job, t)
-                        : job->options.light.gather == ALP_GATHER_PATHS
-                            ? gather_paths(job, t)
-                            : alpi_bake_radiosity(job, t);
+                        : paths                  ? gather_paths(job, t)
+                                                 : alpi_bake_radiosity(job, t);
+    if (result == ALP_OK && (job->report.light_direct || paths)) {
+        result = alpi_light_probes(job, NULL); // no radiosity to share
+    }
     if (result == ALP_OK) {
         result = take_values(job, t);
     }

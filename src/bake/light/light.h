@@ -133,4 +133,8 @@ alp_result alpi_light_sum(alpi_bake_job *job, const alpi_light_task *task,
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_denoise(alpi_bake_job *job, const alpi_light_task *task, float (*skies)[3]);
 
+/// Samples the probes of the bake, if it wants any. @param known NULL: their light is solved apart
+/// @return ALP_OK; what alp_probes_bake returns
+alp_result alpi_light_probes(alpi_bake_job *job, const alpi_surface_light *known);
+
 #endif

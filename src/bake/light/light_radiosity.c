@@ -190,8 +190,12 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
                                  &t->progress, &solution));
     report_solution(job, &solution);
     alpi_radiosity_settle(&solution, alpi_light_has_rounds(o));
-    const alp_result result =
+    alp_result result =
         alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
+    if (result == ALP_OK) {
+        const alpi_surface_light known = alpi_patches_light(&solution.patches);
+        result = alpi_light_probes(job, &known);
+    }
     alpi_radiosity_destroy(&solution);
     return result;
 }
@@ -247,6 +251,10 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
         alpi_radiosity_settle(&around->radiosity, false);
         result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
                                    &around->radiosity);
+    }
+    if (result == ALP_OK) {
+        const alpi_surface_light known = alpi_solution_light(around);
+        result = alpi_light_probes(job, &known);
     }
     alpi_solution_destroy(around);
     return result;

@@ -73,7 +73,9 @@ typedef struct probe_job {
     alpi_lighting *lighting;     // all light
     alpi_lighting *space;        // sky and emissive surfaces: what arrives directly
     alpi_lighting *soft, *spots; // the same with the soft sky, and with its bright spots
-    alpi_solution *solution;     // NULL without bounces
+    const alpi_surface_light *given; // NULL, or light that surfaces reflect
+    alpi_solution *solution;         // NULL without bounces, or with light that is given
+    alpi_surface_light known;        // of either
     alpi_probe_layers layers;
     alpi_probe_sampling sampling;
     alpi_probe_volume *volume;
@@ -127,7 +129,10 @@ static alp_result prepare_sampling(probe_job *job)
 static alp_result solve(probe_job *job)
 {
     const alp_probe_options *o = job->o;
-    if (o->bounces == 0) {
+    if (job->given != NULL) {
+        job->known = *job->given;
+    }
+    if (o->bounces == 0 || job->given != NULL) {
         return ALP_OK;
     }
     alpi_solution_options options = {.scene = job->scene,
@@ -140,7 +145,9 @@ static alp_result solve(probe_job *job)
                                      .layers = o->layers ? &job->layers.light : NULL,
                                      .seed = o->seed};
     options.atlas.size = o->atlas_size;
-    return alpi_solution_create(&options, o->progress, o->progress_user, &job->solution);
+    ALP_TRY(alpi_solution_create(&options, o->progress, o->progress_user, &job->solution));
+    job->known = alpi_solution_light(job->solution);
+    return ALP_OK;
 }
 
 /// Pixels along a face for a number of rays: a multiple of 4.
@@ -188,9 +195,7 @@ static void aim(probe_job *job)
         .reach = v->is_list ? vec3_length(size) : 2.0f * vec3_length(cell),
         .seed = job->o->seed,
     };
-    if (job->solution != NULL) {
-        s->rays.from.light = alpi_solution_light(job->solution);
-    }
+    s->rays.from.light = job->known;
     job->volume->reach = s->rays.reach;
     job->volume->rays = alpi_sphere_rays_count(&s->rays);
 }
@@ -275,7 +280,6 @@ static alp_result gather_held_out(const probe_job *job, const alpi_point_array *
 {
     const alp_probe_options *o = job->o;
     const uint32_t limit = ALPI_REFERENCE_BOUNCE_LIMIT;
-    alpi_surface_light known = {0};
     alpi_reference reference = {.context = job->scene->context,
                                 .scene = job->scene,
                                 .tracer = job->tracer,
@@ -286,9 +290,8 @@ static alp_result gather_held_out(const probe_job *job, const alpi_point_array *
                                 .samples = HELD_OUT_PATHS,
                                 .next_event = true,
                                 .seed = o->seed + 1};
-    if (job->solution != NULL) {
-        known = alpi_solution_light(job->solution);
-        reference.known = &known;
+    if (job->known.find != NULL) {
+        reference.known = &job->known;
     }
     const alpi_receivers receivers = alpi_point_array_receivers(points);
     const alpi_task_progress progress = {
@@ -365,11 +368,54 @@ static alp_result sample_layers(probe_job *job, const alpi_probe_light *all)
                : ALP_OK;
 }
 
+/// Warns where probes hold no light because they lie in solids.
+static void warn_of_solids(const probe_job *job)
+{
+    const alp_scene *scene = job->scene;
+    const uint32_t count = job->volume->count, inside = count - job->sampling.free_count;
+    if (inside == count) {
+        alpi_warn(scene->context, "probes-inside", scene->name,
+                  "all %u probes lie in solids or behind walls: their light is black; check the "
+                  "bounds and the spacing",
+                  count);
+    } else if (job->volume->is_list && inside > 0) {
+        alpi_warn(scene->context, "probes-inside", scene->name,
+                  "%u of %u probes lie in solids or behind walls: their light is black", inside,
+                  count);
+    }
+}
+
+/// Warns where the lattice does not touch the scene.
+static void warn_of_bounds(const probe_job *job)
+{
+    const alpi_probe_volume *v = job->volume;
+    const alp_scene *scene = job->scene;
+    const double low[3] = {(double)scene->bounds_min.x, (double)scene->bounds_min.y,
+                           (double)scene->bounds_min.z};
+    const double high[3] = {(double)scene->bounds_max.x, (double)scene->bounds_max.y,
+                            (double)scene->bounds_max.z};
+    bool outside = false;
+    for (int k = 0; k < 3 && !v->is_list; k++) {
+        const double first = v->origin[k] - scene->origin[k] - (double)v->spacing[k];
+        const double last = first + (v->size[k] + 1.0) * (double)v->spacing[k];
+        outside = outside || last < low[k] || first > high[k];
+    }
+    if (outside) {
+        alpi_warn(scene->context, "probes-outside", scene->name,
+                  "the grid lies outside of the scene, whose bounds are %g %g %g to %g %g %g m",
+                  low[0] + scene->origin[0], low[1] + scene->origin[1], low[2] + scene->origin[2],
+                  high[0] + scene->origin[0], high[1] + scene->origin[1],
+                  high[2] + scene->origin[2]);
+    }
+}
+
 static alp_result sample(probe_job *job)
 {
     alpi_probe_volume *v = job->volume;
     alpi_probe_sampling *s = &job->sampling;
+    warn_of_bounds(job);
     ALP_TRY(alpi_probes_survey(s, v));
+    warn_of_solids(job);
     const alpi_probe_light light = {.rays = s->rays,
                                     .lamps = job->o->direct ? job->lighting : NULL,
                                     .lamp = ALPI_NONE,
@@ -412,6 +458,12 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
     if (scene == NULL || probes == NULL) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
+    return alpi_probes_bake(scene, options, NULL, probes);
+}
+
+alp_result alpi_probes_bake(const alp_scene *scene, const alp_probe_options *options,
+                            const alpi_surface_light *known, alp_probes **probes)
+{
     *probes = NULL;
     const alp_probe_options o = options ? *options : alp_probe_options_default();
     ALP_TRY(check(scene, &o));
@@ -421,7 +473,7 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     made->context = context;
-    probe_job job = {.scene = scene, .o = &o, .volume = &made->volume};
+    probe_job job = {.scene = scene, .o = &o, .given = known, .volume = &made->volume};
     const alpi_watch former =
         alpi_set_watch(context, (alpi_watch){.callback = o.progress, .user = o.progress_user});
     const alp_result result = run(&job);

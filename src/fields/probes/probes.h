@@ -71,6 +71,12 @@ void alpi_probe_project(const alpi_sh9 *radiance, alpi_probe_basis basis, float 
 /// E = Σ weight · coefficient for a normal. @param weights [9] out
 void alpi_probe_weights(alpi_probe_basis basis, vec3 normal, float *weights);
 
+/// The bake behind alp_probes_bake, of light that is known.
+/// @param known NULL, or light that surfaces reflect after all bounces, in cells; without layers
+/// @return as alp_probes_bake
+alp_result alpi_probes_bake(const alp_scene *scene, const alp_probe_options *options,
+                            const alpi_surface_light *known, alp_probes **probes);
+
 /// The field behind alp_field_create_probes, for volumes that belong to no handle.
 alp_result alpi_probe_field_create(const alpi_probe_volume *volume, alp_probe_lookup lookup,
                                    const double origin[3], const float *strengths,
