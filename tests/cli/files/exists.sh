@@ -9,10 +9,10 @@ alpenglow bake builtin:sphere-plane $quick -o out.glb; echo $?
 alpenglow bake builtin:sphere-plane $quick --maps-dir maps; echo $?
 alpenglow bake builtin:sphere-plane $quick -o new.glb --json out.json; echo $?
 alpenglow bake builtin:sphere-plane $quick -o new.glb --report out.html; echo $?
-alpenglow render builtin:sphere-plane --with constant --resolution 8x8 -q -o out.png; echo $?
+alpenglow render builtin:sphere-plane --with albedo --resolution 8x8 -q -o out.png; echo $?
 cat out.glb out.png out.json out.html maps/ao.exr
 ls . maps
 alpenglow bake builtin:sphere-plane $quick -o out.glb --maps-dir maps --json out.json --report out.html -f; echo $?
-alpenglow render builtin:sphere-plane --with constant --resolution 8x8 -q -o out.png --force; echo $?
+alpenglow render builtin:sphere-plane --with albedo --resolution 8x8 -q -o out.png --force; echo $?
 grep -l precious out.glb out.png out.json out.html maps/ao.exr
 ls . maps

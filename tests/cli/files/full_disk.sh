@@ -21,7 +21,7 @@ for output in out.glb out.gltf out.obj; do
     small 1 bake room.gltf $quick -o $output
 done
 small 0 bake room.gltf $quick --maps-dir maps
-small 0 render room.gltf --with constant --resolution 8x8 -q -o out.png
+small 0 render room.gltf --with albedo --resolution 8x8 -q -o out.png
 small 0 compare in/ao.exr in/ao.exr --json out.json
 small 0 compare in/ao.exr in/ao.exr --heatmap out.png
 small 4 bake room.gltf $quick --maps-dir new --report page.html # the maps fit, the page does not
@@ -31,7 +31,7 @@ for name in out.glb out.png out.json maps/ao.exr; do
     echo precious >$name
 done
 small 1 bake room.gltf $quick -f -o out.glb --maps-dir maps
-small 0 render room.gltf -f --with constant --resolution 8x8 -q -o out.png
+small 0 render room.gltf -f --with albedo --resolution 8x8 -q -o out.png
 small 0 compare -f in/ao.exr in/ao.exr --json out.json
 cat out.glb out.png out.json maps/ao.exr
 ls . maps

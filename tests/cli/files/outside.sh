@@ -7,7 +7,7 @@ room '{"pbrMetallicRoughness":{"metallicFactor":0},"emissiveFactor":[1,1,1]}' ''
 alpenglow bake whole.gltf $quick -o other/room.gltf
 for name in ../other/room.ao.bin ..%2fother%2froom.ao.bin "$PWD/other/room.ao.bin" "file://$PWD/other/room.ao.bin"; do
     sed "s|\"uri\":\"room.ao.bin\"|\"uri\":\"$name\"|; s|\"uri\":\"room.ao.png\"|\"uri\":\"../other/room.ao.png\"|" other/room.gltf >asset/room.gltf
-    for command in "info -q" "render -q --with constant --resolution 8x8 -f -o out.png" "bake $quick -f -o out.glb"; do
+    for command in "info -q" "render -q --with albedo --resolution 8x8 -f -o out.png" "bake $quick -f -o out.glb"; do
         alpenglow ${command%% *} asset/room.gltf ${command#* } 2>&1 >/dev/null | sed "s|$PWD|HERE|g"
         alpenglow ${command%% *} asset/room.gltf ${command#* } --allow-outside 2>&1 >/dev/null | sed "s|$PWD|HERE|g"
     done

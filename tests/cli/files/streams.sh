@@ -3,7 +3,7 @@
 # and no file is a place for messages
 quick="--size 16 --ao-samples 4 --progress off"
 alpenglow bake builtin:sphere-plane $quick -q -o a.glb --maps-dir maps
-alpenglow render builtin:sphere-plane --with constant --resolution 8x8 -q -o r.png
+alpenglow render builtin:sphere-plane --with albedo --resolution 8x8 -q -o r.png
 full() {
     alpenglow "$@" >/dev/full 2>messages
     echo "full $?: $(tail -n 1 messages)"
@@ -22,7 +22,7 @@ full compare maps/ao.exr maps/ao.exr
 full compare maps/ao.exr maps/ao.exr --json -
 full bake builtin:sphere-plane $quick -o b.glb -f
 full bake builtin:sphere-plane $quick -q -o b.glb --json - -f
-full render builtin:sphere-plane --with constant --resolution 8x8 -o s.png -f
+full render builtin:sphere-plane --with albedo --resolution 8x8 -o s.png -f
 cmp a.glb b.glb && cmp r.png s.png
 # with nothing open at all the files are the same
 alpenglow bake builtin:sphere-plane $quick -o c.glb --report c.html --json c.json >&- 2>&- <&-

@@ -9,7 +9,7 @@ printf "$header\n-Y 2 +X 2\n%b" "$(printf '\\200\\200\\200\\201%.0s' 1 2 3 4)" >
 printf "$header\n-Y 2 +X 4\n\200\200\200\201%b" "$(printf '\\377%.0s' {1..28})" >infinite.hdr
 printf "${header}EXPOSURE=nan\n\n-Y 2 +X 4\n%b" "$(printf '\\200%.0s' {1..32})" >exposure.hdr
 : >empty.hdr
-alpenglow render builtin:sphere-plane --with constant -o sky.png --resolution 4x2 -q
+alpenglow render builtin:sphere-plane --with albedo -o sky.png --resolution 4x2 -q
 cp sky.png png.hdr
 render="alpenglow render builtin:sphere-plane --with reference --resolution 16x9 --samples 4 -q -f"
 for sky in missing empty truncated overrun square infinite exposure png; do

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # film: nothing unless asked for; an exposure that was chosen gives the same picture again
-render="alpenglow render builtin:cornell --resolution 32x24 --samples 2 --with constant"
+render="alpenglow render builtin:cornell --resolution 32x24 --samples 2 --with albedo"
 $render -q -o plain.png && $render -q --exposure 0 --tone none --white-balance off -o zero.png &&
     cmp plain.png zero.png && echo "the default shows what is there"
 ev=$($render --exposure auto --tone film -o auto.png | sed -n 's/^exposure *\(.*\) EV$/\1/p')

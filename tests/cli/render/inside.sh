@@ -7,5 +7,5 @@ for camera in 0,0.5,0,3,0.5,0,60 0,-1,0,0,5,0,60 0,2,3,0,0,0,60; do
         $inside --with $method --camera $camera -o a.png -f 2>&1
     done
 done
-alpenglow render builtin:sphere-plane --resolution 16x9 --samples 1 -q --with constant \
+alpenglow render builtin:sphere-plane --resolution 16x9 --samples 1 -q --with albedo \
     --camera 0,-1,0,0,5,0,60 -o b.png && echo "the albedo is seen from both sides"

@@ -105,7 +105,7 @@ def check_examples(command):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.dirname(command) + os.pathsep + os.environ["PATH"]
         script = 'PATH=$1; alpenglow bake builtin:cornell -o scene.glb --maps-dir maps --size 32 -q'
-        script += '; alpenglow render builtin:cornell --with constant --resolution 8x4 -q -o sky.hdr'
+        script += '; alpenglow render builtin:cornell --with albedo --resolution 8x4 -q -o sky.hdr'
         run(["bash", "-c", script, "bash", path], cwd=folder)
         for name, page in [*list(pages(command))[1:], next(pages(command))]:
             for text in re.findall(r"^\.nf\n(.*)\n\.fi$", page, re.MULTILINE):

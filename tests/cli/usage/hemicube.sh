@@ -11,7 +11,7 @@ render --with hemicube --samples 4
 render --with hemicube --texel-samples 4
 render --with hemicube --ao-samples 4
 render --with hemicube --occluders Wall
-for method in reference radiosity lightmap ao constant hemisphere; do
+for method in reference radiosity lightmap ao albedo; do
     render --with $method --show weight
     render --with $method --hemicube 64
 done

@@ -4,7 +4,7 @@
 bake() { try bake scene.glb --maps-dir maps --maps light "$@"; }
 try bake scene.glb -o out.glb --lamp 0,1,0,5
 try bake scene.glb -o out.glb --spot 0,1,0,0,0,0,5,10,20
-for method in ao constant hemisphere; do
+for method in ao albedo; do
     try render scene.glb -o out.png --with $method --lamp 0,1,0,5
 done
 try render scene.glb -o out.png --with ao --spot 0,1,0,0,0,0,5,10,20

@@ -24,9 +24,9 @@ bake --metals shiny
 bake --metals black
 try bake scene.glb --maps-dir maps --ao-bleed --metals black
 render --with ao --metals black
-render --with constant --metals black
+render --with albedo --metals black
 render --with ao --sky 1,1,1
-render --with constant --bounces 3
+render --with albedo --bounces 3
 render --with reference --size 64
 render --with radiosity --texel-samples 64
 render --with ao --texel-samples 64

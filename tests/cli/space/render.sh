@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+# render: fields, objects that they light, and spheres that show probes
+render="alpenglow render builtin:cornell --resolution 32x24 --samples 4 -q"
+for model in constant hemisphere ground-map ambient-cube environment probes; do
+    $render --with $model -o $model.exr || echo "exit $?"
+done
+ls
+$render --with probes --lookup three -o three.exr
+$render --with probes --overlay probes --object sphere,.28,.3,.28,.1 -o object.exr
+for name in three object; do
+    alpenglow compare probes.exr $name.exr --max-rmse 1e-6 >/dev/null 2>&1 || echo "$name differs"
+done
+$render --with reference --lamp .28,.3,.28,9 -o on.exr
+$render --with reference --lamp .28,.3,.28,9 --direct off -o off.exr
+alpenglow compare on.exr off.exr --max-rmse .1 >/dev/null 2>&1 || echo "the lamp is left out"
+for options in "--with ao --direct off" "--with constant --spacing 1" "--with ao --object sphere,0,0,0,1" \
+    "--with probes --object cube,0,0,0,1" "--with probes --object sphere,0,0,0,0" \
+    "--with constant --overlay probes" "--with probes --lookup godot"; do
+    $render $options -o x.exr 2>&1 | head -n 1
+done
+alpenglow probes builtin:furnace -q --spacing 1 -o other.probes.json
+$render --with probes --probes other.probes.json -o other.exr
