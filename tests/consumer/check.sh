@@ -26,8 +26,8 @@ run_consumer() { # program, folder to run in
     [ -s "$2/cornell.glb" ] || fail "the program wrote no file"
 }
 
-run_examples() { # folder with the four programs, their names
-    local folder=$1 points=$2 bake=$3 maps=$4 light=$5
+run_examples() { # folder with the five programs, their names
+    local folder=$1 points=$2 bake=$3 maps=$4 light=$5 probes=$6
     cd "$folder"
     "./$points" >points.txt || fail "$points failed"
     awk 'NR > 1 { n++; if ($5 * $5 > 0.005 * 0.005 || $3 - $4 > 0.005 || $4 - $3 > 0.005) bad = 1 }
@@ -47,6 +47,10 @@ run_examples() { # folder with the four programs, their names
         fail "$maps wrote no picture"
     # 60,000 lux from 45 degrees are 42,426 on level ground, to which a sky with 7.3 kcd/m2 at its
     # zenith adds 20,000 to 30,000; where the wall keeps the sun off there are no more than these
+    "./$probes" >probes.txt || fail "$probes failed"
+    # the nine harmonics and the grid are within a fifth of the path tracer
+    awk '/^above/ { seen = ($3 - $7) ^ 2 < (.2 * $7) ^ 2 } END { exit !seen || NR != 3 }' probes.txt ||
+        fail "$probes is off: $(cat probes.txt)"
     "./$light" >light.txt || fail "$light failed"
     awk '/^irradiance/ { seen = $5 > 5000 && $5 < 30000 && $7 > 62426 && $7 < 90000 }
          END { exit !seen }' light.txt || fail "$light is off: $(cat light.txt)"
@@ -104,11 +108,11 @@ examples)
         grep -qF "$(basename "$source")" "$examples/README.md" || fail "README.md misses $source"
     done
     # CMake's programs know where the library is, a compiler's do not.
-    (export LD_LIBRARY_PATH=$libraries && run_examples "$work/examples" points bake maps light)
+    (export LD_LIBRARY_PATH=$libraries && run_examples "$work/examples" points bake maps light probes)
     cmake -S "$examples" -B "$work/examples/build" -DCMAKE_PREFIX_PATH="$prefix"
     cmake --build "$work/examples/build"
     run_examples "$work/examples/build" 01_occlusion_at_points 02_bake_a_file 03_maps_as_arrays \
-        04_light_a_scene
+        04_light_a_scene 06_probes
     ;;
 manual)
     share=$(dirname "$(find "$prefix" -name man -type d)")
