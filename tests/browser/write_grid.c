@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // write_grid FOLDER: writes probes for three.js there, and what pixels of a white sphere in their
-// light must be: E/π, trilinear between probes, half a cell along the normal as three.js does it.
+// light must be: E/π by the field that render --lookup three reads.
 #include "test_volume.h"
 
 #include "base/half.h"
+#include "fields/probes/probes.h"
 #include "formats/formats.h"
-#include "sh/sh9.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -39,39 +39,6 @@ static alpi_probe_volume make_volume(alp_context *context, const uint32_t size[3
     return v;
 }
 
-/// E/π at a place in units of cells from probe 0, clamped to the lattice.
-static void shade(const alpi_probe_volume *v, const double cell[3], vec3 normal, double value[3])
-{
-    alpi_sh9 sh = {{{0.0f}}};
-    uint32_t low[3];
-    double part[3];
-    for (int k = 0; k < 3; k++) {
-        const double at = fmin(fmax(cell[k], 0.0), v->size[k] - 1.0);
-        low[k] =
-            (uint32_t)at < v->size[k] - 1 ? (uint32_t)at : v->size[k] - (v->size[k] > 1 ? 2 : 1);
-        part[k] = at - low[k];
-    }
-    for (uint32_t corner = 0; corner < 8; corner++) {
-        double weight = 1.0;
-        uint32_t index[3];
-        for (int k = 0; k < 3; k++) {
-            const uint32_t high = corner >> k & 1;
-            index[k] = low[k] + high < v->size[k] ? low[k] + high : low[k];
-            weight *= high != 0 ? part[k] : 1.0 - part[k];
-        }
-        const uint32_t probe = index[0] + v->size[0] * (index[1] + v->size[1] * index[2]);
-        for (int k = 0; k < 27; k++) {
-            sh.c[k / 3][k % 3] +=
-                (float)(weight * (double)v->coefficients[27 * probe + (uint32_t)k]);
-        }
-    }
-    const vec3 e = alpi_sh9_irradiance(&sh, normal);
-    const float channels[3] = {e.x, e.y, e.z};
-    for (int k = 0; k < 3; k++) {
-        value[k] = fmax((double)channels[k], 0.0) / ALPI_PI;
-    }
-}
-
 /// The normal of the sphere where the ray of a pixel meets it, not near its outline.
 static bool meet(const view *w, int x, int y, vec3 *normal)
 {
@@ -89,37 +56,44 @@ static bool meet(const view *w, int x, int y, vec3 *normal)
     return vec3_dot(*normal, d) < -0.3f;
 }
 
+/// E/π at the sphere, by the field that render --lookup three reads.
 /// @param offset cells by which probes would be elsewhere
-static void value_at(const alpi_probe_volume *v, const view *w, vec3 normal, double offset,
-                     double value[3])
+static void value_at(const alp_field *field, const alpi_probe_volume *v, const view *w,
+                     vec3 normal, float offset, double value[3])
 {
-    const float n[3] = {normal.x, normal.y, normal.z};
-    const float c[3] = {w->center.x, w->center.y, w->center.z};
-    double cell[3];
+    const vec3 at = vec3_mad(w->center, w->radius, normal);
+    const float n[1][3] = {{normal.x, normal.y, normal.z}};
+    const float p[1][3] = {{at.x + offset * v->spacing[0], at.y + offset * v->spacing[1],
+                            at.z + offset * v->spacing[2]}};
+    float e[1][3];
+    alp_field_irradiance(field, 1, p, n, e);
     for (int k = 0; k < 3; k++) {
-        const double place = (double)(c[k] + w->radius * n[k]) - v->origin[k];
-        cell[k] = place / (double)v->spacing[k] + 0.5 * (double)n[k] + offset;
+        value[k] = (double)e[0][k] / ALPI_PI;
     }
-    shade(v, cell, normal, value);
 }
 
 static json_t *describe_pixels(const alpi_probe_volume *v, const view *w, double *half)
 {
     json_t *pixels = json_array();
+    alp_field *field = NULL;
+    if (alpi_probe_field_create(v, ALP_LOOKUP_THREE, NULL, NULL, &field) != ALP_OK) {
+        exit(1);
+    }
     for (int i = 0; i < SIDE * SIDE; i++) {
         vec3 normal;
         double value[3], moved[3];
         if (!meet(w, i % SIDE, i / SIDE, &normal)) {
             continue;
         }
-        value_at(v, w, normal, 0.0, value);
-        value_at(v, w, normal, 0.5, moved);
+        value_at(field, v, w, normal, 0.0f, value);
+        value_at(field, v, w, normal, 0.5f, moved);
         for (int k = 0; k < 3; k++) {
             *half = fmax(*half, fabs(moved[k] - value[k]));
         }
         json_array_append_new(pixels, json_pack("{s:i,s:i,s:[f,f,f]}", "x", i % SIDE, "y", i / SIDE,
                                                 "value", value[0], value[1], value[2]));
     }
+    alp_field_destroy(field);
     return pixels;
 }
 

@@ -45,12 +45,12 @@ run_examples() { # folder with the five programs, their names
         maps.txt || fail "$maps is off: $(cat maps.txt)"
     "$prefix/bin/alpenglow" compare page.png page.png --max-rmse 0 -q >/dev/null ||
         fail "$maps wrote no picture"
-    # 60,000 lux from 45 degrees are 42,426 on level ground, to which a sky with 7.3 kcd/m2 at its
-    # zenith adds 20,000 to 30,000; where the wall keeps the sun off there are no more than these
     "./$probes" >probes.txt || fail "$probes failed"
     # the nine harmonics and the grid are within a fifth of the path tracer
     awk '/^above/ { seen = ($3 - $7) ^ 2 < (.2 * $7) ^ 2 } END { exit !seen || NR != 3 }' probes.txt ||
         fail "$probes is off: $(cat probes.txt)"
+    # 60,000 lux from 45 degrees are 42,426 on level ground, to which a sky with 7.3 kcd/m2 at its
+    # zenith adds 20,000 to 30,000; where the wall keeps the sun off there are no more than these
     "./$light" >light.txt || fail "$light failed"
     awk '/^irradiance/ { seen = $5 > 5000 && $5 < 30000 && $7 > 62426 && $7 < 90000 }
          END { exit !seen }' light.txt || fail "$light is off: $(cat light.txt)"
