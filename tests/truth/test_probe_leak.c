@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light of probes that leaks through a thin wall: two closed rooms, one of them lit, and eight places
-// of the wall against the lattice.
+// Light of probes that leaks through a thin wall: two closed rooms, one of them lit, and eight
+// places of the wall against the lattice.
 #include "test_scenes.h"
 
 #include "scene/builtin/mesh_builder.h"
@@ -113,8 +113,9 @@ TEST_SLOW_WITH_CONTEXT(a_thin_wall_leaks_no_light, 2)
         const room_light ours = leak(probes, ALP_LOOKUP_OURS, wall);
         const room_light three = leak(probes, ALP_LOOKUP_THREE, wall);
         const alp_probes_info info = alp_probes_get_info(probes);
-        printf("leak: %.3f m|%u|%.3f %%|%.1f %%|%.2f %%\n", (double)wall, info.states[ALP_PROBE_MOVED],
-               100.0 * ours.mean, 100.0 * ours.worst, 100.0 * three.mean);
+        printf("leak: %.3f m|%u|%.3f %%|%.1f %%|%.2f %%\n", (double)wall,
+               info.states[ALP_PROBE_MOVED], 100.0 * ours.mean, 100.0 * ours.worst,
+               100.0 * three.mean);
         worst = fmax(worst, ours.mean);
         worst_three = fmax(worst_three, three.mean);
         alp_probes_destroy(probes);
