@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Models of light in space against the truth: irradiance at random free points with random normals.
 //
-// The truth is two references y₁ and y₂ that are independent of each other and of the model, so that
-// E[(x − y₁)(x − y₂)] is the squared error of the model's x without theirs.
+// The truth is two references y₁ and y₂ that are independent of each other and of the model, so
+// that E[(x − y₁)(x − y₂)] is the squared error of the model's x without theirs.
 #include "bench.h"
 
 #include "base/memory.h"
@@ -83,9 +83,8 @@ static alp_result trace_half(field_case *c, int half)
     o.lighting = c->light;
     o.samples = c->options->quick ? QUICK_PATHS : PATHS;
     o.seed = half == 0 ? SEED_FIRST : SEED_SECOND;
-    return alp_reference_irradiance(c->scene.scene, &o, c->count,
-                                    (const float(*)[3])c->positions, (const float(*)[3])c->normals,
-                                    c->halves[half], NULL);
+    return alp_reference_irradiance(c->scene.scene, &o, c->count, (const float(*)[3])c->positions,
+                                    (const float(*)[3])c->normals, c->halves[half], NULL);
 }
 
 static alp_result find_truth(field_case *c)
@@ -170,8 +169,8 @@ static void add_row(field_case *c, const char *model, const alp_probes *probes,
 
 static alp_result measure_classics(field_case *c)
 {
-    static const char *const names[ALP_AMBIENT_COUNT] = {
-        "constant", "hemisphere", "ground map", "ambient cube", "environment"};
+    static const char *const names[ALP_AMBIENT_COUNT] = {"constant", "hemisphere", "ground map",
+                                                         "ambient cube", "environment"};
     for (int m = 0; m < ALP_AMBIENT_COUNT; m++) {
         alp_ambient_options o = alp_ambient_options_default();
         alp_field *field = NULL;
