@@ -191,8 +191,8 @@ static void aim(probe_job *job)
         .aimed = aimed,
         .face = face_for(job->o->rays),
         .replicates = ALPI_SPHERE_REPLICATES,
-        // Beyond the cell's diagonal, and a move, no look-up goes.
-        .reach = v->is_list ? vec3_length(size) : 2.0f * vec3_length(cell),
+        // No look-up goes beyond the cell's diagonal and a move.
+        .reach = v->is_list ? vec3_length(size) : 1.5f * vec3_length(cell),
         .seed = job->o->seed,
     };
     s->rays.from.light = job->known;

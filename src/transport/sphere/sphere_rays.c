@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "transport/sphere/sphere_rays.h"
 
-#include "base/octahedral.h"
 #include "base/random.h"
 #include "base/tasks.h"
 #include "transport/sphere/sphere_aimed.h"
+#include "transport/sphere/sphere_moments.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,7 +21,7 @@ typedef struct sphere_sums {
     double behind;
     float back, front; // nearest
     vec3 back_direction;
-    double moments[ALPI_SPHERE_MOMENTS][3]; // weight, and of distance and its square
+    alpi_sphere_moments moments;
 } sphere_sums;
 
 // --- light along the rays of a batch -------------------------------------------------------------
@@ -135,23 +135,6 @@ static void light_through_panes(const sphere_run *run, uint32_t count, alpi_sphe
 
 // --- sums ----------------------------------------------------------------------------------------
 
-static void add_moments(const alpi_sphere_packet *p, const alpi_hits *hits, float reach,
-                        sphere_sums *sums)
-{
-    enum { SIDE = ALPI_SPHERE_MOMENT_SIDE };
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec2 uv = alpi_octahedral_encode(direction_of(&p->rays, i));
-        const int column = (int)(uv.x * SIDE), row = (int)(uv.y * SIDE);
-        const int x = column < SIDE ? column : SIDE - 1, y = row < SIDE ? row : SIDE - 1;
-        double *moment = sums->moments[y * SIDE + x];
-        const double distance = (double)fminf(hits->distance[i], reach);
-        const double weight = (double)p->weight[i];
-        moment[0] += weight;
-        moment[1] += weight * distance;
-        moment[2] += weight * distance * distance;
-    }
-}
-
 static void add_geometry(const alpi_sphere_packet *p, const alpi_hits *hits, uint32_t met,
                          uint32_t backs, sphere_sums *sums)
 {
@@ -210,7 +193,7 @@ static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_pack
     for (uint32_t k = 0; k < count; k++) {
         add_geometry(&packets[k], &hits[k], met[k], backs[k], sums);
         if (run->job->moments != NULL) {
-            add_moments(&packets[k], &hits[k], r->reach, sums);
+            alpi_sphere_moments_add(&packets[k], &hits[k], r->reach, &sums->moments);
         }
     }
 }
@@ -283,15 +266,6 @@ static void finish_light(const alpi_sphere_rays *r, const sphere_sums *sums, alp
     vec3_store(out->back_direction, sums->back_direction);
 }
 
-static void finish_moments(const sphere_sums *sums, float reach, float (*moments)[2])
-{
-    for (int i = 0; i < ALPI_SPHERE_MOMENTS; i++) {
-        const double *m = sums->moments[i];
-        moments[i][0] = m[0] > 0.0 ? (float)(m[1] / m[0]) : reach;
-        moments[i][1] = m[0] > 0.0 ? (float)(m[2] / m[0]) : reach * reach;
-    }
-}
-
 static alp_result gather_points(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
@@ -307,8 +281,8 @@ static alp_result gather_points(void *user, uint32_t begin, uint32_t end, uint32
         }
         finish_light(job->rays, &sums, &job->values[point]);
         if (job->moments != NULL) {
-            finish_moments(&sums, job->rays->reach,
-                           job->moments + (size_t)point * ALPI_SPHERE_MOMENTS);
+            alpi_sphere_moments_finish(&sums.moments, job->rays->reach,
+                                       job->moments + (size_t)point * ALPI_SPHERE_MOMENTS);
         }
         if (!alpi_loop_goes_on(job->rays->context)) {
             return ALP_ERROR_CANCELLED;
