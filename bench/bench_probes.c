@@ -182,6 +182,7 @@ typedef struct sphere_bench {
     alpi_solution *solution;
     raw_embree *raw;
     alpi_sphere_rays rays;
+    const alpi_lighting *aimed;
     float (*points)[3]; // [count] outside solids
     alpi_sphere_light *values;
     float (*moments)[2];
@@ -238,13 +239,19 @@ static alp_result draw_free_points(sphere_bench *b, uint32_t wanted)
     return b->count > 0 ? ALP_OK : ALP_ERROR_INVALID_DATA;
 }
 
-static double time_gathering(const sphere_bench *b, bool visibility)
+/// How much is gathered.
+typedef enum gathering { LIGHT, MOMENTS, AIMED, GATHERINGS } gathering;
+
+/// @param what LIGHT; MOMENTS: and distances; AIMED: and by aimed rays
+static double time_gathering(const sphere_bench *b, gathering what)
 {
-    const alpi_sphere_job job = {.rays = &b->rays,
+    alpi_sphere_rays rays = b->rays;
+    rays.aimed = what == AIMED ? b->aimed : NULL;
+    const alpi_sphere_job job = {.rays = &rays,
                                  .points = (const float(*)[3])b->points,
                                  .count = b->count,
                                  .values = b->values,
-                                 .moments = visibility ? b->moments : NULL};
+                                 .moments = what != LIGHT ? b->moments : NULL};
     const double started = bench_thread_seconds();
     (void)!alpi_sphere_gather(&job, NULL);
     return bench_thread_seconds() - started;
@@ -262,7 +269,7 @@ static void record_calls(sphere_bench *b)
         exit(1);
     }
     embree_record_to(r);
-    (void)time_gathering(b, false);
+    (void)time_gathering(b, LIGHT);
     embree_record_to(NULL);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < r->count; i++) {
@@ -270,7 +277,7 @@ static void record_calls(sphere_bench *b)
         for (int lane = 0; lane < ALPI_PACKET; lane++) {
             whole = whole && r->packets[i].valid[lane] != 0;
         }
-        if (whole || r->packets[i].kind != EMBREE_NEAREST) {
+        if (whole) {
             r->packets[kept++] = r->packets[i];
         }
     }
@@ -286,23 +293,34 @@ static void measure_gathering(sphere_bench *b, uint32_t face, uint32_t replicate
                               bench_table *table)
 {
     const int rounds = quick ? 1 : ROUNDS;
-    double raw[ROUNDS], plain[ROUNDS], full[ROUNDS], ratios[2][ROUNDS];
+    double raw[ROUNDS], ours[GATHERINGS][ROUNDS], ratios[GATHERINGS][ROUNDS];
+    double each[GATHERINGS], ratio[GATHERINGS];
     b->rays.face = face;
     b->rays.replicates = replicates;
+    if (getenv("LOOPX")) {
+        for (int i = 0; i < atoi(getenv("LOOPX")); i++)
+            (void)time_gathering(b, getenv("LOOPM") ? atoi(getenv("LOOPM")) : 0);
+        exit(0);
+    }
     record_calls(b);
     for (int i = 0; i < rounds; i++) {
         const double before = time_raw(b);
-        plain[i] = time_gathering(b, false);
-        full[i] = time_gathering(b, true);
+        for (int what = 0; what < GATHERINGS; what++) {
+            ours[what][i] = time_gathering(b, (gathering)what);
+        }
         raw[i] = 0.5 * (before + time_raw(b));
-        ratios[0][i] = raw[i] / plain[i];
-        ratios[1][i] = raw[i] / full[i];
+        for (int what = 0; what < GATHERINGS; what++) {
+            ratios[what][i] = raw[i] / ours[what][i];
+        }
     }
-    bench_table_add(table, "%s|%u|%u × 6 × %u²|%.0f|%.0f|%.0f|%.2f|%.2f", b->scene.name,
+    for (int what = 0; what < GATHERINGS; what++) {
+        each[what] = b->count / bench_median(ours[what], rounds);
+        ratio[what] = bench_median(ratios[what], rounds);
+    }
+    bench_table_add(table, "%s|%u|%u × 6 × %u²|%.0f|%.0f|%.0f|%.0f|%.2f|%.2f|%.2f", b->scene.name,
                     alp_scene_get_info(b->scene.scene).usable_triangles, replicates, face,
-                    b->count / bench_median(raw, rounds), b->count / bench_median(plain, rounds),
-                    b->count / bench_median(full, rounds), bench_median(ratios[0], rounds),
-                    bench_median(ratios[1], rounds));
+                    b->count / bench_median(raw, rounds), each[LIGHT], each[MOMENTS], each[AIMED],
+                    ratio[LIGHT], ratio[MOMENTS], ratio[AIMED]);
     free(b->record.packets);
 }
 
@@ -320,10 +338,10 @@ static alp_result prepare(sphere_bench *b, bool sky, bool quick)
                                           .lighting = b->soft,
                                           .light = alpi_solution_light(b->solution),
                                           .sky = true},
-                                 .aimed = spots ? b->spots : NULL,
                                  .replicates = ALPI_SPHERE_REPLICATES,
                                  .reach = 1.0f,
                                  .seed = 1};
+    b->aimed = spots ? b->spots : NULL;
     return draw_free_points(b, quick ? QUICK_PROBES : PROBES);
 }
 
@@ -367,14 +385,14 @@ int bench_probes(const bench_options *options)
         bool sky;
     } scenes[] = {{"builtin:cornell", false}, {"hills:70000", true}, {"hills:1000000", true}};
     enum { SCENES = sizeof scenes / sizeof *scenes };
-    bool good = run_lookups(options);
+    bool good = getenv("LOOPX") || run_lookups(options);
     bench_table_start(&table, "Light of probes, one worker, probes/s",
-                      "Rays from free points, which look up the light of a solution, and rays "
-                      "aimed at emitters and spots of the sky. Limit: the calls of Embree on the "
-                      "packets that ours sends, recorded, with the coherent flag if ours sets it. "
-                      "Ratio: limit's seconds over ours, median of the rounds'. Distances: their "
-                      "moments are gathered too.",
-                      "scene|triangles|rays|limit|ours|with distances|ratio|with distances");
+                      "Rays from free points, which look up the light of a solution. Limit: "
+                      "`rtcIntersect8` on the packets that ours sends, recorded, with the coherent "
+                      "flag if ours sets it. Ratio: limit's seconds over ours, median of the "
+                      "rounds'. Moments: those of distances are gathered too. Aimed: with moments "
+                      "and rays aimed at emitters and spots of the sky, which the limit lacks.",
+                      "scene|triangles|rays|limit|ours|moments|aimed|ratio|moments|aimed");
     const size_t count = options->quick || options->scene != NULL ? 1 : SCENES;
     for (size_t i = 0; i < count && good; i++) {
         good = options->scene != NULL

@@ -3,6 +3,7 @@
 // operations in either: the same bits.
 #include "transport/sphere/sphere_rays.h"
 
+#include "base/octahedral.h"
 #include "base/random.h"
 #include "transport/lane_loop.h"
 
@@ -44,8 +45,36 @@ static void aim(const alpi_sphere_place *place, alpi_sphere_packet *p)
     }
 }
 
-static void add(const alpi_sphere_packet *packets, uint32_t count,
-                float sums[3 * ALPI_SH9_COUNT][ALPI_PACKET])
+static uint32_t find_met(const alpi_hits *hits)
+{
+    static const _Alignas(32) uint32_t bits[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
+    uint32_t met = 0;
+    ALPI_EACH_LANE
+    {
+        met |= hits->triangle[i] != ALPI_NONE ? bits[i] : 0u;
+    }
+    return met;
+}
+
+static void find_nearest(const alpi_hits *hits, float nearest[ALPI_PACKET])
+{
+    ALPI_EACH_LANE
+    {
+        nearest[i] = hits->distance[i] < nearest[i] ? hits->distance[i] : nearest[i];
+    }
+}
+
+static void light(const float (*cells)[4], const uint32_t of[ALPI_PACKET], alpi_sphere_packet *p)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float *cell = cells[of[i]];
+        p->light[0][i] = cell[0];
+        p->light[1][i] = cell[1];
+        p->light[2][i] = cell[2];
+    }
+}
+
+static void add(const alpi_sphere_packet *packets, uint32_t count, alpi_sphere_tallies *tallies)
 {
     for (uint32_t k = 0; k < count; k++) {
         const alpi_sphere_packet *p = &packets[k];
@@ -66,7 +95,7 @@ static void add(const alpi_sphere_packet *packets, uint32_t count,
         }
         for (int b = 0; b < ALPI_SH9_COUNT; b++) {
             for (int c = 0; c < 3; c++) {
-                float *sum = sums[3 * b + c];
+                float *sum = tallies->light[3 * b + c];
                 const float *light = p->light[c];
                 ALPI_EACH_LANE
                 {
@@ -74,7 +103,39 @@ static void add(const alpi_sphere_packet *packets, uint32_t count,
                 }
             }
         }
+        ALPI_EACH_LANE
+        {
+            tallies->weight[i] += p->weight[i];
+        }
     }
 }
 
-const alpi_sphere_loops ALPI_VARIANT(alpi_sphere_loops) = {aim, add};
+static void add_moments(const alpi_sphere_packet *packets, const alpi_hits *hits, uint32_t count,
+                        float reach, double (*moments)[ALPI_SPHERE_MOMENT_SUMS])
+{
+    enum { SIDE = ALPI_SPHERE_MOMENT_SIDE };
+    for (uint32_t k = 0; k < count; k++) {
+        const alpi_sphere_packet *p = &packets[k];
+        _Alignas(32) int texel[ALPI_PACKET];
+        _Alignas(32) float first[ALPI_PACKET], second[ALPI_PACKET];
+        ALPI_EACH_LANE
+        {
+            const vec2 uv = alpi_octahedral_encode(
+                (vec3){p->rays.direction_x[i], p->rays.direction_y[i], p->rays.direction_z[i]});
+            const int column = (int)(uv.x * SIDE), row = (int)(uv.y * SIDE);
+            const float far = hits[k].distance[i], distance = far < reach ? far : reach;
+            texel[i] = (row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1);
+            first[i] = p->weight[i] * distance;
+            second[i] = first[i] * distance;
+        }
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            double *sums = moments[texel[i]];
+            sums[0] += (double)p->weight[i];
+            sums[1] += (double)first[i];
+            sums[2] += (double)second[i];
+        }
+    }
+}
+
+const alpi_sphere_loops ALPI_VARIANT(alpi_sphere_loops) = {aim,   find_met, find_nearest,
+                                                           light, add,      add_moments};
