@@ -11,6 +11,8 @@
 enum { STREAM_SPHERE = 12, FACES = 6, TALLIES = 3 * ALPI_SH9_COUNT };
 /// Below this many triangles, rays of one pixel block are traced faster as one bundle.
 enum { COHERENT_TRIANGLES = 2048 };
+/// From so many pixels along a face on, two blocks are narrow enough to be one bundle.
+enum { PAIRED_FACE = 16 };
 /// Packets and cells of a batch stay in the first cache.
 enum { BATCH = 16 };
 _Static_assert((int)BATCH <= (int)ALPI_LIGHT_BATCH, "batches are those of look-ups at most");
@@ -33,7 +35,7 @@ typedef struct sphere_run {
     const alpi_sphere_job *job;
     const alpi_sphere_loops *loops;
     const alpi_sky *sky; // NULL: black
-    bool cells, emitters, coherent;
+    bool cells, emitters, coherent, in_pairs;
 } sphere_run;
 
 /// Lanes that meet a side that is not black.
@@ -165,24 +167,35 @@ static alpi_sphere_place place_of(const alpi_sphere_rays *r, vec3 point, uint32_
                                .row = 2 * (in_face / across)};
 }
 
+static void trace_batch(const sphere_run *run, uint32_t count, const alpi_sphere_packet *packets,
+                        alpi_hits *hits)
+{
+    const alpi_tracer *tracer = run->job->rays->from.tracer;
+    const alpi_trace_filter filter = run->job->rays->from.filter;
+    const alpi_rays *rays[BATCH];
+    uint32_t active[BATCH];
+    for (uint32_t k = 0; k < count; k++) {
+        rays[k] = &packets[k].rays;
+        active[k] = 0xffu;
+        if (!run->coherent) {
+            alpi_trace_nearest(tracer, rays[k], 0xffu, filter, &hits[k]);
+        } else if (!run->in_pairs) {
+            alpi_trace_nearest_coherent(tracer, rays[k], 0xffu, filter, &hits[k]);
+        }
+    }
+    if (run->coherent && run->in_pairs) {
+        alpi_trace_nearest_coherent_many(tracer, rays, active, count, filter, hits);
+    }
+}
+
 static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_packet *packets,
                          sphere_sums *sums)
 {
     const alpi_sphere_rays *r = run->job->rays;
     alpi_hits hits[BATCH];
-    uint32_t met[BATCH], backs[BATCH], active[BATCH];
-    const alpi_rays *rays[BATCH];
+    uint32_t met[BATCH], backs[BATCH];
+    trace_batch(run, count, packets, hits);
     for (uint32_t k = 0; k < count; k++) {
-        rays[k] = &packets[k].rays;
-        active[k] = 0xffu;
-    }
-    if (run->coherent) {
-        alpi_trace_nearest_coherent_many(r->from.tracer, rays, active, count, r->from.filter, hits);
-    }
-    for (uint32_t k = 0; k < count; k++) {
-        if (!run->coherent) {
-            alpi_trace_nearest(r->from.tracer, rays[k], 0xffu, r->from.filter, &hits[k]);
-        }
         met[k] = sort_hits(run, &hits[k], &backs[k]);
     }
     if (run->cells) {
@@ -327,6 +340,7 @@ alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progre
                     alpi_lighting_emitter_count(from->lighting) > 0,
         .sky = from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL,
         .coherent = alpi_tracer_triangle_count(from->tracer) < COHERENT_TRIANGLES,
+        .in_pairs = r->face >= PAIRED_FACE,
     };
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)alpi_sphere_rays_count(r);
