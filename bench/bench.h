@@ -19,7 +19,7 @@ typedef struct bench_options {
 /// One bench: prints its tables. @return 0, or 1 after a message
 typedef int bench_fn(const bench_options *options);
 bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, bench_against_truth,
-    bench_denoise, bench_bounced, bench_light, bench_sh, bench_fields, bench_formats;
+    bench_denoise, bench_bounced, bench_light, bench_sh, bench_probes, bench_fields, bench_formats;
 bench_fn bench_direct, bench_path_tracer; // further tables of transport
 bench_fn bench_light_bakes;               // of light
 

@@ -67,8 +67,8 @@ static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, 
         vec3 left[ALPI_PACKET] = {{0.0f, 0.0f, 0.0f}};
         alpi_panes_dim(from->scene, from->tracer, filter, open, rays, left);
         for (int i = 0; i < ALPI_PACKET; i++) {
-            given[i] = (vec3){given[i].x * left[i].x, given[i].y * left[i].y,
-                              given[i].z * left[i].z};
+            given[i] =
+                (vec3){given[i].x * left[i].x, given[i].y * left[i].y, given[i].z * left[i].z};
         }
     }
     for (int i = 0; i < ALPI_PACKET; i++) {

@@ -2,8 +2,8 @@
 // Light straight from sources, by rays aimed at them: emissive surfaces, and bright spots of the
 // sky. Jittered pixels meet small sources too seldom.
 //
-// The light sampler draws for a hemisphere. Each replicate draws pairs, one on each side of a random
-// axis. Emission that rays are aimed at does not count where pixels meet it.
+// The light sampler draws for a hemisphere. Each replicate draws pairs, one on each side of a
+// random axis. Emission that rays are aimed at does not count where pixels meet it.
 #ifndef ALPI_TRANSPORT_SPHERE_AIMED_H
 #define ALPI_TRANSPORT_SPHERE_AIMED_H
 

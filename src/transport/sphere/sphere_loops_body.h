@@ -3,8 +3,11 @@
 // operations in either: the same bits.
 #include "transport/sphere/sphere_rays.h"
 
+#include "base/octahedral.h"
 #include "base/random.h"
 #include "transport/lane_loop.h"
+
+#include <string.h>
 
 /// tan(πs/4) on [−1, 1] as a quotient of polynomials (Padé 5/4), error below 2e-8.
 static inline float quarter_tangent(float s)
@@ -44,8 +47,36 @@ static void aim(const alpi_sphere_place *place, alpi_sphere_packet *p)
     }
 }
 
-static void add(const alpi_sphere_packet *packets, uint32_t count,
-                float sums[3 * ALPI_SH9_COUNT][ALPI_PACKET])
+static uint32_t find_met(const alpi_hits *hits)
+{
+    static const _Alignas(32) uint32_t bits[ALPI_PACKET] = {1, 2, 4, 8, 16, 32, 64, 128};
+    uint32_t met = 0;
+    ALPI_EACH_LANE
+    {
+        met |= hits->triangle[i] != ALPI_NONE ? bits[i] : 0u;
+    }
+    return met;
+}
+
+static void find_nearest(const alpi_hits *hits, float nearest[ALPI_PACKET])
+{
+    ALPI_EACH_LANE
+    {
+        nearest[i] = hits->distance[i] < nearest[i] ? hits->distance[i] : nearest[i];
+    }
+}
+
+static void light(const float (*cells)[4], const uint32_t of[ALPI_PACKET], alpi_sphere_packet *p)
+{
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float *cell = cells[of[i]];
+        p->light[0][i] = cell[0];
+        p->light[1][i] = cell[1];
+        p->light[2][i] = cell[2];
+    }
+}
+
+static void add(const alpi_sphere_packet *packets, uint32_t count, alpi_sphere_tallies *tallies)
 {
     for (uint32_t k = 0; k < count; k++) {
         const alpi_sphere_packet *p = &packets[k];
@@ -66,7 +97,7 @@ static void add(const alpi_sphere_packet *packets, uint32_t count,
         }
         for (int b = 0; b < ALPI_SH9_COUNT; b++) {
             for (int c = 0; c < 3; c++) {
-                float *sum = sums[3 * b + c];
+                float *sum = tallies->light[3 * b + c];
                 const float *light = p->light[c];
                 ALPI_EACH_LANE
                 {
@@ -74,7 +105,35 @@ static void add(const alpi_sphere_packet *packets, uint32_t count,
                 }
             }
         }
+        ALPI_EACH_LANE
+        {
+            tallies->weight[i] += p->weight[i];
+        }
     }
 }
 
-const alpi_sphere_loops ALPI_VARIANT(alpi_sphere_loops) = {aim, add};
+static void find_slots(const alpi_sphere_packet *p, const alpi_hits *hits, float reach,
+                       float distance[ALPI_PACKET], int32_t slot[ALPI_PACKET])
+{
+    enum { SIDE = ALPI_SPHERE_MOMENT_SIDE, BINS = ALPI_MOMENT_BINS };
+    enum { BIN_BITS = 21, LAST = 0x3f800000 >> BIN_BITS }; // exponent, two bits of the mantissa
+    const float scale = 1.0f / reach;
+    ALPI_EACH_LANE
+    {
+        const vec2 uv = alpi_octahedral_encode(
+            (vec3){p->rays.direction_x[i], p->rays.direction_y[i], p->rays.direction_z[i]});
+        const int column = (int)(uv.x * SIDE), row = (int)(uv.y * SIDE);
+        const float far = hits->distance[i], met = far < reach ? far : reach, share = met * scale;
+        int32_t bits;
+        memcpy(&bits, &share, sizeof bits);
+        const int bin = (bits >> BIN_BITS) - LAST + BINS - 1;
+        const int low = bin > 0 ? bin : 0;
+        distance[i] = met;
+        slot[i] = ((row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1)) *
+                      BINS +
+                  (low < BINS ? low : BINS - 1);
+    }
+}
+
+const alpi_sphere_loops ALPI_VARIANT(alpi_sphere_loops) = {aim,   find_met, find_nearest,
+                                                           light, add,      find_slots};

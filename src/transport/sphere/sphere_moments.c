@@ -1,40 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "transport/sphere/sphere_moments.h"
 
-#include "base/octahedral.h"
-
-#include <math.h>
-#include <string.h>
-
-enum { SIDE = ALPI_SPHERE_MOMENT_SIDE, BINS = ALPI_MOMENT_BINS };
+enum { BINS = ALPI_MOMENT_BINS };
 static const double LONGEST = 2.0; // medians
 
-/// The bin of a share of the reach, (0, 1]: exponent and first two bits of the mantissa.
-static int bin_of(float share)
-{
-    enum { BIN_BITS = 21, LAST = 0x3f800000 >> BIN_BITS };
-    uint32_t bits;
-    memcpy(&bits, &share, sizeof bits);
-    const int bin = (int)(bits >> BIN_BITS) - LAST + BINS - 1;
-    return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
-}
-
-void alpi_sphere_moments_add(const alpi_sphere_packet *p, const alpi_hits *hits, float reach,
+void alpi_sphere_moments_add(const alpi_sphere_loops *loops, const alpi_sphere_packet *packets,
+                             const alpi_hits *hits, uint32_t count, float reach,
                              alpi_sphere_moments *moments)
 {
-    const float scale = 1.0f / reach;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec3 direction = {p->rays.direction_x[i], p->rays.direction_y[i],
-                                p->rays.direction_z[i]};
-        const vec2 uv = alpi_octahedral_encode(direction);
-        const int column = (int)(uv.x * SIDE), row = (int)(uv.y * SIDE);
-        const int x = column < SIDE ? column : SIDE - 1, y = row < SIDE ? row : SIDE - 1;
-        const float met = fminf(hits->distance[i], reach);
-        double *sums = moments->sums[y * SIDE + x][bin_of(met * scale)];
-        const double distance = (double)met, weight = (double)p->weight[i];
-        sums[0] += weight;
-        sums[1] += weight * distance;
-        sums[2] += weight * distance * distance;
+    double(*sums)[3] = moments->sums[0];
+    for (uint32_t k = 0; k < count; k++) {
+        float distances[ALPI_PACKET];
+        int32_t slots[ALPI_PACKET];
+        loops->find_slots(&packets[k], &hits[k], reach, distances, slots);
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            double *sum = sums[slots[i]];
+            const double distance = (double)distances[i], weight = (double)packets[k].weight[i];
+            sum[0] += weight;
+            sum[1] += weight * distance;
+            sum[2] += weight * distance * distance;
+        }
     }
 }
 

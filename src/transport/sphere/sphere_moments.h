@@ -9,14 +9,13 @@
 
 #include "transport/sphere/sphere_rays.h"
 
-enum { ALPI_MOMENT_BINS = 40 }; // of distances, four an octave, from reach / 1024 to reach
-
 /// Sums by texel and bin: weight, and weight times the distance and its square.
 typedef struct alpi_sphere_moments {
     double sums[ALPI_SPHERE_MOMENTS][ALPI_MOMENT_BINS][3];
 } alpi_sphere_moments;
 
-void alpi_sphere_moments_add(const alpi_sphere_packet *packet, const alpi_hits *hits, float reach,
+void alpi_sphere_moments_add(const alpi_sphere_loops *loops, const alpi_sphere_packet *packets,
+                             const alpi_hits *hits, uint32_t count, float reach,
                              alpi_sphere_moments *moments);
 
 /// @param found [ALPI_SPHERE_MOMENTS] out: mean distance [m], and of its square [m²]

@@ -12,6 +12,11 @@
 enum { STREAM_SPHERE = 12, FACES = 6, TALLIES = 3 * ALPI_SH9_COUNT };
 /// Below this many triangles, rays of one pixel block are traced faster as one bundle.
 enum { COHERENT_TRIANGLES = 2048 };
+/// From so many pixels along a face on, two blocks are narrow enough to be one bundle.
+enum { PAIRED_FACE = 16 };
+/// Packets and cells of a batch stay in the first cache.
+enum { BATCH = 16 };
+_Static_assert((int)BATCH <= (int)ALPI_LIGHT_BATCH, "batches are those of look-ups at most");
 
 /// Sums of one point.
 typedef struct sphere_sums {
@@ -19,8 +24,9 @@ typedef struct sphere_sums {
     double weight[ALPI_SPHERE_REPLICATES_MOST];
     double aimed[ALPI_SPHERE_REPLICATES_MOST][TALLIES]; // by aimed rays: not scaled
     double behind;
-    float back, front; // nearest
+    float back; // nearest
     vec3 back_direction;
+    _Alignas(32) float front[ALPI_PACKET]; // nearest, lane by lane
     alpi_sphere_moments moments;
 } sphere_sums;
 
@@ -29,17 +35,16 @@ typedef struct sphere_sums {
 typedef struct sphere_run {
     const alpi_sphere_job *job;
     const alpi_sphere_loops *loops;
-    bool cells, emitters, coherent;
+    const alpi_sky *sky; // NULL: black
+    bool cells, emitters, coherent, in_pairs;
 } sphere_run;
 
 /// Lanes that meet a side that is not black.
-static uint32_t sort_hits(const alpi_gather_scene *from, const alpi_hits *hits, uint32_t *backs)
+static uint32_t sort_hits(const sphere_run *run, const alpi_hits *hits, uint32_t *backs)
 {
-    uint32_t met = 0;
+    const alpi_gather_scene *from = &run->job->rays->from;
+    const uint32_t met = run->loops->find_met(hits);
     *backs = 0;
-    for (int i = 0; i < ALPI_PACKET; i++) {
-        met |= hits->triangle[i] != ALPI_NONE ? 1u << i : 0u;
-    }
     for (uint32_t behind = hits->behind & met; behind != 0; behind &= behind - 1) {
         const int i = __builtin_ctz(behind);
         if (!alpi_surface_is_double_sided(from->scene, hits->triangle[i])) {
@@ -68,10 +73,8 @@ static void add_emission(const alpi_gather_scene *from, const alpi_hits *hits, u
     }
 }
 
-static void add_sky(const alpi_gather_scene *from, const alpi_hits *hits, alpi_sphere_packet *p)
+static void add_sky(const alpi_sky *sky, const alpi_hits *hits, alpi_sphere_packet *p)
 {
-    const alpi_sky *sky =
-        from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL;
     vec3 directions[ALPI_PACKET], radiances[ALPI_PACKET];
     int lanes[ALPI_PACKET];
     uint32_t count = 0;
@@ -81,7 +84,7 @@ static void add_sky(const alpi_gather_scene *from, const alpi_hits *hits, alpi_s
             lanes[count++] = i;
         }
     }
-    if (sky == NULL || count == 0) {
+    if (count == 0) {
         return;
     }
     alpi_sky_radiances(sky, directions, count, radiances);
@@ -97,24 +100,23 @@ static void light_by_cells(const sphere_run *run, uint32_t count, const alpi_hit
                            const uint32_t *met, alpi_sphere_packet *packets)
 {
     const alpi_gather_scene *from = &run->job->rays->from;
-    uint32_t cells[ALPI_GATHER_BATCH][ALPI_PACKET] = {{ALPI_CELL_ESCAPED}};
-    if (from->light.find != NULL) {
+    static const float black[1][4] = {{0.0f}};
+    const bool find = from->light.find != NULL;
+    const float(*light)[4] = find ? from->light.cells : black;
+    uint32_t cells[BATCH][ALPI_PACKET];
+    memset(cells, 0, count * sizeof *cells); // black, as ALPI_CELL_ESCAPED is
+    if (find) {
         from->light.find(from->light.user, hits, met, count, cells);
     }
     for (uint32_t k = 0; k < count; k++) {
         alpi_sphere_packet *p = &packets[k];
-        for (int i = 0; i < ALPI_PACKET; i++) {
-            static const float black[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-            const bool lit = from->light.find != NULL && (met[k] >> i & 1u) != 0;
-            const float *cell = lit ? from->light.cells[cells[k][i]] : black;
-            p->light[0][i] = cell[0];
-            p->light[1][i] = cell[1];
-            p->light[2][i] = cell[2];
-        }
+        run->loops->light(light, cells[k], p);
         if (run->emitters) {
             add_emission(from, &hits[k], met[k], p);
         }
-        add_sky(from, &hits[k], p);
+        if (run->sky != NULL) {
+            add_sky(run->sky, &hits[k], p);
+        }
     }
 }
 
@@ -139,7 +141,8 @@ static void add_geometry(const alpi_sphere_packet *p, const alpi_hits *hits, uin
                          uint32_t backs, sphere_sums *sums)
 {
     for (; met != 0; met &= met - 1) {
-        sums->front = fminf(sums->front, hits->distance[__builtin_ctz(met)]);
+        const int i = __builtin_ctz(met);
+        sums->front[i] = fminf(sums->front[i], hits->distance[i]);
     }
     for (; backs != 0; backs &= backs - 1) {
         const int i = __builtin_ctz(backs);
@@ -165,25 +168,36 @@ static alpi_sphere_place place_of(const alpi_sphere_rays *r, vec3 point, uint32_
                                .row = 2 * (in_face / across)};
 }
 
+static void trace_batch(const sphere_run *run, uint32_t count, const alpi_sphere_packet *packets,
+                        alpi_hits *hits)
+{
+    const alpi_tracer *tracer = run->job->rays->from.tracer;
+    const alpi_trace_filter filter = run->job->rays->from.filter;
+    const alpi_rays *rays[BATCH];
+    uint32_t active[BATCH];
+    for (uint32_t k = 0; k < count; k++) {
+        rays[k] = &packets[k].rays;
+        active[k] = 0xffu;
+        if (!run->coherent) {
+            alpi_trace_nearest(tracer, rays[k], 0xffu, filter, &hits[k]);
+        } else if (!run->in_pairs) {
+            alpi_trace_nearest_coherent(tracer, rays[k], 0xffu, filter, &hits[k]);
+        }
+    }
+    if (run->coherent && run->in_pairs) {
+        alpi_trace_nearest_coherent_many(tracer, rays, active, count, filter, hits);
+    }
+}
+
 static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_packet *packets,
                          sphere_sums *sums)
 {
     const alpi_sphere_rays *r = run->job->rays;
-    alpi_hits hits[ALPI_GATHER_BATCH];
-    uint32_t met[ALPI_GATHER_BATCH], backs[ALPI_GATHER_BATCH], active[ALPI_GATHER_BATCH];
-    const alpi_rays *rays[ALPI_GATHER_BATCH];
+    alpi_hits hits[BATCH];
+    uint32_t met[BATCH], backs[BATCH];
+    trace_batch(run, count, packets, hits);
     for (uint32_t k = 0; k < count; k++) {
-        rays[k] = &packets[k].rays;
-        active[k] = 0xffu;
-    }
-    if (run->coherent) {
-        alpi_trace_nearest_coherent_many(r->from.tracer, rays, active, count, r->from.filter, hits);
-    }
-    for (uint32_t k = 0; k < count; k++) {
-        if (!run->coherent) {
-            alpi_trace_nearest(r->from.tracer, rays[k], 0xffu, r->from.filter, &hits[k]);
-        }
-        met[k] = sort_hits(&r->from, &hits[k], &backs[k]);
+        met[k] = sort_hits(run, &hits[k], &backs[k]);
     }
     if (run->cells) {
         light_by_cells(run, count, hits, met, packets);
@@ -191,11 +205,24 @@ static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_pack
         light_through_panes(run, count, packets);
     }
     for (uint32_t k = 0; k < count; k++) {
-        add_geometry(&packets[k], &hits[k], met[k], backs[k], sums);
-        if (run->job->moments != NULL) {
-            alpi_sphere_moments_add(&packets[k], &hits[k], r->reach, &sums->moments);
+        if (backs[k] == 0) {
+            run->loops->find_nearest(&hits[k], sums->front);
+        } else {
+            add_geometry(&packets[k], &hits[k], met[k], backs[k], sums);
         }
     }
+    if (run->job->moments != NULL) {
+        alpi_sphere_moments_add(run->loops, packets, hits, count, r->reach, &sums->moments);
+    }
+}
+
+static double sum_lanes(const float lanes[ALPI_PACKET])
+{
+    double sum = 0.0;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        sum += (double)lanes[i];
+    }
+    return sum;
 }
 
 static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t replicate,
@@ -203,31 +230,26 @@ static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t rep
 {
     const alpi_sphere_rays *r = run->job->rays;
     const vec3 position = vec3_load(run->job->points[point]);
-    const uint32_t key = alpi_hash32(alpi_random_key(r->seed, point, STREAM_SPHERE) ^
-                                     alpi_hash32(replicate + 1u));
+    const uint32_t key =
+        alpi_hash32(alpi_random_key(r->seed, point, STREAM_SPHERE) ^ alpi_hash32(replicate + 1u));
     const uint32_t packet_count = FACES * r->face * r->face / ALPI_PACKET;
-    alpi_sphere_packet packets[ALPI_GATHER_BATCH];
-    float tallies[TALLIES][ALPI_PACKET] = {{0.0f}};
-    for (uint32_t first = 0; first < packet_count; first += ALPI_GATHER_BATCH) {
+    alpi_sphere_packet packets[BATCH];
+    alpi_sphere_tallies tallies;
+    memset(&tallies, 0, sizeof tallies);
+    for (uint32_t first = 0; first < packet_count; first += BATCH) {
         const uint32_t left = packet_count - first;
-        const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
+        const uint32_t count = left < BATCH ? left : BATCH;
         for (uint32_t k = 0; k < count; k++) {
             const alpi_sphere_place place = place_of(r, position, key, first + k);
             run->loops->aim(&place, &packets[k]);
         }
         gather_batch(run, count, packets, sums);
-        run->loops->add(packets, count, tallies);
-        for (uint32_t k = 0; k < count; k++) {
-            for (int i = 0; i < ALPI_PACKET; i++) {
-                sums->weight[replicate] += (double)packets[k].weight[i];
-            }
-        }
+        run->loops->add(packets, count, &tallies);
     }
     for (int i = 0; i < TALLIES; i++) {
-        for (int lane = 0; lane < ALPI_PACKET; lane++) {
-            sums->light[replicate][i] += (double)tallies[i][lane];
-        }
+        sums->light[replicate][i] = sum_lanes(tallies.light[i]);
     }
+    sums->weight[replicate] = sum_lanes(tallies.weight);
     if (r->aimed != NULL) {
         const alpi_sphere_aim aim = alpi_sphere_aim_for(r, position, key);
         alpi_sphere_aimed_light(&aim, sums->aimed[replicate]);
@@ -262,7 +284,10 @@ static void finish_light(const alpi_sphere_rays *r, const sphere_sums *sums, alp
     }
     out->behind = (float)(sums->behind / weight);
     out->back_distance = sums->back;
-    out->front_distance = sums->front;
+    out->front_distance = INFINITY;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        out->front_distance = fminf(out->front_distance, sums->front[i]);
+    }
     vec3_store(out->back_direction, sums->back_direction);
 }
 
@@ -275,7 +300,10 @@ static alp_result gather_points(void *user, uint32_t begin, uint32_t end, uint32
         const uint32_t point = job->list != NULL ? job->list[i] : i;
         sphere_sums sums;
         memset(&sums, 0, sizeof sums);
-        sums.back = sums.front = INFINITY;
+        sums.back = INFINITY;
+        for (int lane = 0; lane < ALPI_PACKET; lane++) {
+            sums.front[lane] = INFINITY;
+        }
         for (uint32_t k = 0; k < job->rays->replicates; k++) {
             gather_replicate(run, point, k, &sums);
         }
@@ -302,7 +330,9 @@ alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progre
                  (from->light.find != NULL || from->light.reflected == NULL),
         .emitters = from->emitters && from->lighting != NULL &&
                     alpi_lighting_emitter_count(from->lighting) > 0,
+        .sky = from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL,
         .coherent = alpi_tracer_triangle_count(from->tracer) < COHERENT_TRIANGLES,
+        .in_pairs = r->face >= PAIRED_FACE,
     };
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)alpi_sphere_rays_count(r);

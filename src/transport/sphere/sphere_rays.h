@@ -22,15 +22,16 @@ enum {
     ALPI_SPHERE_FACE = 8, // default: 4 × 6 × 8² = 1,536 rays
     ALPI_SPHERE_FACE_MOST = 256,
     ALPI_SPHERE_MOMENT_SIDE = 8,
-    ALPI_SPHERE_MOMENTS = ALPI_SPHERE_MOMENT_SIDE * ALPI_SPHERE_MOMENT_SIDE
+    ALPI_SPHERE_MOMENTS = ALPI_SPHERE_MOMENT_SIDE * ALPI_SPHERE_MOMENT_SIDE,
+    ALPI_MOMENT_BINS = 40, // of distances, four an octave, from reach / 1024 to reach
 };
 
 /// One point's light; values are means over the replicates.
 typedef struct alpi_sphere_light {
-    alpi_sh9 light;     // radiance coefficients [W·m⁻²]
-    alpi_sh9 variance;  // of each mean
-    float behind;       // share of the sphere that shows black backs of surfaces
-    float back_distance; // metres to the nearest such back, INFINITY without one
+    alpi_sh9 light;          // radiance coefficients [W·m⁻²]
+    alpi_sh9 variance;       // of each mean
+    float behind;            // share of the sphere that shows black backs of surfaces
+    float back_distance;     // metres to the nearest such back, INFINITY without one
     float back_direction[3]; // towards it, unit
     float front_distance;    // metres to the nearest surface of another kind
 } alpi_sphere_light;
@@ -43,16 +44,16 @@ typedef struct alpi_sphere_rays {
     // NULL, or sources that rays are aimed at (sphere_aimed.h): without punctual lights and suns.
     // Then `from` counts no emitters.
     const alpi_lighting *aimed;
-    float reach;            // metres: larger distances count as this in moments
+    float reach; // metres: larger distances count as this in moments
     uint64_t seed;
 } alpi_sphere_rays;
 
 /// Points and what is found there.
 typedef struct alpi_sphere_job {
     const alpi_sphere_rays *rays;
-    const float (*points)[3]; // metres
-    const uint32_t *list;     // [count] points; NULL: all
-    uint32_t count;           // of the list
+    const float (*points)[3];  // metres
+    const uint32_t *list;      // [count] points; NULL: all
+    uint32_t count;            // of the list
     alpi_sphere_light *values; // [points] out
     // NULL, or [points][MOMENTS] out: mean of the distance to what rays meet [m], and of its square
     // [m²], by octahedral texel (base/octahedral.h), row by row.
@@ -81,15 +82,30 @@ typedef struct alpi_sphere_packet {
 /// A packet's place: pixels (column … column + 3, row … row + 1) of a face.
 typedef struct alpi_sphere_place {
     vec3 point;
-    uint32_t key; // of the replicate's jitter at this point
+    uint32_t key;                          // of the replicate's jitter at this point
     uint32_t face_side, face, column, row; // n; 0 … 5: +x −x +y −y +z −z
 } alpi_sphere_place;
 
+/// Sums over packets, lane by lane.
+typedef struct alpi_sphere_tallies {
+    _Alignas(
+        32) float light[3 * ALPI_SH9_COUNT][ALPI_PACKET]; // weight · Y · light: [3 i + channel]
+    float weight[ALPI_PACKET];
+} alpi_sphere_tallies;
+
 typedef struct alpi_sphere_loops {
     void (*aim)(const alpi_sphere_place *place, alpi_sphere_packet *packet);
-    /// Adds weight · Y · light, lane by lane: sums[3 i + channel][lane].
-    void (*add)(const alpi_sphere_packet *packets, uint32_t count,
-                float sums[3 * ALPI_SH9_COUNT][ALPI_PACKET]);
+    /// Bits of the lanes that met something.
+    uint32_t (*find_met)(const alpi_hits *hits);
+    /// Lowers each lane's distance to that of its hit.
+    void (*find_nearest)(const alpi_hits *hits, float nearest[ALPI_PACKET]);
+    /// Sets the light of a packet to that of cells.
+    void (*light)(const float (*cells)[4], const uint32_t of[ALPI_PACKET],
+                  alpi_sphere_packet *packet);
+    void (*add)(const alpi_sphere_packet *packets, uint32_t count, alpi_sphere_tallies *tallies);
+    /// Distances, at most `reach`, and the slot of each: texel × ALPI_MOMENT_BINS + bin.
+    void (*find_slots)(const alpi_sphere_packet *packet, const alpi_hits *hits, float reach,
+                       float distance[ALPI_PACKET], int32_t slot[ALPI_PACKET]);
 } alpi_sphere_loops;
 extern const alpi_sphere_loops alpi_sphere_loops_baseline, alpi_sphere_loops_v3;
 
