@@ -41,8 +41,8 @@ static int check_options(const command_line *a)
 
 typedef struct sampled {
     float (*irradiance)[3];
-    float (*errors)[3]; // of the reference
-    float error;        // of fields
+    float (*deviations)[3]; // of the reference, by channel
+    float *errors;          // RMS over the channels
 } sampled;
 
 static int trace_reference(session *s, const command_line *a, const alp_lighting_options *lighting,
@@ -56,10 +56,16 @@ static int trace_reference(session *s, const command_line *a, const alp_lighting
     o.seed = a->values[OPTION_SEED].whole;
     o.progress = session_progress;
     o.progress_user = s;
-    return session_end(s, alp_reference_irradiance(s->scene, &o, points->count,
-                                                   (const float(*)[3])points->positions,
-                                                   (const float(*)[3])points->normals,
-                                                   out->irradiance, out->errors));
+    const int code = session_end(
+        s, alp_reference_irradiance(s->scene, &o, points->count,
+                                    (const float(*)[3])points->positions,
+                                    (const float(*)[3])points->normals, out->irradiance,
+                                    out->deviations));
+    for (uint32_t i = 0; i < points->count; i++) {
+        const float *d = out->deviations[i];
+        out->errors[i] = sqrtf((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / 3.0f);
+    }
+    return code;
 }
 
 static int read_field(session *s, const command_line *a, const alp_lighting_options *lighting,
@@ -76,21 +82,19 @@ static int read_field(session *s, const command_line *a, const alp_lighting_opti
     if (code == EXIT_DONE) {
         alp_field_irradiance(source.field, points->count, (const float(*)[3])points->positions,
                              (const float(*)[3])points->normals, out->irradiance);
-        out->error = alp_field_error(source.field);
+        alp_field_errors(source.field, points->count, (const float(*)[3])points->positions,
+                         (const float(*)[3])points->normals, out->errors);
         code = session_end(s, ALP_OK);
     }
     field_source_clear(&source);
     return code;
 }
 
-static void print_points(const command_line *a, const point_list *points, const sampled *out)
+static void print_points(const point_list *points, const sampled *out)
 {
-    const bool reference = a->values[OPTION_WITH].choice == WITH_REFERENCE;
     puts("x,y,z,nx,ny,nz,r,g,b,error");
     for (uint32_t i = 0; i < points->count; i++) {
-        const float *e = out->irradiance[i], *d = out->errors[i];
-        const double squares = (double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] +
-                               (double)d[2] * (double)d[2];
+        const float *e = out->irradiance[i];
         for (const char *c = points->texts[i]; *c != '\0'; c++) { // as CSV, however it was parted
             const bool parts = *c == ';' || *c == ' ' || *c == '\t';
             if (!parts) {
@@ -101,7 +105,7 @@ static void print_points(const command_line *a, const point_list *points, const 
             }
         }
         printf(",%.7g,%.7g,%.7g,%.3g\n", (double)e[0], (double)e[1], (double)e[2],
-               reference ? sqrt(squares / 3.0) : (double)out->error);
+               (double)out->errors[i]);
     }
 }
 
@@ -109,8 +113,9 @@ static int sample(session *s, const command_line *a, const alp_lighting_options 
                   const point_list *points)
 {
     sampled out = {.irradiance = calloc(points->count, sizeof *out.irradiance),
+                   .deviations = calloc(points->count, sizeof *out.deviations),
                    .errors = calloc(points->count, sizeof *out.errors)};
-    int code = out.irradiance == NULL || out.errors == NULL ? failure("out of memory") : EXIT_DONE;
+    int code = out.irradiance == NULL || out.deviations == NULL || out.errors == NULL ? failure("out of memory") : EXIT_DONE;
     if (code == EXIT_DONE) {
         interrupt_defer();
         code = a->values[OPTION_WITH].choice == WITH_REFERENCE
@@ -118,10 +123,11 @@ static int sample(session *s, const command_line *a, const alp_lighting_options 
                    : read_field(s, a, lighting, points, &out);
     }
     if (code == EXIT_DONE) {
-        print_points(a, points, &out);
+        print_points(points, &out);
         code = session_judge_warnings(s);
     }
     free(out.irradiance);
+    free(out.deviations);
     free(out.errors);
     return code;
 }

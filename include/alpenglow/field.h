@@ -27,9 +27,15 @@ ALP_API void alp_field_irradiance(const alp_field *field, uint32_t count,
                                   const float (*positions)[3], const float (*normals)[3],
                                   float (*irradiance)[3]);
 
-/// Expected RMS error of a field's E [W·m⁻²]: noise, truncation, and interpolation, as measured at
-/// points that took no part in making it; 0 = not known.
-ALP_API float alp_field_error(const alp_field *field);
+/// Expected error of a field at points: root mean square over the channels, W·m⁻².
+///   ambient models  that at the points which they were fitted at, the same everywhere
+///   probes          √(noise² + f² (v² + (.03 E)²)), with v the RMS change of E within a quarter of a
+///                   cell along the axes, and f as measured at points that took no part in the bake
+///   a list          its noise alone
+/// @param errors [count] out; 0 where it is not known
+/// May be called by any number of threads at once. It allocates nothing and does not fail.
+ALP_API void alp_field_errors(const alp_field *field, uint32_t count, const float (*positions)[3],
+                              const float (*normals)[3], float *errors);
 
 /// Classic models of ambient light: a few colours for the whole scene. All are linear in their
 /// colours, which are fitted to the scene's light by least squares.

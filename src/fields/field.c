@@ -49,7 +49,17 @@ void alp_field_irradiance(const alp_field *field, uint32_t count, const float (*
     }
 }
 
-float alp_field_error(const alp_field *field)
+void alp_field_errors(const alp_field *field, uint32_t count, const float (*positions)[3],
+                      const float (*normals)[3], float *errors)
 {
-    return field != NULL ? field->error : 0.0f;
+    if (field == NULL || count == 0) {
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        errors[i] = field->error;
+        if (field->kind->errors != NULL && all_finite(1, &positions[i]) &&
+            all_finite(1, &normals[i])) {
+            field->kind->errors(field, 1, &positions[i], &normals[i], &errors[i]);
+        }
+    }
 }

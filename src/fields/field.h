@@ -15,6 +15,9 @@ typedef struct alpi_field_kind {
     /// nothing. Values below 0 are allowed: the caller clamps.
     void (*irradiance)(const alp_field *field, uint32_t count, const float (*positions)[3],
                        const float (*normals)[3], float (*irradiance)[3]);
+    /// Expected RMS error at such points; NULL: alp_field.error everywhere.
+    void (*errors)(const alp_field *field, uint32_t count, const float (*positions)[3],
+                   const float (*normals)[3], float *errors);
     void (*destroy)(alp_field *field);
 } alpi_field_kind;
 
@@ -22,7 +25,7 @@ struct alp_field {
     alp_context *context;
     const alpi_field_kind *kind;
     bool direct; // light straight from punctual lamps and suns is in it
-    float error; // expected RMS error of E [W·m⁻²]; 0: not known
+    float error; // expected RMS error of E [W·m⁻²], apart from its place; 0: not known
 };
 
 #endif

@@ -58,6 +58,8 @@ typedef struct alpi_probe_volume {
     float relative_error;  // stated: √(mean of squared standard errors of E) / mean E; 0 unknown
     float mean;            // E over probes that have light and normals, W·m⁻²
     float interpolation;   // RMS error of E between probes, W·m⁻², by points apart; 0 unknown
+    float noise;           // RMS standard error of E at the probes, W·m⁻²
+    float factor;          // of the change of E in a cell, for errors between probes; 0 unknown
     uint32_t rays;         // of each probe
     uint64_t seed;
     char *options; // JSON object: what made it, "" or NULL if not known

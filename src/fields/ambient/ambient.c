@@ -99,11 +99,11 @@ static void destroy(alp_field *field)
 }
 
 static const alpi_field_kind kinds[ALP_AMBIENT_COUNT] = {
-    [ALP_AMBIENT_CONSTANT] = {"constant", evaluate, destroy},
-    [ALP_AMBIENT_HEMISPHERE] = {"hemisphere", evaluate, destroy},
-    [ALP_AMBIENT_GROUND_MAP] = {"ground-map", evaluate, destroy},
-    [ALP_AMBIENT_CUBE] = {"ambient-cube", evaluate, destroy},
-    [ALP_AMBIENT_ENVIRONMENT] = {"environment", evaluate, destroy},
+    [ALP_AMBIENT_CONSTANT] = {"constant", evaluate, NULL, destroy},
+    [ALP_AMBIENT_HEMISPHERE] = {"hemisphere", evaluate, NULL, destroy},
+    [ALP_AMBIENT_GROUND_MAP] = {"ground-map", evaluate, NULL, destroy},
+    [ALP_AMBIENT_CUBE] = {"ambient-cube", evaluate, NULL, destroy},
+    [ALP_AMBIENT_ENVIRONMENT] = {"environment", evaluate, NULL, destroy},
 };
 static const uint32_t term_counts[ALP_AMBIENT_COUNT] = {1, 2, 3, 6, ALPI_SH9_COUNT};
 
@@ -176,6 +176,23 @@ static void fit_colors(ambient_field *f, uint32_t count, const float (*positions
     }
 }
 
+/// RMS residual of the fit, the noise of its points taken off, for points that took no part.
+static float find_residual(const ambient_field *f, uint32_t count, const float (*positions)[3],
+                           const float (*normals)[3], const alpi_reference_value *values)
+{
+    double squares = 0.0;
+    for (uint32_t p = 0; p < count; p++) {
+        float e[1][3];
+        evaluate(&f->field, 1, &positions[p], &normals[p], e);
+        for (int k = 0; k < 3; k++) {
+            const double apart = (double)e[0][k] - (double)values[p].mean[k];
+            squares += apart * apart - (double)values[p].variance[k];
+        }
+    }
+    const double free = count > f->terms ? count - f->terms : 1.0;
+    return (float)sqrt(fmax(squares, 0.0) / (3.0 * free));
+}
+
 // --- making one ----------------------------------------------------------------------------------
 
 typedef struct fit_points {
@@ -208,6 +225,8 @@ static alp_result fit(const alp_scene *scene, const alp_ambient_options *o, fit_
     }
     fit_colors(f, o->points, (const float(*)[3])p->positions, (const float(*)[3])p->normals,
                p->values);
+    f->field.error = find_residual(f, o->points, (const float(*)[3])p->positions,
+                                   (const float(*)[3])p->normals, p->values);
     return ALP_OK;
 }
 

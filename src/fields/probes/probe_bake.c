@@ -225,6 +225,7 @@ static void state_noise(const probe_job *job)
         count += 3;
     }
     v->mean = count > 0 ? (float)(sum / count) : 0.0f;
+    v->noise = count > 0 ? (float)sqrt(variance / count) : 0.0f;
     v->relative_error = sum > 0.0 ? (float)(sqrt(variance / count) / (sum / count)) : 0.0f;
 }
 
@@ -303,19 +304,24 @@ static alp_result compare_held_out(const probe_job *job, const alpi_point_array 
                                    alpi_reference_value *values, float (*irradiance)[3])
 {
     alp_field *field = NULL;
-    double sum = 0.0;
+    double sum = 0.0, change = 0.0;
     ALP_TRY(gather_held_out(job, points, values));
     ALP_TRY(alpi_probe_field_create(job->volume, ALP_LOOKUP_OURS, job->scene->origin, NULL,
                                     &field));
     alp_field_irradiance(field, points->count, (const float(*)[3])points->positions,
                          (const float(*)[3])points->shading_normals, irradiance);
+    const double noise = (double)job->volume->noise;
     for (uint32_t i = 0; i < points->count; i++) {
+        change += 3.0 * alpi_probe_field_change(field, points->positions[i],
+                                                points->shading_normals[i]);
         for (int k = 0; k < 3; k++) {
             const double apart = (double)irradiance[i][k] - (double)values[i].mean[k];
             sum += apart * apart - (double)values[i].variance[k];
         }
     }
     alp_field_destroy(field);
+    const double between = sum - 3.0 * points->count * noise * noise;
+    job->volume->factor = change > 0.0 ? (float)sqrt(fmax(between, 0.0) / change) : 0.0f;
     job->volume->interpolation =
         points->count > 0 ? (float)sqrt(fmax(sum, 0.0) / (3.0 * points->count)) : 0.0f;
     return ALP_OK;

@@ -26,6 +26,46 @@ static void read_lattice(const alp_field *field, uint32_t count, const float (*p
                                                          irradiance);
 }
 
+/// v² + (.03 E)² at a point, mean over the channels: see alp_field_errors.
+double alpi_probe_field_change(const alp_field *field, const float position[3],
+                               const float normal[3])
+{
+    enum { PLACES = 7 };
+    static const double TRUNCATION = 0.03;
+    const alpi_probe_field *f = (const alpi_probe_field *)field;
+    float p[PLACES][3], n[PLACES][3], e[PLACES][3];
+    for (int i = 0; i < PLACES; i++) {
+        memcpy(p[i], position, sizeof p[i]);
+        memcpy(n[i], normal, sizeof n[i]);
+    }
+    for (int i = 1; i < PLACES; i++) {
+        const int axis = (i - 1) / 2;
+        p[i][axis] += (i % 2 == 0 ? -0.25f : 0.25f) * f->spacing[axis];
+    }
+    read_lattice(field, PLACES, (const float(*)[3])p, (const float(*)[3])n, e);
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double own = (double)fmaxf(e[0][k], 0.0f);
+        sum += TRUNCATION * TRUNCATION * own * own;
+        for (int i = 1; i < PLACES; i++) {
+            const double apart = (double)fmaxf(e[i][k], 0.0f) - own;
+            sum += apart * apart / (PLACES - 1);
+        }
+    }
+    return sum / 3.0;
+}
+
+static void find_errors(const alp_field *field, uint32_t count, const float (*positions)[3],
+                        const float (*normals)[3], float *errors)
+{
+    const alpi_probe_field *f = (const alpi_probe_field *)field;
+    const double noise = (double)field->error, factor = (double)f->factor;
+    for (uint32_t i = 0; i < count; i++) {
+        const double change = alpi_probe_field_change(field, positions[i], normals[i]);
+        errors[i] = (float)sqrt(noise * noise + factor * factor * change);
+    }
+}
+
 /// The nearest probes of a list, by inverse squares of their distances.
 static void read_list(const alp_field *field, uint32_t count, const float (*positions)[3],
                       const float (*normals)[3], float (*irradiance)[3])
@@ -68,8 +108,8 @@ static void read_list(const alp_field *field, uint32_t count, const float (*posi
     }
 }
 
-static const alpi_field_kind lattice_kind = {"probes", read_lattice, destroy};
-static const alpi_field_kind list_kind = {"probes", read_list, destroy};
+static const alpi_field_kind lattice_kind = {"probes", read_lattice, find_errors, destroy};
+static const alpi_field_kind list_kind = {"probes", read_list, NULL, destroy};
 
 // --- filling -------------------------------------------------------------------------------------
 
@@ -149,6 +189,7 @@ static alp_result fill(const alpi_probe_volume *v, alp_probe_lookup lookup, cons
     f->stride = (3 * v->coefficient_count + 3) / 4 * 4;
     f->count = v->count;
     memcpy(f->size, v->size, sizeof f->size);
+    f->factor = v->factor;
     f->along_normal = three;
     ALPI_TRY_NEW(context, f->light, n * f->stride);
     ALPI_TRY_NEW(context, f->places, n);
@@ -182,7 +223,7 @@ alp_result alpi_probe_field_create(const alpi_probe_volume *v, alp_probe_lookup 
     f->field = (alp_field){.context = v->context,
                            .kind = v->is_list ? &list_kind : &lattice_kind,
                            .direct = v->direct,
-                           .error = v->interpolation};
+                           .error = v->noise};
     const alp_result result = fill(v, lookup, origin != NULL ? origin : zero, strengths, f);
     if (result != ALP_OK) {
         destroy(&f->field);

@@ -37,6 +37,7 @@ typedef struct alpi_probe_field {
     float (*places)[3];        // [count] where each was sampled
     uint8_t *states;           // [count]
     float (*moments)[2];       // NULL, or [count][ALPI_LOOKUP_MOMENTS]
+    float factor;              // alpi_probe_volume's
     bool along_normal;         // positions are moved half a cell along the normal: three.js
 } alpi_probe_field;
 

@@ -82,4 +82,8 @@ alp_result alpi_probe_field_create(const alpi_probe_volume *volume, alp_probe_lo
                                    const double origin[3], const float *strengths,
                                    alp_field **field);
 
+/// Mean square change of E about a point of a lattice's field: see alp_field_errors.
+double alpi_probe_field_change(const alp_field *field, const float position[3],
+                               const float normal[3]);
+
 #endif

@@ -300,7 +300,7 @@ static alp_result parse_textures(alpi_probe_header *h)
 static alp_result parse_content(alpi_probe_header *h)
 {
     alpi_probe_volume *v = &h->volume;
-    double error = 0.0, mean = 0.0, between = 0.0, rays = 0.0;
+    double error = 0.0, mean = 0.0, between = 0.0, rays = 0.0, noise = 0.0, factor = 0.0;
     json_t *errors = get_object(h, "error");
     ALP_TRY(get_flag(h, get_object(h, "content"), "direct", &v->direct));
     ALP_TRY(get_digits(h, get_object(h, "scene"), "hash", 16, &v->scene_hash));
@@ -310,6 +310,10 @@ static alp_result parse_content(alpi_probe_header *h)
     ALP_TRY(get_number(h, h->root, "rays", 0.0, UINT32_MAX, &rays));
     ALP_TRY(get_digits(h, h->root, "seed", 10, &v->seed));
     v->relative_error = (float)error;
+    ALP_TRY(get_number(h, errors, "noise", 0.0, (double)FLT_MAX, &noise));
+    ALP_TRY(get_number(h, errors, "factor", 0.0, (double)FLT_MAX, &factor));
+    v->noise = (float)noise;
+    v->factor = (float)factor;
     v->mean = (float)mean;
     v->interpolation = (float)between;
     v->rays = (uint32_t)rays;

@@ -200,6 +200,10 @@ static void print_origin(alpi_bytes *text, const alpi_probe_volume *v)
         alpi_bytes_float(text, v->mean);
         alpi_bytes_print(text, ",\"interpolation\":");
         alpi_bytes_float(text, v->interpolation);
+        alpi_bytes_print(text, ",\"noise\":");
+        alpi_bytes_float(text, v->noise);
+        alpi_bytes_print(text, ",\"factor\":");
+        alpi_bytes_float(text, v->factor);
         alpi_bytes_print(text, "}");
     }
     alpi_bytes_print(text, ",\n\"rays\":%u,\n\"seed\":\"%llu\"", v->rays,
