@@ -2,6 +2,7 @@
 // Probes: look-ups a second, and the gathering of their light against its limit, the raw calls on
 // the very packets that it sends.
 #include "bench.h"
+#include "probe_floor.h"
 #include "raw_embree.h"
 
 #include "base/random.h"
@@ -70,29 +71,6 @@ static void draw_points(const lookup_bench *b)
     }
 }
 
-/// The floor: reads all that a look-up reads of eight probes, and adds it up.
-static float read_probes(const lookup_bench *b)
-{
-    const alpi_probe_volume *v = &b->volume;
-    const uint32_t floats = 3 * v->coefficient_count;
-    float sums[27] = {0.0f};
-    for (uint32_t i = 0; i < POINTS; i++) {
-        const float *p = b->positions[i];
-        const uint32_t low =
-            (uint32_t)p[0] + v->size[0] * ((uint32_t)p[1] + v->size[1] * (uint32_t)p[2]);
-        for (uint32_t corner = 0; corner < 8; corner++) {
-            const uint32_t probe =
-                low + (corner & 1) + v->size[0] * ((corner >> 1 & 1) + v->size[1] * (corner >> 2));
-            const float *light = v->coefficients + (size_t)probe * floats;
-            for (uint32_t k = 0; k < floats; k++) {
-                sums[k] += light[k];
-            }
-            sums[0] += v->moments != NULL ? v->moments[(size_t)probe * DIRECTIONS + corner][0] : 0;
-        }
-    }
-    return sums[0] + sums[floats - 1];
-}
-
 /// Medians of seconds of a batch.
 static void measure_lookup(const lookup_bench *b, bool quick, double *ours, double *least)
 {
@@ -107,7 +85,7 @@ static void measure_lookup(const lookup_bench *b, bool quick, double *ours, doub
         }
         const double between = bench_thread_seconds();
         for (int i = 0; i < times; i++) {
-            sink = sink + read_probes(b);
+            sink = sink + bench_probes_read(&b->volume, (const float(*)[3])b->positions, POINTS);
         }
         values[0][round] = (between - started) / times;
         values[1][round] = (bench_thread_seconds() - between) / times;
@@ -152,8 +130,8 @@ static bool run_lookups(const bench_options *options)
     alp_result result = alp_context_create(&one, &context);
     bench_table_start(&table, "Look-ups of probes, one worker, M points/s",
                       "Random points and normals in batches of 4,096 on a lattice. Floor: a loop "
-                      "that reads the eight probes round a point, and adds them. With visibility "
-                      "it reads one of the four distances.",
+                      "that reads the eight probes round each point, and adds them: all "
+                      "coefficients, and four texels of distances.",
                       "basis|visibility|probes|bytes a probe|ours|floor|ours / floor");
     for (int basis = 0; basis < 3; basis++) {
         for (int visibility = 0; visibility < 2 && result == ALP_OK; visibility++) {
@@ -297,11 +275,6 @@ static void measure_gathering(sphere_bench *b, uint32_t face, uint32_t replicate
     double each[GATHERINGS], ratio[GATHERINGS];
     b->rays.face = face;
     b->rays.replicates = replicates;
-    if (getenv("LOOPX")) {
-        for (int i = 0; i < atoi(getenv("LOOPX")); i++)
-            (void)time_gathering(b, getenv("LOOPM") ? atoi(getenv("LOOPM")) : 0);
-        exit(0);
-    }
     record_calls(b);
     for (int i = 0; i < rounds; i++) {
         const double before = time_raw(b);
@@ -385,7 +358,7 @@ int bench_probes(const bench_options *options)
         bool sky;
     } scenes[] = {{"builtin:cornell", false}, {"hills:70000", true}, {"hills:1000000", true}};
     enum { SCENES = sizeof scenes / sizeof *scenes };
-    bool good = getenv("LOOPX") || run_lookups(options);
+    bool good = run_lookups(options);
     bench_table_start(&table, "Light of probes, one worker, probes/s",
                       "Rays from free points, which look up the light of a solution. Limit: "
                       "`rtcIntersect8` on the packets that ours sends, recorded, with the coherent "

@@ -23,6 +23,8 @@ endif()
 # What viewers need to show maps of --atlas blend.
 install(FILES web/blend.glsl web/three-blend.js
         DESTINATION ${CMAKE_INSTALL_DATADIR}/alpenglow)
+# What renderers need to read probes.
+install(FILES shaders/probes.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/alpenglow/shaders)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # find_package(alpenglow). A static library needs its libraries found again; a shared one does not.

@@ -35,6 +35,10 @@ build_packages="
 check_packages="
     python3             -
     libcmocka-dev       -
+    libegl-dev          -
+    libgles-dev         -
+    libegl-mesa0        -
+    libgl1-mesa-dri     -
     clang               clang
     libclang-rt-14-dev  -
     clang-format        clang-format

@@ -1,133 +1,204 @@
 // SPDX-License-Identifier: MIT
 // The look-up of probes, included once for each instruction set. No fused operations in either:
 // the same bits.
+//
+// Most of the time goes into waiting for memory. So points are read in groups, in steps: a step
+// fetches what the next one reads. The eight probes round a point are the lanes of its vectors.
 #include "fields/probes/probe_lookup.h"
 
 #include "base/octahedral.h"
+#include "transport/lane_loop.h"
 
 #include <math.h>
 #include <string.h>
 
-/// The cell of a point: its lowest corner, and the place in it by axis.
-typedef struct probe_cell {
-    uint32_t index, step[3]; // of the lowest probe, and to its neighbours (0 at the end of an axis)
-    float part[3];
-} probe_cell;
+enum { GROUP = 8, LINE = 16 /* floats of a line of the cache */ };
+typedef float four __attribute__((vector_size(16)));
+_Static_assert(ALPI_PACKET == 8, "a lane for each probe round a point");
 
-static inline probe_cell find_cell(const alpi_probe_field *f, vec3 p)
+/// A point and the eight probes round it, lane by lane. Bit k of a lane: the upper one on axis k.
+typedef struct probe_point {
+    vec3 p, n;
+    float low[3]; // where the lowest of them has its place
+    _Alignas(32) uint32_t probe[ALPI_PACKET];
+    _Alignas(32) float trilinear[ALPI_PACKET], weight[ALPI_PACKET];
+    _Alignas(32) float facing[ALPI_PACKET], distance[ALPI_PACKET]; // with visibility alone
+    _Alignas(32) float a[ALPI_PACKET], b[ALPI_PACKET];             // place between four texels
+    _Alignas(32) uint32_t texel[ALPI_PACKET];                      // the first of them
+} probe_point;
+
+static inline float larger(float a, float b)
 {
-    const float at[3] = {p.x, p.y, p.z};
-    uint32_t stride = 1;
-    probe_cell cell = {.index = 0};
+    return a > b ? a : b;
+}
+
+static inline void fetch(const float *from, uint32_t floats)
+{
+    for (uint32_t i = 0; i < floats; i += LINE) {
+        __builtin_prefetch(from + i);
+    }
+}
+
+/// Finds the probes round a point, and their trilinear weights.
+static inline void find_probes(const alpi_probe_field *f, uint32_t stride, probe_point *at)
+{
+    const float position[3] = {at->p.x, at->p.y, at->p.z};
+    uint32_t index = 0, pitch = 1, step[3];
+    float part[3];
     for (int k = 0; k < 3; k++) {
         const float last = (float)(int32_t)(f->size[k] - 1);
-        const float x = fminf(fmaxf((at[k] - f->origin[k]) * f->inverse_spacing[k], 0.0f), last);
+        const float cells = larger((position[k] - f->origin[k]) * f->inverse_spacing[k], 0.0f);
+        const float x = cells < last ? cells : last;
         const uint32_t low = (uint32_t)(int32_t)x;
         const uint32_t lowest = low + 1 < f->size[k] ? low : f->size[k] > 1 ? f->size[k] - 2 : 0;
-        cell.part[k] = x - (float)(int32_t)lowest;
-        cell.step[k] = f->size[k] > 1 ? stride : 0;
-        cell.index += lowest * stride;
-        stride *= f->size[k];
+        part[k] = x - (float)(int32_t)lowest;
+        at->low[k] = f->origin[k] + f->spacing[k] * (float)(int32_t)lowest;
+        step[k] = f->size[k] > 1 ? pitch : 0;
+        index += lowest * pitch;
+        pitch *= f->size[k];
     }
-    return cell;
+    ALPI_EACH_LANE
+    {
+        const uint32_t x = (uint32_t)i & 1u, y = (uint32_t)i >> 1 & 1u, z = (uint32_t)i >> 2;
+        at->probe[i] = index + x * step[0] + y * step[1] + z * step[2];
+        at->trilinear[i] = (x != 0 ? part[0] : 1.0f - part[0]) *
+                           (y != 0 ? part[1] : 1.0f - part[1]) *
+                           (z != 0 ? part[2] : 1.0f - part[2]);
+    }
+    for (int i = 0; i < ALPI_PACKET; i += 2) { // neighbours on x lie side by side
+        fetch(f->light + (size_t)at->probe[i] * stride, 2 * stride);
+    }
 }
 
-/// Share of the light of a probe that is not hidden at `distance` in a direction from it.
-static inline float visible(float (*moments)[2], vec3 direction, float distance)
+/// Ways from a point to where its probes were sampled.
+static inline void find_ways(const alpi_probe_field *f, const probe_point *at,
+                             float way[3][ALPI_PACKET])
 {
-    const vec2 uv = alpi_octahedral_encode(direction);
-    const float x = uv.x * ALPI_PROBE_MOMENT_SIDE + 0.5f, y = uv.y * ALPI_PROBE_MOMENT_SIDE + 0.5f;
-    const int column = (int)x, row = (int)y;
-    const float a = x - (float)column, b = y - (float)row;
-    const float *m = moments[row * ALPI_LOOKUP_SIDE + column];
-    float found[2];
-    for (int k = 0; k < 2; k++) {
-        const float *below = m + 2 * ALPI_LOOKUP_SIDE;
-        const float near = m[k] + a * (m[2 + k] - m[k]);
-        const float far = below[k] + a * (below[2 + k] - below[k]);
-        found[k] = near + b * (far - near);
+    uint32_t moved = 0;
+    ALPI_EACH_LANE
+    {
+        const float x = (float)(i & 1), y = (float)(i >> 1 & 1), z = (float)(i >> 2);
+        way[0][i] = at->low[0] + x * f->spacing[0] - at->p.x;
+        way[1][i] = at->low[1] + y * f->spacing[1] - at->p.y;
+        way[2][i] = at->low[2] + z * f->spacing[2] - at->p.z;
     }
-    const float variance = fabsf(found[1] - found[0] * found[0]);
-    const float beyond = fmaxf(distance - found[0], 0.0f);
-    const float share = (variance + 1e-12f) / (variance + 1e-12f + beyond * beyond);
-    return fmaxf(share * share * share, 0.05f);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        moved |= f->states[at->probe[i]] == ALPI_PROBE_MOVED ? 1u << i : 0u;
+    }
+    for (; moved != 0; moved &= moved - 1) {
+        const int i = __builtin_ctz(moved);
+        const vec3 to = vec3_sub(vec3_load(f->places[at->probe[i]]), at->p);
+        way[0][i] = to.x;
+        way[1][i] = to.y;
+        way[2][i] = to.z;
+    }
 }
 
-static inline float weigh(const alpi_probe_field *f, uint32_t probe, vec3 p, vec3 n)
+/// Finds how each probe faces the normal, and the texels of its distances towards the point.
+static inline void find_texels(const alpi_probe_field *f, probe_point *at)
 {
-    const vec3 way = vec3_sub(vec3_load(f->places[probe]), p);
-    const float distance = vec3_length(way);
-    const vec3 unit = vec3_scale(way, 1.0f / fmaxf(distance, 1e-12f));
-    const float half = 0.5f * (vec3_dot(n, unit) + 1.0f);
-    float w = half * half + 0.2f;
-    if (distance > 0.0f) {
-        w *= visible(f->moments + (size_t)probe * ALPI_LOOKUP_MOMENTS, vec3_scale(unit, -1.0f),
-                     distance);
+    _Alignas(32) float way[3][ALPI_PACKET];
+    find_ways(f, at, way);
+    ALPI_EACH_LANE
+    {
+        const float x = way[0][i], y = way[1][i], z = way[2][i];
+        const float distance = sqrtf(x * x + y * y + z * z);
+        const float inverse = 1.0f / larger(distance, 1e-12f);
+        const float cosine = (at->n.x * x + at->n.y * y + at->n.z * z) * inverse;
+        const float half = 0.5f * (cosine + 1.0f);
+        // At the probe itself any direction will do.
+        const vec3 back = {-x, -y, distance > 0.0f ? -z : 1.0f};
+        const vec2 uv = alpi_octahedral_encode(back);
+        const float u = uv.x * ALPI_PROBE_MOMENT_SIDE + 0.5f;
+        const float v = uv.y * ALPI_PROBE_MOMENT_SIDE + 0.5f;
+        const int column = (int)u, row = (int)v;
+        at->facing[i] = half * half + 0.2f;
+        at->distance[i] = distance;
+        at->a[i] = u - (float)column;
+        at->b[i] = v - (float)row;
+        at->texel[i] =
+            at->probe[i] * ALPI_LOOKUP_MOMENTS + (uint32_t)(row * ALPI_LOOKUP_SIDE + column);
     }
-    return w < 0.2f ? w * w * w * 25.0f : w;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float *texel = f->moments[at->texel[i]];
+        __builtin_prefetch(texel);
+        __builtin_prefetch(texel + 2 * ALPI_LOOKUP_SIDE);
+    }
 }
 
-static inline void add_light(const alpi_probe_field *f, uint32_t probe, float weight, vec3 p,
-                             uint32_t stride, float *sums)
+/// Weighs probes by what they see of the point, and by how they face its normal.
+static inline void weigh_seen(const alpi_probe_field *f, probe_point *at)
 {
-    const float *light = f->light + (size_t)probe * stride;
-    for (uint32_t j = 0; j < stride; j++) {
-        sums[j] += weight * light[j];
+    _Alignas(32) float mean[ALPI_PACKET], square[ALPI_PACKET];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const float *upper = f->moments[at->texel[i]], *lower = upper + 2 * ALPI_LOOKUP_SIDE;
+        const float a = at->a[i], b = at->b[i];
+        four above, below; // moments left and right of the point
+        memcpy(&above, upper, sizeof above);
+        memcpy(&below, lower, sizeof below);
+        const four between = above + b * (below - above);
+        mean[i] = between[0] + a * (between[2] - between[0]);
+        square[i] = between[1] + a * (between[3] - between[1]);
     }
-    if (f->gradients != NULL) {
-        const vec3 way = vec3_sub(p, vec3_load(f->places[probe]));
-        const float along[3] = {way.x * weight, way.y * weight, way.z * weight};
-        const float *g = f->gradients + (size_t)probe * 3 * stride;
-        for (uint32_t j = 0; j < stride; j++) {
-            sums[j] += along[0] * g[j] + along[1] * g[stride + j] + along[2] * g[2 * stride + j];
-        }
+    ALPI_EACH_LANE
+    {
+        const float variance = fabsf(square[i] - mean[i] * mean[i]) + 1e-12f;
+        const float beyond = larger(at->distance[i] - mean[i], 0.0f);
+        const float share = variance / (variance + beyond * beyond);
+        const float w = at->facing[i] * larger(share * share * share, 0.05f);
+        at->weight[i] = at->trilinear[i] * (w < 0.2f ? w * w * w * 25.0f : w);
     }
 }
 
-/// Adds the light of the probes round a point. @param filled those in solids too
+/// Sets weights to 0 whose probes do not count. @param most the last state that counts
 /// @return sum of the weights
-static inline float gather(const alpi_probe_field *f, const probe_cell *cell, vec3 p, vec3 n,
-                           bool filled, uint32_t stride, float *sums)
+static inline float keep_states(const alpi_probe_field *f, uint8_t most, probe_point *at)
 {
-    float total = 0.0f;
-    for (int corner = 0; corner < 8; corner++) {
-        uint32_t probe = cell->index;
-        float weight = 1.0f;
-        for (int k = 0; k < 3; k++) {
-            const bool upper = (corner >> k & 1) != 0;
-            weight *= upper ? cell->part[k] : 1.0f - cell->part[k];
-            probe += upper ? cell->step[k] : 0;
-        }
-        const uint8_t state = f->states[probe];
-        if (!(weight > 0.0f) || state > (filled ? ALPI_PROBE_FILLED : ALPI_PROBE_MOVED)) {
-            continue;
-        }
-        if (f->moments != NULL && !filled) {
-            weight *= weigh(f, probe, p, n);
-        }
-        add_light(f, probe, weight, p, stride, sums);
-        total += weight;
+    float sum = 0.0f;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        at->weight[i] = f->states[at->probe[i]] <= most ? at->weight[i] : 0.0f;
+        sum += at->weight[i];
     }
-    return total;
+    return sum;
 }
 
-static inline void read_one(const alpi_probe_field *f, const float *position, const float *normal,
-                            uint32_t stride, float *irradiance)
+/// Sums of weight · light, four floats at a time: they stay in a register.
+static inline void add_light(const alpi_probe_field *f, const probe_point *at, uint32_t stride,
+                             float *restrict sums)
 {
-    float sums[ALPI_LOOKUP_STRIDE_MOST] = {0.0f}, weights[ALPI_SH9_COUNT], e[3] = {0.0f, 0.0f, 0.0f};
-    vec3 p = vec3_load(position);
-    const vec3 n = vec3_load(normal);
-    if (f->along_normal) {
-        p.x += 0.5f * f->spacing[0] * n.x;
-        p.y += 0.5f * f->spacing[1] * n.y;
-        p.z += 0.5f * f->spacing[2] * n.z;
+    for (uint32_t j = 0; j < stride; j += 4) {
+        four sum = {0.0f, 0.0f, 0.0f, 0.0f};
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            four light;
+            memcpy(&light, f->light + (size_t)at->probe[i] * stride + j, sizeof light);
+            sum += at->weight[i] * light;
+        }
+        memcpy(sums + j, &sum, sizeof sum);
     }
-    const probe_cell cell = find_cell(f, p);
-    float total = gather(f, &cell, p, n, f->moments == NULL, stride, sums);
-    if (!(total > 0.0f)) {
-        total = gather(f, &cell, p, n, true, stride, sums);
+}
+
+static inline void add_gradients(const alpi_probe_field *f, const probe_point *at, int lane,
+                                 uint32_t stride, float *sums)
+{
+    const uint32_t probe = at->probe[lane];
+    const vec3 way = vec3_scale(vec3_sub(at->p, vec3_load(f->places[probe])), at->weight[lane]);
+    const float *g = f->gradients + (size_t)probe * 3 * stride;
+    for (uint32_t j = 0; j < stride; j++) {
+        sums[j] += way.x * g[j] + way.y * g[stride + j] + way.z * g[2 * stride + j];
     }
-    alpi_probe_weights(f->basis, n, weights);
+}
+
+/// Irradiance by weighed probes. @param total sum of their weights
+static inline void read_light(const alpi_probe_field *f, const probe_point *at, float total,
+                              uint32_t stride, float *irradiance)
+{
+    float sums[ALPI_LOOKUP_STRIDE_MOST] = {0.0f}, weights[ALPI_SH9_COUNT],
+          e[3] = {0.0f, 0.0f, 0.0f};
+    add_light(f, at, stride, sums);
+    for (int i = 0; i < ALPI_PACKET && f->gradients != NULL; i++) {
+        add_gradients(f, at, i, stride, sums);
+    }
+    alpi_probe_weights(f->basis, at->n, weights);
     for (uint32_t i = 0; i < f->coefficient_count; i++) {
         for (int k = 0; k < 3; k++) {
             e[k] += weights[i] * sums[3 * i + (uint32_t)k];
@@ -139,21 +210,58 @@ static inline void read_one(const alpi_probe_field *f, const float *position, co
     }
 }
 
+/// At most GROUP points.
+static inline void read_group(const alpi_probe_field *f, uint32_t count,
+                              const float (*positions)[3], const float (*normals)[3],
+                              uint32_t stride, float (*irradiance)[3])
+{
+    probe_point points[GROUP];
+    for (uint32_t i = 0; i < count; i++) {
+        probe_point *at = &points[i];
+        at->p = vec3_load(positions[i]);
+        at->n = vec3_load(normals[i]);
+        if (f->along_normal) {
+            at->p.x += 0.5f * f->spacing[0] * at->n.x;
+            at->p.y += 0.5f * f->spacing[1] * at->n.y;
+            at->p.z += 0.5f * f->spacing[2] * at->n.z;
+        }
+        find_probes(f, stride, at);
+    }
+    for (uint32_t i = 0; i < count && f->moments != NULL; i++) {
+        find_texels(f, &points[i]);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        probe_point *at = &points[i];
+        if (f->moments != NULL) {
+            weigh_seen(f, at);
+        } else {
+            memcpy(at->weight, at->trilinear, sizeof at->weight);
+        }
+        float total = keep_states(f, f->moments != NULL ? ALPI_PROBE_MOVED : ALPI_PROBE_FILLED, at);
+        if (!(total > 0.0f)) { // probes in solids, for want of others
+            memcpy(at->weight, at->trilinear, sizeof at->weight);
+            total = keep_states(f, ALPI_PROBE_FILLED, at);
+        }
+        read_light(f, at, total, stride, irradiance[i]);
+    }
+}
+
 void ALPI_VARIANT(alpi_probe_lookup)(const alp_field *field, uint32_t count,
                                      const float (*positions)[3], const float (*normals)[3],
                                      float (*irradiance)[3])
 {
     const alpi_probe_field *f = (const alpi_probe_field *)field;
-    for (uint32_t i = 0; i < count; i++) { // strides that the compiler knows become vectors
+    for (uint32_t i = 0; i < count; i += GROUP) { // strides that the compiler knows become vectors
+        const uint32_t some = count - i < GROUP ? count - i : GROUP;
         switch (f->stride) {
         case 28:
-            read_one(f, positions[i], normals[i], 28, irradiance[i]);
+            read_group(f, some, positions + i, normals + i, 28, irradiance + i);
             break;
         case 20:
-            read_one(f, positions[i], normals[i], 20, irradiance[i]);
+            read_group(f, some, positions + i, normals + i, 20, irradiance + i);
             break;
         default:
-            read_one(f, positions[i], normals[i], 12, irradiance[i]);
+            read_group(f, some, positions + i, normals + i, 12, irradiance + i);
         }
     }
 }
