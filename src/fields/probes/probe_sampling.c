@@ -11,10 +11,26 @@
 enum { DIRECTIONS = 26, STEPS = 3, SURVEY_FACE = 4, CHUNK = 1024 /* probes that move at a time */ };
 /// A probe is moved by at most this share of a cell, along each axis.
 static const float MOVE_LIMIT = 0.45f;
+/// A probe nearer to a surface than this share of a cell lies on it: its rays may start on either
+/// side.
+static const float ON_SURFACE = 1e-3f;
+/// Largest share of the sphere that black backs may fill at a place that a probe is moved to. Beyond
+/// an edge of a wall without thickness, they fill an eighth.
+static const float MOVED_BACKS = 0.05f;
 
 static bool is_inside(const alpi_sphere_light *light)
 {
     return light->behind > ALPI_FREE_BACKS;
+}
+
+static float nearest_surface(const alpi_sphere_light *light)
+{
+    return fminf(light->front_distance, light->back_distance);
+}
+
+static bool is_on_surface(const alpi_probe_volume *v, const alpi_sphere_light *light)
+{
+    return !v->is_list && nearest_surface(light) < ON_SURFACE * v->spacing[0];
 }
 
 alpi_sphere_rays alpi_probe_survey_rays(const alpi_probe_sampling *s)
@@ -81,7 +97,7 @@ static int choose_place(const alp_scene *scene, const float (*places)[3],
         const bool better =
             square < best_square ||
             (square == best_square && light[i].front_distance > light[best].front_distance);
-        if (better && !is_inside(&light[i]) && is_within(scene, places[i])) {
+        if (better && light[i].behind <= MOVED_BACKS && is_within(scene, places[i])) {
             best = i;
             best_square = square;
         }
@@ -123,10 +139,10 @@ static alp_result move_step(alpi_probe_sampling *s, alpi_probe_volume *v, int st
     return ALP_OK;
 }
 
-/// Whether a free place may lie within a move: the solid's surface does.
+/// Whether a free place may lie within a move: the surface of the solid does.
 static bool may_move(const alpi_probe_volume *v, const alpi_sphere_light *light)
 {
-    return !v->is_list && light->back_distance <= MOVE_LIMIT * vec3_length(vec3_load(v->spacing));
+    return !v->is_list && nearest_surface(light) <= MOVE_LIMIT * vec3_length(vec3_load(v->spacing));
 }
 
 static alp_result move_probes(alpi_probe_sampling *s, alpi_probe_volume *v, float (*places)[3],
@@ -148,7 +164,7 @@ static alp_result move_probes(alpi_probe_sampling *s, alpi_probe_volume *v, floa
     return ALP_OK;
 }
 
-/// Finds the probes in solids, and moves those that can be.
+/// Finds the probes in solids and on surfaces, and moves those that can be.
 static alp_result survey_probes(alpi_probe_sampling *s, alpi_probe_volume *v)
 {
     const alpi_sphere_rays survey = alpi_probe_survey_rays(s);
@@ -158,7 +174,8 @@ static alp_result survey_probes(alpi_probe_sampling *s, alpi_probe_volume *v)
                                  .values = s->values};
     ALP_TRY(gather(s, &job, "survey"));
     for (uint32_t i = 0; i < v->count; i++) {
-        v->states[i] = is_inside(&s->values[i]) ? ALPI_PROBE_INVALID : ALPI_PROBE_VALID;
+        const bool bad = is_inside(&s->values[i]) || is_on_surface(v, &s->values[i]);
+        v->states[i] = bad ? ALPI_PROBE_INVALID : ALPI_PROBE_VALID;
     }
     float(*places)[3] = alpi_allocate(s->context, (size_t)CHUNK * DIRECTIONS, sizeof *places);
     alpi_sphere_light *light =
