@@ -60,11 +60,23 @@ static inline float weigh(const alpi_probe_field *f, uint32_t probe, vec3 p, vec
     const vec3 unit = vec3_scale(way, 1.0f / fmaxf(distance, 1e-12f));
     const float half = 0.5f * (vec3_dot(n, unit) + 1.0f);
     float w = half * half + 0.2f;
-    if (distance > 0.0f) {
+    if (distance > 0.0f && distance < 1e18f) { // the square of a longer way overflows
         w *= visible(f->moments + (size_t)probe * ALPI_LOOKUP_MOMENTS, vec3_scale(unit, -1.0f),
                      distance);
     }
     return w < 0.2f ? w * w * w * 25.0f : w;
+}
+
+/// The nearest point of the lattice's outer cells: gradients do not reach beyond.
+static inline vec3 within(const alpi_probe_field *f, vec3 p)
+{
+    float at[3] = {p.x, p.y, p.z};
+    for (int k = 0; k < 3; k++) {
+        const float low = f->origin[k] - 0.5f * f->spacing[k];
+        const float high = low + (float)(int32_t)f->size[k] * f->spacing[k];
+        at[k] = fminf(fmaxf(at[k], low), high);
+    }
+    return vec3_load(at);
 }
 
 static inline void add_light(const alpi_probe_field *f, uint32_t probe, float weight, vec3 p,
@@ -75,7 +87,7 @@ static inline void add_light(const alpi_probe_field *f, uint32_t probe, float we
         sums[j] += weight * light[j];
     }
     if (f->gradients != NULL) {
-        const vec3 way = vec3_sub(p, vec3_load(f->places[probe]));
+        const vec3 way = vec3_sub(within(f, p), vec3_load(f->places[probe]));
         const float along[3] = {way.x * weight, way.y * weight, way.z * weight};
         const float *g = f->gradients + (size_t)probe * 3 * stride;
         for (uint32_t j = 0; j < stride; j++) {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { SIDE = ALPI_SPHERE_MOMENT_SIDE, BINS = ALPI_MOMENT_BINS };
-static const double LONGEST = 2.0; // medians
+static const double QUARTER = 0.25, LONGEST = 1.2; // of the quartile
 
 /// The bin of a share of the reach, (0, 1]: exponent and first two bits of the mantissa.
 static int bin_of(float share)
@@ -38,12 +38,12 @@ void alpi_sphere_moments_add(const alpi_sphere_packet *p, const alpi_hits *hits,
     }
 }
 
-/// The mean distance of the bin in which the median lies.
-static double find_median(const double (*bins)[3], double weight)
+/// The mean distance of the bin in which the lower quartile lies.
+static double find_quartile(const double (*bins)[3], double weight)
 {
     double below = 0.0;
     int bin = 0;
-    for (; bin + 1 < BINS && below + bins[bin][0] < 0.5 * weight; bin++) {
+    for (; bin + 1 < BINS && below + bins[bin][0] < QUARTER * weight; bin++) {
         below += bins[bin][0];
     }
     return bins[bin][0] > 0.0 ? bins[bin][1] / bins[bin][0] : 0.0;
@@ -57,7 +57,7 @@ void alpi_sphere_moments_finish(const alpi_sphere_moments *moments, float reach,
         for (int b = 0; b < BINS; b++) {
             weight += bins[b][0];
         }
-        const double most = LONGEST * find_median(bins, weight);
+        const double most = LONGEST * find_quartile(bins, weight);
         for (int b = 0; b < BINS; b++) {
             const bool beyond = bins[b][1] > most * bins[b][0];
             sum += beyond ? most * bins[b][0] : bins[b][1];
