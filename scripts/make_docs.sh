@@ -4,7 +4,7 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas, peers or sh; without it all five. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers, sh or fields; without it all six. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -76,6 +76,15 @@ sh_page() {
     section 'Cube maps' sh
 }
 
+fields() {
+    head_of fields "Light in space"
+    section 'Models against the truth' fields
+    printf '\n'
+    scripts/make_tables.py text 'fields leak'
+    printf '\n| wall at, m | ours | worst point | three.js look-up |\n|---:|---:|---:|---:|\n'
+    "$tests/test_truth" test_probe_leak | sed -n 's/^leak: //p'
+}
+
 write_page() {
     local page=$1 new
     new=$(mktemp)
@@ -94,10 +103,10 @@ write_page() {
     esac
 }
 
-for page in "${@:-accuracy speed atlas peers sh}"; do
+for page in "${@:-accuracy speed atlas peers sh fields}"; do
     for one in $page; do
         case $one in
-            accuracy | speed | atlas | peers | sh) write_page "$one" ;;
+            accuracy | speed | atlas | peers | sh | fields) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac
     done

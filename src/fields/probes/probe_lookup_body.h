@@ -70,6 +70,13 @@ static inline void find_probes(const alpi_probe_field *f, uint32_t stride, probe
     }
 }
 
+/// A coordinate whose square is a float.
+static inline float bounded(float x)
+{
+    const float most = 1e15f;
+    return x < -most ? -most : x > most ? most : x;
+}
+
 /// Ways from a point to where its probes were sampled.
 static inline void find_ways(const alpi_probe_field *f, const probe_point *at,
                              float way[3][ALPI_PACKET])
@@ -101,7 +108,7 @@ static inline void find_texels(const alpi_probe_field *f, probe_point *at)
     find_ways(f, at, way);
     ALPI_EACH_LANE
     {
-        const float x = way[0][i], y = way[1][i], z = way[2][i];
+        const float x = bounded(way[0][i]), y = bounded(way[1][i]), z = bounded(way[2][i]);
         const float distance = sqrtf(x * x + y * y + z * z);
         const float inverse = 1.0f / larger(distance, 1e-12f);
         const float cosine = (at->n.x * x + at->n.y * y + at->n.z * z) * inverse;
@@ -177,11 +184,23 @@ static inline void add_light(const alpi_probe_field *f, const probe_point *at, u
     }
 }
 
+/// The nearest point of the lattice's outer cells: gradients do not reach beyond.
+static inline vec3 within(const alpi_probe_field *f, vec3 p)
+{
+    float at[3] = {p.x, p.y, p.z};
+    for (int k = 0; k < 3; k++) {
+        const float low = f->origin[k] - 0.5f * f->spacing[k];
+        const float high = low + (float)(int32_t)f->size[k] * f->spacing[k];
+        at[k] = fminf(fmaxf(at[k], low), high);
+    }
+    return vec3_load(at);
+}
+
 static inline void add_gradients(const alpi_probe_field *f, const probe_point *at, int lane,
                                  uint32_t stride, float *sums)
 {
     const uint32_t probe = at->probe[lane];
-    const vec3 way = vec3_scale(vec3_sub(at->p, vec3_load(f->places[probe])), at->weight[lane]);
+    const vec3 way = vec3_scale(vec3_sub(within(f, at->p), vec3_load(f->places[probe])), at->weight[lane]);
     const float *g = f->gradients + (size_t)probe * 3 * stride;
     for (uint32_t j = 0; j < stride; j++) {
         sums[j] += way.x * g[j] + way.y * g[stride + j] + way.z * g[2 * stride + j];

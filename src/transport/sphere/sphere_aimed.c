@@ -8,13 +8,13 @@
 #include <math.h>
 
 enum { USE_AXIS = 1, USE_PLACE, USE_CHOICE };
-enum { SAMPLES = 2 * ALPI_SPHERE_PAIRS, PACKETS = SAMPLES / ALPI_PACKET };
 
 alpi_sphere_aim alpi_sphere_aim_for(const alpi_sphere_rays *rays, vec3 point, uint32_t key)
 {
     const uint32_t random = alpi_hash32(key ^ alpi_hash32(USE_AXIS));
     const vec2 u = {alpi_unit_float(random), alpi_unit_float(alpi_hash32(random))};
-    return (alpi_sphere_aim){rays, point, alpi_warp_uniform_cone(u, -1.0f), key};
+    return (alpi_sphere_aim){rays, point, alpi_warp_uniform_cone(u, -1.0f), key,
+                             alpi_sphere_pairs(rays)};
 }
 
 static vec3 hemisphere(const alpi_sphere_aim *aim, uint32_t sample)
@@ -31,13 +31,13 @@ static bool draw(const alpi_sphere_aim *aim, uint32_t sample, alpi_light_sample 
     const uint32_t own = sample / 2;
     const vec2 u = alpi_sample_2d(alpi_hash32(aim->key ^ alpi_hash32(USE_PLACE)), own);
     const uint32_t choice = alpi_hash32(aim->key ^ alpi_hash32(USE_CHOICE + own));
-    const float pick = ((float)own + alpi_unit_float(choice)) / ALPI_SPHERE_PAIRS;
+    const float pick = ((float)own + alpi_unit_float(choice)) / (float)aim->pairs;
     const vec3 normal = hemisphere(aim, sample);
     if (!alpi_lighting_sample(aim->rays->aimed, aim->point, normal, pick, u, s) ||
         !(vec3_dot(s->direction, normal) > 0.0f)) {
         return false;
     }
-    const float factor = 1.0f / (ALPI_SPHERE_PAIRS * s->density);
+    const float factor = 1.0f / ((float)aim->pairs * s->density);
     *given = vec3_scale(s->light, factor);
     return isfinite(factor);
 }
@@ -81,7 +81,7 @@ static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, 
 void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, double light[3 * ALPI_SH9_COUNT])
 {
     const float offset = alpi_receiver_offset(aim->point, NULL);
-    for (uint32_t packet = 0; packet < PACKETS; packet++) {
+    for (uint32_t packet = 0; packet < 2 * aim->pairs / ALPI_PACKET; packet++) {
         alpi_rays rays;
         vec3 given[ALPI_PACKET], directions[ALPI_PACKET];
         uint32_t active = 0;

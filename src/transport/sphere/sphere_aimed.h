@@ -9,13 +9,18 @@
 
 #include "transport/sphere/sphere_rays.h"
 
-enum { ALPI_SPHERE_PAIRS = 16 };
+/// Pairs of a replicate, a multiple of 4: a quarter of a face's pixels, so that their noise falls
+/// with the number of rays.
+static inline uint32_t alpi_sphere_pairs(const alpi_sphere_rays *rays)
+{
+    return rays->face * rays->face / 4;
+}
 
 /// How the rays of a replicate are aimed.
 typedef struct alpi_sphere_aim {
     const alpi_sphere_rays *rays;
     vec3 point, axis;
-    uint32_t key;
+    uint32_t key, pairs;
 } alpi_sphere_aim;
 
 alpi_sphere_aim alpi_sphere_aim_for(const alpi_sphere_rays *rays, vec3 point, uint32_t key);

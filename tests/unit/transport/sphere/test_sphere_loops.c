@@ -3,7 +3,7 @@
 #include "test_support.h"
 
 #include "base/random.h"
-#include "transport/sphere/sphere_rays.h"
+#include "transport/sphere/sphere_moments.h"
 
 TEST_CONTEXT(1);
 
@@ -15,7 +15,7 @@ enum { PACKETS = 12, CELLS = 64 };
 typedef struct results {
     alpi_sphere_packet packets[PACKETS];
     alpi_sphere_tallies tallies;
-    double moments[ALPI_SPHERE_MOMENTS][ALPI_SPHERE_MOMENT_SUMS];
+    alpi_sphere_moments moments;
     float nearest[ALPI_PACKET];
     uint32_t met[PACKETS];
 } results;
@@ -61,7 +61,7 @@ static void run(const alpi_sphere_loops *loops, results *r)
         r->met[k] = loops->find_met(&hits[k]);
     }
     loops->add(r->packets, PACKETS, &r->tallies);
-    loops->add_moments(r->packets, hits, PACKETS, 1.5f, r->moments);
+    alpi_sphere_moments_add(loops, r->packets, hits, PACKETS, 1.5f, &r->moments);
 }
 
 TEST(instruction_sets_give_the_same_bits)
@@ -78,7 +78,7 @@ TEST(instruction_sets_give_the_same_bits)
     }
 }
 
-/// Each ray's weight, distance up to the reach and its square lie in the texel of its direction.
+/// Each ray's weight, distance up to the reach and its square lie in some texel and bin.
 TEST(moments_are_of_distances_up_to_the_reach)
 {
     static results a;
@@ -93,8 +93,8 @@ TEST(moments_are_of_distances_up_to_the_reach)
         expected[2] += w * d * d;
     }
     for (uint32_t t = 0; t < ALPI_SPHERE_MOMENTS; t++) {
-        for (int k = 0; k < 3; k++) {
-            sums[k] += a.moments[t][k];
+        for (int i = 0; i < 3 * ALPI_MOMENT_BINS; i++) {
+            sums[i % 3] += a.moments.sums[t][i / 3][i % 3];
         }
     }
     for (int k = 0; k < 3; k++) {
